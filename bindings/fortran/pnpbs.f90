@@ -20,8 +20,9 @@
 !>   dimension   procedures for domains or placements "in the plane" or "in space" reject others
 !>               with PNPBS_ERROR_ARGUMENT; all others are for both.
 !>   integers    ids, counts, indices and offsets are integer(c_int64_t), the others
-!>               integer(c_int32_t). Local indices and offsets count from 1; ids and numbers of
-!>               nodes are the same as in C, ranks are as in MPI.
+!>               integer(c_int32_t), as are the local indices of a pnpbs_mesh. Local indices and
+!>               offsets count from 1; ids and numbers of nodes and elements are the same as in C,
+!>               ranks are as in MPI.
 !>   objects     are handles: a copy refers to the same object. There is no finalisation: call
 !>               destroy, in any order. A dead handle returns PNPBS_ERROR_HANDLE.
 !>   callbacks   are module procedures with bind(C) and the interface stated; they run on the
@@ -42,7 +43,7 @@ module pnpbs
   public :: PNPBS_BOUNDARY, PNPBS_INNER
   public :: PNPBS_VERSION_MAJOR, PNPBS_VERSION_MINOR, PNPBS_VERSION_PATCH
   public :: pnpbs_curve_fn, pnpbs_level_set_fn, pnpbs_spacing_fn, pnpbs_monitor_fn
-  public :: pnpbs_context, pnpbs_domain, pnpbs_placement, pnpbs_transfer
+  public :: pnpbs_context, pnpbs_domain, pnpbs_placement, pnpbs_transfer, pnpbs_mesh
   public :: pnpbs_status_string, pnpbs_last_error, pnpbs_version, pnpbs_build_info
   public :: pnpbs_mpi_library, pnpbs_finalize, pnpbs_discard_unfinished_files
   public :: pnpbs_file_dimension
@@ -234,6 +235,29 @@ module pnpbs
     generic :: at_points => transfer_at_points, transfer_at_points_columns
     procedure :: handle => transfer_handle
     procedure :: from_handle => transfer_from_handle
+  end type
+
+  !> A distributed mesh: a rank's nodes, elements and facets, and ghosts around them.
+  type :: pnpbs_mesh
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure :: create => mesh_create
+    procedure :: destroy => mesh_destroy
+    procedure :: sizes => mesh_sizes
+    procedure :: numbering => mesh_numbering
+    procedure :: get_nodes => mesh_get_nodes
+    procedure :: get_elements => mesh_get_elements
+    procedure, private :: mesh_get_connectivity
+    procedure, private :: mesh_get_connectivity_int32
+    generic :: get_connectivity => mesh_get_connectivity, mesh_get_connectivity_int32
+    procedure, private :: mesh_get_facets
+    procedure, private :: mesh_get_facets_logical
+    generic :: get_facets => mesh_get_facets, mesh_get_facets_logical
+    procedure :: sharing_sizes => mesh_sharing_sizes
+    procedure :: get_sharing => mesh_get_sharing
+    procedure :: handle => mesh_handle
+    procedure :: from_handle => mesh_from_handle
   end type
 
 contains
@@ -2622,6 +2646,320 @@ contains
   !> Makes this the transfer with the given handle. Local; checks nothing.
   subroutine transfer_from_handle(self, handle)
     class(pnpbs_transfer), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: handle
+    self%c = pointer_of(handle)
+  end subroutine
+
+  ! ------------------------------------------------------------ distributed mesh --------------
+
+  !> Makes a distributed mesh of the current nodes: on each rank the nodes, elements and facets that
+  !> it owns, and layers of ghost elements with their nodes, in arrays that solvers take. No rank
+  !> holds more than its part. Elements are triangles in the plane, tetrahedra in space, and
+  !> triangles on surfaces alone, all with positive orientation (on surfaces alone counter-clockwise
+  !> as seen from the side that the normal points to). A node belongs to the rank that owns it in
+  !> the placement, and an element to the owner of its node with the lowest id. Both have numbers
+  !> from 0, as in C, contiguous by rank: within a rank, nodes in the order of their ids (as by
+  !> placement%get_numbering) and elements in the order of their corners' ids. Local indices count
+  !> from 1, and are integer(c_int32_t): first what this rank owns, in the order of the numbers,
+  !> then the ghosts, by number. The mesh is a copy: nodes may move afterwards, and the placement
+  !> may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for
+  !> ghost_layers out of 0 .. 16 or not the same on all ranks.
+  !>   placement     whose nodes and elements it has
+  !>   ghost_layers  optional. 0, the default: this rank has only the elements that it owns. 1: also
+  !>                 those of other ranks that have a node in common with these, or with the nodes
+  !>                 that it owns, so all elements at its nodes. Each further layer adds the
+  !>                 elements that have a node in common with the layer before
+  subroutine mesh_create(self, placement, ghost_layers, stat, errmsg)
+    class(pnpbs_mesh), intent(inout) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int32_t), intent(in), optional :: ghost_layers
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: layers
+    layers = 0
+    if (present(ghost_layers)) layers = ghost_layers
+    call conclude('mesh%create', c_mesh_create(placement%c, layers, self%c), stat, errmsg)
+  end subroutine
+
+  !> Destroys the mesh; does nothing if there is none. Local.
+  subroutine mesh_destroy(self, stat, errmsg)
+    class(pnpbs_mesh), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('mesh%destroy', c_mesh_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> Returns what this rank has. Local; all are optional.
+  !>   dim             coordinates of a node, 2 or 3
+  !>   corners         nodes of an element, 3 or 4; a facet has one less
+  !>   owned_nodes     nodes that this rank owns
+  !>   nodes           these, and the nodes of other ranks in the elements here
+  !>   owned_elements  elements that this rank owns
+  !>   elements        these, and ghost elements
+  !>   facets          facets of these elements (see get_facets)
+  subroutine mesh_sizes(self, dim, corners, owned_nodes, nodes, owned_elements, elements, facets, &
+                        stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int32_t), intent(out), optional :: dim, corners
+    integer(c_int64_t), intent(out), optional :: owned_nodes, nodes, owned_elements, elements
+    integer(c_int64_t), intent(out), optional :: facets
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: rows(2)
+    integer(c_int64_t) :: counts(5)
+    rows = 0
+    counts = 0
+    call conclude('mesh%sizes', &
+                  c_mesh_sizes(self%c, rows(1), rows(2), counts(1), counts(2), counts(3), &
+                               counts(4), counts(5)), stat, errmsg)
+    if (present(dim)) dim = rows(1)
+    if (present(corners)) corners = rows(2)
+    if (present(owned_nodes)) owned_nodes = counts(1)
+    if (present(nodes)) nodes = counts(2)
+    if (present(owned_elements)) owned_elements = counts(3)
+    if (present(elements)) elements = counts(4)
+    if (present(facets)) facets = counts(5)
+  end subroutine
+
+  !> Returns the numbers that this rank owns, and those of all ranks. They count from 0, as in C.
+  !> Local; all are optional.
+  !>   first_node     this rank owns the nodes first_node .. first_node + owned_nodes - 1; 0 on
+  !>                  rank 0
+  !>   all_nodes      nodes of all ranks
+  !>   first_element  likewise
+  !>   all_elements   elements of all ranks, each counted once
+  subroutine mesh_numbering(self, first_node, all_nodes, first_element, all_elements, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int64_t), intent(out), optional :: first_node, all_nodes
+    integer(c_int64_t), intent(out), optional :: first_element, all_elements
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: found(4)
+    found = 0
+    call conclude('mesh%numbering', &
+                  c_mesh_numbering(self%c, found(1), found(2), found(3), found(4)), stat, errmsg)
+    if (present(first_node)) first_node = found(1)
+    if (present(all_nodes)) all_nodes = found(2)
+    if (present(first_element)) first_element = found(3)
+    if (present(all_elements)) all_elements = found(4)
+  end subroutine
+
+  !> Copies the nodes of this rank; all arrays are optional. Local.
+  !>   coordinates  (dim, nodes)
+  !>   numbers      (nodes) from 0
+  !>   ids          (nodes) which do not depend on the ranks
+  !>   owners       (nodes) the rank that owns it
+  !>   tags         (nodes) as placement%get_nodes
+  subroutine mesh_get_nodes(self, coordinates, numbers, ids, owners, tags, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    real(c_double), intent(inout), optional :: coordinates(:,:)
+    integer(c_int64_t), intent(inout), optional :: numbers(:), ids(:)
+    integer(c_int32_t), intent(inout), optional :: owners(:), tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_xyz, a_numbers, a_ids, a_owners, a_tags
+    integer(c_int64_t) :: room(5)
+    integer(c_int32_t) :: dim
+    integer(c_int) :: status
+    call self%sizes(dim=dim, stat=status)
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    call given%place_real_columns('coordinates', coordinates, int(dim), a_xyz, room(1))
+    call given%place_int64('numbers', numbers, a_numbers, room(2))
+    call given%place_int64('ids', ids, a_ids, room(3))
+    call given%place_int32('owners', owners, a_owners, room(4))
+    call given%place_int32('tags', tags, a_tags, room(5))
+    status = c_mesh_get_nodes(self%c, given%capacity(minval(room)), a_xyz, a_numbers, a_ids, &
+                              a_owners, a_tags)
+    call conclude('mesh%get_nodes', status, stat, errmsg, given)
+  end subroutine
+
+  !> Copies the elements of this rank; all arrays are optional. Local.
+  !>   nodes    (corners, elements) local indices of the nodes at the corners
+  !>   numbers  (elements) from 0
+  !>   owners   (elements) the rank that owns it
+  !>   tags     (elements) on surfaces alone the tag of the surface; 0 elsewhere
+  subroutine mesh_get_elements(self, nodes, numbers, owners, tags, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int32_t), intent(inout), optional :: nodes(:,:), owners(:), tags(:)
+    integer(c_int64_t), intent(inout), optional :: numbers(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_nodes, a_numbers, a_owners, a_tags
+    integer(c_int64_t) :: room(4), count, e
+    integer(c_int32_t) :: corners
+    integer(c_int) :: status
+    call self%sizes(corners=corners, elements=count, stat=status)
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    call given%place_int32_columns('nodes', nodes, int(corners), a_nodes, room(1))
+    call given%place_int64('numbers', numbers, a_numbers, room(2))
+    call given%place_int32('owners', owners, a_owners, room(3))
+    call given%place_int32('tags', tags, a_tags, room(4))
+    status = c_mesh_get_elements(self%c, given%capacity(minval(room)), a_nodes, a_numbers, &
+                                 a_owners, a_tags)
+    call conclude('mesh%get_elements', status, stat, errmsg, given)
+    if (status < 0 .or. .not. present(nodes)) return
+    do e = 1, count
+      call count_from_one(nodes(:, e))
+    end do
+  end subroutine
+
+  !> Copies the numbers of the nodes at the corners of the elements of this rank, in eight or in
+  !> four bytes, as libraries have them. Local. Errors also: PNPBS_ERROR_CAPACITY for four bytes if
+  !> the mesh has more than 2**31 - 1 nodes over all ranks.
+  !>   numbers  (corners, elements) from 0; integer(c_int64_t) or integer(c_int32_t)
+  subroutine mesh_get_connectivity(self, numbers, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: numbers(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call check_corners(self, size(numbers, 1), given)
+    status = c_mesh_get_connectivity(self%c, given%capacity(size(numbers, 2, c_int64_t)), numbers)
+    call conclude('mesh%get_connectivity', status, stat, errmsg, given)
+  end subroutine
+
+  subroutine mesh_get_connectivity_int32(self, numbers, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int32_t), intent(inout) :: numbers(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call check_corners(self, size(numbers, 1), given)
+    status = c_mesh_get_connectivity_int32(self%c, &
+                                           given%capacity(size(numbers, 2, c_int64_t)), numbers)
+    call conclude('mesh%get_connectivity', status, stat, errmsg, given)
+  end subroutine
+
+  ! Rejects numbers of elements with another number of corners.
+  subroutine check_corners(self, rows, given)
+    class(pnpbs_mesh), intent(in) :: self
+    integer, intent(in) :: rows
+    type(arguments), intent(inout) :: given
+    integer(c_int32_t) :: corners
+    integer(c_int) :: status
+    call self%sizes(corners=corners, stat=status)
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    call given%check_rows('numbers', rows, int(corners))
+  end subroutine
+
+  !> Copies the facets of the elements of this rank: edges of triangles in the plane that are parts
+  !> of the boundary or of inner curves; triangles of tetrahedra that are parts of the boundary or
+  !> of inner surfaces; on surfaces alone the edges of only one triangle. Each comes once on a rank.
+  !> It belongs to the owner of its element with the lowest number. All arrays are optional. Local.
+  !>   nodes     (corners - 1, facets) local indices, in space counter-clockwise as seen from
+  !>             outside, or turning as the inner surface does; in the plane in the direction of the
+  !>             curve
+  !>   tags      (facets) of the curve or surface; on surfaces alone, of the surface
+  !>   elements  (2, facets) local indices of the elements at it; the second is 0 if there is none,
+  !>             or if it is not on this rank
+  !>   opposite  (facets) the corner of the first element, 1 .. corners, that is none of the facet's
+  !>   inner     (facets), logical or integer(c_int8_t): true or 1 if there are elements on both
+  !>             sides, on whichever ranks; false or 0 on the boundary
+  !>   owners    (facets) the rank it belongs to
+  subroutine mesh_get_facets(self, nodes, tags, elements, opposite, inner, owners, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int32_t), intent(inout), optional :: nodes(:,:), tags(:), elements(:,:), opposite(:)
+    integer(c_int8_t), intent(inout), optional :: inner(:)
+    integer(c_int32_t), intent(inout), optional :: owners(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_nodes, a_tags, a_elements, a_opposite, a_inner, a_owners
+    integer(c_int64_t) :: room(6), count, f
+    integer(c_int32_t) :: corners
+    integer(c_int) :: status
+    call self%sizes(corners=corners, facets=count, stat=status)
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    call given%place_int32_columns('nodes', nodes, int(corners) - 1, a_nodes, room(1))
+    call given%place_int32('tags', tags, a_tags, room(2))
+    call given%place_int32_columns('elements', elements, 2, a_elements, room(3))
+    call given%place_int32('opposite', opposite, a_opposite, room(4))
+    call given%place_int8('inner', inner, a_inner, room(5))
+    call given%place_int32('owners', owners, a_owners, room(6))
+    status = c_mesh_get_facets(self%c, given%capacity(minval(room)), a_nodes, a_tags, a_elements, &
+                               a_opposite, a_inner, a_owners)
+    call conclude('mesh%get_facets', status, stat, errmsg, given)
+    if (status < 0) return
+    if (present(opposite)) call count_from_one(opposite(:count))
+    do f = 1, count
+      if (present(nodes)) call count_from_one(nodes(:, f))
+      if (present(elements)) call count_from_one(elements(:, f))
+    end do
+  end subroutine
+
+  subroutine mesh_get_facets_logical(self, nodes, tags, elements, opposite, inner, owners, stat, &
+                                     errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int32_t), intent(inout), optional :: nodes(:,:), tags(:), elements(:,:), opposite(:)
+    logical, intent(inout) :: inner(:)
+    integer(c_int32_t), intent(inout), optional :: owners(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int8_t), allocatable :: flags(:)
+    integer(c_int8_t), parameter :: not_set = -1
+    allocate (flags(size(inner)), source=not_set)
+    call self%get_facets(nodes, tags, elements, opposite, flags, owners, stat, errmsg)
+    where (flags /= not_set) inner = flags /= 0
+  end subroutine
+
+  !> Returns the sizes of the arrays of get_sharing. Local; all are optional.
+  !>   nodes    nodes that this rank shares
+  !>   entries  ranks it shares them with, added up over these nodes
+  subroutine mesh_sharing_sizes(self, nodes, entries, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int64_t), intent(out), optional :: nodes, entries
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: found(2)
+    found = 0
+    call conclude('mesh%sharing_sizes', &
+                  c_mesh_sharing_sizes(self%c, found(1), found(2)), stat, errmsg)
+    if (present(nodes)) nodes = found(1)
+    if (present(entries)) entries = found(2)
+  end subroutine
+
+  !> Copies which ranks share nodes with this one: node shared(k) is shared with
+  !> ranks(offsets(k) : offsets(k+1)-1). A node is shared by its owner and the ranks that own an
+  !> element at it. Local.
+  !>   shared   (nodes) local indices of the nodes, by number
+  !>   offsets  (nodes + 1)
+  !>   ranks    (entries) other ranks, counted from 0 as in MPI, in increasing order for each node
+  subroutine mesh_get_sharing(self, shared, offsets, ranks, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int32_t), intent(inout) :: shared(:), ranks(:)
+    integer(c_int64_t), intent(inout) :: offsets(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: nodes, entries
+    integer(c_int) :: status
+    call self%sharing_sizes(nodes, entries, stat=status)
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    call given%require('shared', size(shared, kind=c_int64_t), nodes)
+    call given%require('offsets', size(offsets, kind=c_int64_t), nodes + 1)
+    call given%require('ranks', size(ranks, kind=c_int64_t), entries)
+    status = c_mesh_get_sharing(self%c, given%capacity(nodes), entries, shared, offsets, ranks)
+    call conclude('mesh%get_sharing', status, stat, errmsg, given)
+    if (status < 0) return
+    call count_from_one(shared(:nodes))
+    call count_from_one(offsets(:nodes + 1))
+  end subroutine
+
+  !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.
+  !> Local.
+  function mesh_handle(self) result(handle)
+    class(pnpbs_mesh), intent(in) :: self
+    integer(c_int64_t) :: handle
+    handle = integer_of(self%c)
+  end function
+
+  !> Makes this the mesh with the given handle. Local; checks nothing.
+  subroutine mesh_from_handle(self, handle)
+    class(pnpbs_mesh), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
     self%c = pointer_of(handle)
   end subroutine

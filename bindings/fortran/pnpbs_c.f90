@@ -1211,6 +1211,123 @@ module pnpbs_c
       integer(c_int) :: c_transfer_at_points
     end function
 
+    function c_mesh_create(placement, ghost_layers, mesh) bind(C, name="pnpbs_mesh_create")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), value :: ghost_layers
+      type(c_ptr), intent(out) :: mesh
+      integer(c_int) :: c_mesh_create
+    end function
+
+    function c_mesh_destroy(mesh) bind(C, name="pnpbs_mesh_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: mesh
+      integer(c_int) :: c_mesh_destroy
+    end function
+
+    function c_mesh_sizes(mesh, dim, corners, owned_nodes, nodes, owned_elements, elements, &
+      facets) bind(C, name="pnpbs_mesh_sizes")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(out) :: dim, corners
+      integer(c_int64_t), intent(out) :: owned_nodes, nodes, owned_elements, elements, facets
+      integer(c_int) :: c_mesh_sizes
+    end function
+
+    function c_mesh_numbering(mesh, first_node, all_nodes, first_element, all_elements) bind(C, &
+      name="pnpbs_mesh_numbering")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(out) :: first_node, all_nodes, first_element, all_elements
+      integer(c_int) :: c_mesh_numbering
+    end function
+
+    function c_mesh_get_nodes(mesh, capacity, coordinates, numbers, ids, owners, tags) bind(C, &
+      name="pnpbs_mesh_get_nodes")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: coordinates ! double *
+      type(c_ptr), value :: numbers ! int64_t *
+      type(c_ptr), value :: ids ! int64_t *
+      type(c_ptr), value :: owners ! int32_t *
+      type(c_ptr), value :: tags ! int32_t *
+      integer(c_int) :: c_mesh_get_nodes
+    end function
+
+    function c_mesh_get_elements(mesh, capacity, nodes, numbers, owners, tags) bind(C, &
+      name="pnpbs_mesh_get_elements")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: nodes ! int32_t *
+      type(c_ptr), value :: numbers ! int64_t *
+      type(c_ptr), value :: owners ! int32_t *
+      type(c_ptr), value :: tags ! int32_t *
+      integer(c_int) :: c_mesh_get_elements
+    end function
+
+    function c_mesh_get_connectivity(mesh, capacity, numbers) bind(C, &
+      name="pnpbs_mesh_get_connectivity")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: numbers(*)
+      integer(c_int) :: c_mesh_get_connectivity
+    end function
+
+    function c_mesh_get_connectivity_int32(mesh, capacity, numbers) bind(C, &
+      name="pnpbs_mesh_get_connectivity_int32")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: numbers(*)
+      integer(c_int) :: c_mesh_get_connectivity_int32
+    end function
+
+    function c_mesh_get_facets(mesh, capacity, nodes, tags, elements, opposite, inner, owners) &
+      bind(C, name="pnpbs_mesh_get_facets")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: nodes ! int32_t *
+      type(c_ptr), value :: tags ! int32_t *
+      type(c_ptr), value :: elements ! int32_t *
+      type(c_ptr), value :: opposite ! int32_t *
+      type(c_ptr), value :: inner ! int8_t *
+      type(c_ptr), value :: owners ! int32_t *
+      integer(c_int) :: c_mesh_get_facets
+    end function
+
+    function c_mesh_sharing_sizes(mesh, nodes, entries) bind(C, name="pnpbs_mesh_sharing_sizes")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(out) :: nodes, entries
+      integer(c_int) :: c_mesh_sharing_sizes
+    end function
+
+    function c_mesh_get_sharing(mesh, nodes, entries, shared, offsets, ranks) bind(C, &
+      name="pnpbs_mesh_get_sharing")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: nodes, entries
+      integer(c_int32_t), intent(inout) :: shared(*)
+      integer(c_int64_t), intent(inout) :: offsets(*)
+      integer(c_int32_t), intent(inout) :: ranks(*)
+      integer(c_int) :: c_mesh_get_sharing
+    end function
+
     function c_placement_write(placement, path, elements) bind(C, name="pnpbs_placement_write")
       import
       implicit none

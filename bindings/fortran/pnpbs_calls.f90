@@ -31,6 +31,7 @@ module pnpbs_calls
     procedure :: place_int8
     procedure :: place_int32
     procedure :: place_int64
+    procedure :: place_int32_columns
     procedure :: place_int64_columns
     procedure :: place_real
     procedure :: place_real_columns
@@ -42,6 +43,12 @@ module pnpbs_calls
 
   ! The address of arrays without elements: present, but without room.
   integer(c_int64_t), target, save :: nothing = 0
+
+  !> Converts indices and offsets of C, from 0, to those of Fortran, from 1.
+  interface count_from_one
+    module procedure count_from_one_int32
+    module procedure count_from_one_int64
+  end interface
 
   interface
     function c_strlen(text) bind(C, name="strlen")
@@ -136,8 +143,8 @@ contains
   recursive function in_fortran(message) result(text)
     character(len=*), intent(in) :: message
     character(len=:), allocatable :: text
-    character(len=*), parameter :: objects(4) = &
-      ['context  ', 'domain   ', 'placement', 'transfer ']
+    character(len=*), parameter :: objects(5) = &
+      ['context  ', 'domain   ', 'placement', 'transfer ', 'mesh     ']
     character(len=:), allocatable :: prefix
     integer :: i, at
     text = message
@@ -275,6 +282,25 @@ contains
     if (room > 1) call self%check_neighbours_in_memory(name, address, c_loc(array(2)), 8)
   end subroutine
 
+  subroutine place_int32_columns(self, name, array, rows, address, room)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in), optional, target :: array(:,:)
+    integer, intent(in) :: rows
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    call absent(address, room)
+    if (.not. present(array)) return
+    call empty(address, room)
+    call self%check_rows(name, size(array, 1), rows)
+    if (size(array) == 0 .or. self%is_wrong()) return
+    address = c_loc(array(1, 1))
+    room = size(array, 2, kind=c_int64_t)
+    call self%check_neighbours_in_memory(name, address, c_loc(array(2, 1)), 4)
+    if (room > 1) &
+      call self%check_neighbours_in_memory(name, address, c_loc(array(1, 2)), 4 * rows)
+  end subroutine
+
   subroutine place_int64_columns(self, name, array, rows, address, room)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -382,8 +408,15 @@ contains
       'give a whole array, or a section x(i:j) or x(:,i:j) of one')
   end subroutine
 
-  !> Converts indices and offsets of C, from 0, to those of Fortran, from 1.
-  subroutine count_from_one(indices)
+  subroutine count_from_one_int32(indices)
+    integer(c_int32_t), intent(inout) :: indices(:)
+    integer(c_int64_t) :: i
+    do i = 1, size(indices, kind=c_int64_t)
+      indices(i) = indices(i) + 1
+    end do
+  end subroutine
+
+  subroutine count_from_one_int64(indices)
     integer(c_int64_t), intent(inout) :: indices(:)
     integer(c_int64_t) :: i
     do i = 1, size(indices, kind=c_int64_t)

@@ -105,6 +105,7 @@ typedef struct pnpbs_context_handle *pnpbs_context;
 typedef struct pnpbs_domain_handle *pnpbs_domain;
 typedef struct pnpbs_placement_handle *pnpbs_placement;
 typedef struct pnpbs_transfer_handle *pnpbs_transfer;
+typedef struct pnpbs_mesh_handle *pnpbs_mesh;
 
 /** Returns the meaning of a status in a few words. Local. Never NULL. */
 PNPBS_API const char *pnpbs_status_string(pnpbs_status status);
@@ -1096,6 +1097,125 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_pl
  *  @param[out] values      [n][components] */
 PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n,
                                                 const double *coordinates, double *values);
+
+/* ---------------------------------------------------------------- distributed mesh ------ */
+
+/** Makes a distributed mesh of the current nodes: on each rank the nodes, elements and facets that
+ *  it owns, and layers of ghost elements with their nodes, in arrays that solvers take. No rank
+ *  holds more than its part. Elements are triangles in the plane, tetrahedra in space, and
+ *  triangles on surfaces alone, all with positive orientation (on surfaces alone counter-clockwise
+ *  as seen from the side that the normal points to). A node belongs to the rank that owns it in the
+ *  placement, and an element to the owner of its node with the lowest id. Both are numbered from 0,
+ *  contiguously by rank: within a rank, nodes in the order of their ids (as by
+ *  pnpbs_placement_get_numbering) and elements in the order of their corners' ids. A rank's indices
+ *  count from 0, too: first what it owns, in the order of the numbers, then the ghosts, by number.
+ *  The mesh is a copy: nodes may move afterwards, and the placement may be destroyed. Collective.
+ *  Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for ghost_layers out of 0 .. 16 or
+ *  not the same on all ranks.
+ *  @param[in] placement     whose nodes and elements it has
+ *  @param[in] ghost_layers  0: this rank has only the elements that it owns. 1: also those of other
+ *                           ranks that have a node in common with these, or with the nodes that it
+ *                           owns, so all elements at its nodes. Each further layer adds the
+ *                           elements that have a node in common with the layer before.
+ *  @param[out] mesh         the handle */
+PNPBS_API pnpbs_status pnpbs_mesh_create(pnpbs_placement placement, int32_t ghost_layers,
+                                         pnpbs_mesh *mesh);
+
+/** Destroys the handle and sets it to NULL; accepts NULL. Local. */
+PNPBS_API pnpbs_status pnpbs_mesh_destroy(pnpbs_mesh *mesh);
+
+/** Returns what this rank has; outputs may be NULL. Local.
+ *  @param[out] dim             coordinates of a node, 2 or 3
+ *  @param[out] corners         nodes of an element, 3 or 4; a facet has one less
+ *  @param[out] owned_nodes     nodes that this rank owns
+ *  @param[out] nodes           these, and the nodes of other ranks in the elements here
+ *  @param[out] owned_elements  elements that this rank owns
+ *  @param[out] elements        these, and ghost elements
+ *  @param[out] facets          facets of these elements (pnpbs_mesh_get_facets) */
+PNPBS_API pnpbs_status pnpbs_mesh_sizes(pnpbs_mesh mesh, int32_t *dim, int32_t *corners,
+                                        int64_t *owned_nodes, int64_t *nodes,
+                                        int64_t *owned_elements, int64_t *elements,
+                                        int64_t *facets);
+
+/** Returns the numbers that this rank owns, and those of all ranks; outputs may be NULL. Local.
+ *  @param[out] first_node      this rank owns the nodes first_node .. first_node + owned_nodes - 1
+ *  @param[out] all_nodes       nodes of all ranks
+ *  @param[out] first_element   likewise
+ *  @param[out] all_elements    elements of all ranks, each counted once */
+PNPBS_API pnpbs_status pnpbs_mesh_numbering(pnpbs_mesh mesh, int64_t *first_node,
+                                            int64_t *all_nodes, int64_t *first_element,
+                                            int64_t *all_elements);
+
+/** Copies the nodes of this rank; arrays may be NULL. Local. Errors: PNPBS_ERROR_CAPACITY.
+ *  @param[in] capacity      nodes the arrays have room for
+ *  @param[out] coordinates  [nodes][dim]
+ *  @param[out] numbers      [nodes]
+ *  @param[out] ids          [nodes] the ids, which do not depend on the ranks
+ *  @param[out] owners       [nodes] the rank that owns it
+ *  @param[out] tags         [nodes] as by pnpbs_placement_get_nodes */
+PNPBS_API pnpbs_status pnpbs_mesh_get_nodes(pnpbs_mesh mesh, int64_t capacity, double *coordinates,
+                                            int64_t *numbers, int64_t *ids, int32_t *owners,
+                                            int32_t *tags);
+
+/** Copies the elements of this rank; arrays may be NULL. Local. Errors: PNPBS_ERROR_CAPACITY.
+ *  @param[in] capacity  elements the arrays have room for
+ *  @param[out] nodes    [elements][corners] local indices of the nodes at the corners
+ *  @param[out] numbers  [elements]
+ *  @param[out] owners   [elements] the rank that owns it
+ *  @param[out] tags     [elements] on surfaces alone the tag of the surface; 0 elsewhere */
+PNPBS_API pnpbs_status pnpbs_mesh_get_elements(pnpbs_mesh mesh, int64_t capacity, int32_t *nodes,
+                                               int64_t *numbers, int32_t *owners, int32_t *tags);
+
+/** Copies the numbers of the nodes at the corners of the elements of this rank. Local. Errors:
+ *  PNPBS_ERROR_CAPACITY.
+ *  @param[in] capacity  elements the array has room for
+ *  @param[out] numbers  [elements][corners] */
+PNPBS_API pnpbs_status pnpbs_mesh_get_connectivity(pnpbs_mesh mesh, int64_t capacity,
+                                                   int64_t *numbers);
+
+/** The same for libraries that number in 32 bits. Local. Errors also: PNPBS_ERROR_CAPACITY if the
+ *  mesh has more than 2^31 - 1 nodes over all ranks.
+ *  @param[in] capacity  elements the array has room for
+ *  @param[out] numbers  [elements][corners] */
+PNPBS_API pnpbs_status pnpbs_mesh_get_connectivity_int32(pnpbs_mesh mesh, int64_t capacity,
+                                                         int32_t *numbers);
+
+/** Copies the facets of the elements of this rank: edges of triangles in the plane that are parts
+ *  of the boundary or of inner curves; triangles of tetrahedra that are parts of the boundary or of
+ *  inner surfaces; on surfaces alone the edges of only one triangle. Each comes once on a rank. It
+ *  belongs to the owner of its element with the lowest number; arrays may be NULL. Local. Errors:
+ *  PNPBS_ERROR_CAPACITY.
+ *  @param[in] capacity   facets the arrays have room for
+ *  @param[out] nodes     [facets][corners - 1] local indices, in space counter-clockwise as seen
+ *                        from outside, or turning as the inner surface does; in the plane in the
+ *                        direction of the curve
+ *  @param[out] tags      [facets] of the curve or surface; on surfaces alone, of the surface
+ *  @param[out] elements  [facets][2] local indices of the elements at it; the second is -1 if there
+ *                        is none, or if it is not on this rank
+ *  @param[out] opposite  [facets] the corner of the first element, 0 .. corners - 1, that is none
+ *                        of the facet's
+ *  @param[out] inner     [facets] 1 if there are elements on both sides, on whichever ranks; 0 on
+ *                        the boundary
+ *  @param[out] owners    [facets] the rank it belongs to */
+PNPBS_API pnpbs_status pnpbs_mesh_get_facets(pnpbs_mesh mesh, int64_t capacity, int32_t *nodes,
+                                             int32_t *tags, int32_t *elements, int32_t *opposite,
+                                             int8_t *inner, int32_t *owners);
+
+/** Returns the sizes of the arrays of pnpbs_mesh_get_sharing; outputs may be NULL. Local.
+ *  @param[out] nodes    nodes that this rank shares
+ *  @param[out] entries  ranks it shares them with, added up over these nodes */
+PNPBS_API pnpbs_status pnpbs_mesh_sharing_sizes(pnpbs_mesh mesh, int64_t *nodes, int64_t *entries);
+
+/** Copies which ranks share nodes with this one. A node is shared by its owner and the ranks that
+ *  own an element at it. Local. Errors: PNPBS_ERROR_CAPACITY.
+ *  @param[in] nodes     nodes the arrays have room for
+ *  @param[in] entries   ranks the array has room for
+ *  @param[out] shared   [nodes] local indices of the nodes, by number
+ *  @param[out] offsets  [nodes + 1] node k is shared with ranks[offsets[k]] to
+ *                       ranks[offsets[k + 1] - 1]
+ *  @param[out] ranks    [entries] other ranks, in increasing order for each node */
+PNPBS_API pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entries,
+                                              int32_t *shared, int64_t *offsets, int32_t *ranks);
 
 /* ---------------------------------------------------------------- files ----------------- */
 

@@ -8,7 +8,8 @@ from typing import NamedTuple
 # Every call passes through these; what they ask is no service of the function that was called.
 CHECKS = {"check", "check_without_context", "check_geo", "live"}
 # What reaches the user in another way than through a function that he calls.
-OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError"}
+OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError",
+             "pnpbs_mesh_get_connectivity_int32": "DistributedMesh"}
 
 
 class Docstring(NamedTuple):

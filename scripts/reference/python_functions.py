@@ -11,12 +11,13 @@ from typing import NamedTuple
 # is called in signatures.
 CLASSES = {"Context": ("context", "context"), "Domain": ("domain", "domain"),
            "Placement": ("placement", "placement"), "Results": ("placement", "placement"),
-           "Fields": ("placement", "placement"), "PlacementHandle": ("placement", "placement"),
-           "Transfer": ("transfer", "transfer"), "Shapes": ("geo", "shapes"),
-           "GeoGrid": ("geo_grid", "grid")}
+           "Fields": ("placement", "placement"), "Meshes": ("placement", "placement"),
+           "PlacementHandle": ("placement", "placement"), "Transfer": ("transfer", "transfer"),
+           "Shapes": ("geo", "shapes"), "GeoGrid": ("geo_grid", "grid")}
 # What reaches the user in another way than through a function that he calls.
 OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError",
-             "pnpbs_status_string": "Status", "pnpbs_placement_write": "placement.write"}
+             "pnpbs_status_string": "Status", "pnpbs_placement_write": "placement.write",
+             "pnpbs_mesh_get_connectivity_int32": "DistributedMesh"}
 SETTERS = ("_set", "_set_int64", "_set_double")
 
 
@@ -48,6 +49,7 @@ class Package:
     def read_class(self, node):
         if node.name not in CLASSES:
             if ast.get_docstring(node) and node.name in self.public:
+                self.bodies[node.name] = (node, None)
                 self.functions.append(Function(node.name, node.name, inspect.cleandoc(
                     ast.get_docstring(node))))
             return

@@ -3,19 +3,11 @@
 // and contiguous numbers.
 #include <algorithm>
 
+#include "api/copy_out.hpp"
 #include "api/placement_calls.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
-
-namespace {
-
-template <class Value>
-void copy_out(const std::vector<Value>& from, Value* to) {
-  if (to) std::copy(from.begin(), from.end(), to);
-}
-
-}  // namespace
 
 pnpbs_status pnpbs_placement_exchange_sizes(pnpbs_placement placement, int32_t* neighbours,
                                             int64_t* sends, int64_t* receives) {

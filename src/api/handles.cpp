@@ -29,6 +29,10 @@ Registry<TransferObject, pnpbs_transfer>& transfers() {
   static auto* registry = new Registry<TransferObject, pnpbs_transfer>;
   return *registry;
 }
+Registry<MeshObject, pnpbs_mesh>& meshes() {
+  static auto* registry = new Registry<MeshObject, pnpbs_mesh>;
+  return *registry;
+}
 
 namespace {
 
@@ -54,6 +58,9 @@ std::shared_ptr<PlacementObject> require(pnpbs_placement handle) {
 }
 std::shared_ptr<TransferObject> require(pnpbs_transfer handle) {
   return require_live(transfers().find(handle), "transfer");
+}
+std::shared_ptr<MeshObject> require(pnpbs_mesh handle) {
+  return require_live(meshes().find(handle), "mesh");
 }
 
 }  // namespace pnpbs::api

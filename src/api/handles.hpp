@@ -14,6 +14,7 @@
 #include "comm/communicator.hpp"
 #include "domain/domain.hpp"
 #include "io/output_fields.hpp"
+#include "mesh/distributed_mesh.hpp"
 #include "placement/field_transfer.hpp"
 #include "placement/placement_of.hpp"
 #include "pnpbs/pnpbs.h"
@@ -48,6 +49,11 @@ struct PlacementObject {
 struct TransferObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<FieldTransfer> transfer;
+};
+
+struct MeshObject {
+  std::shared_ptr<Context> context;
+  std::unique_ptr<const DistributedMesh> mesh;
 };
 
 // One for each kind of object. All keys of the process come from one counter, so that a handle of
@@ -91,10 +97,12 @@ Registry<Context, pnpbs_context>& contexts();
 Registry<DomainObject, pnpbs_domain>& domains();
 Registry<PlacementObject, pnpbs_placement>& placements();
 Registry<TransferObject, pnpbs_transfer>& transfers();
+Registry<MeshObject, pnpbs_mesh>& meshes();
 
 std::shared_ptr<Context> require(pnpbs_context handle);
 std::shared_ptr<DomainObject> require(pnpbs_domain handle);
 std::shared_ptr<PlacementObject> require(pnpbs_placement handle);
 std::shared_ptr<TransferObject> require(pnpbs_transfer handle);
+std::shared_ptr<MeshObject> require(pnpbs_mesh handle);
 
 }  // namespace pnpbs::api

@@ -23,9 +23,20 @@ int64_t twin_boundary_triangles(int64_t handle, int64_t n, const int64_t* triang
 int64_t twin_exchange(int64_t handle, int32_t neighbours, const int32_t* ranks,
                       const int64_t* send_offsets, const int64_t* send_nodes,
                       const int64_t* receive_offsets, const int64_t* receive_nodes);
+int64_t twin_mesh_nodes(int64_t handle, int64_t n, const double* xyz, const int64_t* numbers,
+                        const int64_t* ids, const int32_t* owners, const int32_t* tags);
+int64_t twin_mesh_elements(int64_t handle, int64_t n, const int32_t* nodes, const int64_t* numbers,
+                           const int32_t* owners, const int32_t* tags, const int64_t* at_corners);
+int64_t twin_mesh_facets(int64_t handle, int64_t n, const int32_t* nodes, const int32_t* tags,
+                         const int32_t* elements, const int32_t* opposite, const int8_t* inner,
+                         const int32_t* owners);
+int64_t twin_mesh_sharing(int64_t handle, int64_t nodes, int64_t entries, const int32_t* shared,
+                          const int64_t* offsets, const int32_t* ranks);
 int64_t twin_segments(int64_t handle, int64_t n, const double* segments, const int32_t* tags);
 
 static pnpbs_placement placement_of(int64_t handle) { return (pnpbs_placement)(intptr_t)handle; }
+
+static pnpbs_mesh mesh_of(int64_t handle) { return (pnpbs_mesh)(intptr_t)handle; }
 
 static int32_t dimension_of(pnpbs_placement p) {
   int32_t dim = 0;
@@ -36,6 +47,12 @@ static void* room(int64_t n, size_t size) { return calloc((size_t)n + 1, size); 
 
 /* How many of n indices are not one more than C's. */
 static int64_t shifted(int64_t n, const int64_t* ours, const int64_t* fortran) {
+  int64_t i, wrong = 0;
+  for (i = 0; i < n; ++i) wrong += ours[i] + 1 != fortran[i];
+  return wrong;
+}
+
+static int64_t shifted_short(int64_t n, const int32_t* ours, const int32_t* fortran) {
   int64_t i, wrong = 0;
   for (i = 0; i < n; ++i) wrong += ours[i] + 1 != fortran[i];
   return wrong;
@@ -164,6 +181,75 @@ int64_t twin_exchange(int64_t handle, int32_t neighbours, const int32_t* ranks,
   wrong += shifted(count + 1, so, send_offsets) + shifted(count + 1, ro, receive_offsets);
   wrong += shifted(sends, sn, send_nodes) + shifted(receives, rn, receive_nodes);
   free(r), free(so), free(sn), free(ro), free(rn);
+  return wrong;
+}
+
+int64_t twin_mesh_nodes(int64_t handle, int64_t n, const double* xyz, const int64_t* numbers,
+                        const int64_t* ids, const int32_t* owners, const int32_t* tags) {
+  const pnpbs_mesh mesh = mesh_of(handle);
+  int32_t dim = 0, *o = room(n, sizeof *o), *t = room(n, sizeof *t);
+  int64_t nodes = -1, wrong = 0, *m = room(n, sizeof *m), *i = room(n, sizeof *i);
+  double* x;
+  wrong += pnpbs_mesh_sizes(mesh, &dim, NULL, NULL, &nodes, NULL, NULL, NULL) != PNPBS_OK;
+  x = room(dim * n, sizeof *x);
+  wrong += nodes != n || pnpbs_mesh_get_nodes(mesh, n, x, m, i, o, t) != PNPBS_OK;
+  wrong += memcmp(x, xyz, (size_t)(dim * n) * sizeof *x) != 0;
+  wrong += memcmp(m, numbers, (size_t)n * sizeof *m) != 0;
+  wrong += memcmp(i, ids, (size_t)n * sizeof *i) != 0;
+  wrong += memcmp(o, owners, (size_t)n * sizeof *o) != 0;
+  wrong += memcmp(t, tags, (size_t)n * sizeof *t) != 0;
+  free(x), free(m), free(i), free(o), free(t);
+  return wrong;
+}
+
+int64_t twin_mesh_elements(int64_t handle, int64_t n, const int32_t* nodes, const int64_t* numbers,
+                           const int32_t* owners, const int32_t* tags, const int64_t* at_corners) {
+  const pnpbs_mesh mesh = mesh_of(handle);
+  int32_t corners = 0, *o = room(n, sizeof *o), *t = room(n, sizeof *t), *at;
+  int64_t elements = -1, wrong = 0, *m = room(n, sizeof *m), *a;
+  wrong += pnpbs_mesh_sizes(mesh, NULL, &corners, NULL, NULL, NULL, &elements, NULL) != PNPBS_OK;
+  at = room(corners * n, sizeof *at), a = room(corners * n, sizeof *a);
+  wrong += elements != n || pnpbs_mesh_get_elements(mesh, n, at, m, o, t) != PNPBS_OK;
+  wrong += pnpbs_mesh_get_connectivity(mesh, n, a) != PNPBS_OK;
+  wrong += shifted_short(corners * n, at, nodes);
+  wrong += memcmp(m, numbers, (size_t)n * sizeof *m) != 0;
+  wrong += memcmp(o, owners, (size_t)n * sizeof *o) != 0;
+  wrong += memcmp(t, tags, (size_t)n * sizeof *t) != 0;
+  wrong += memcmp(a, at_corners, (size_t)(corners * n) * sizeof *a) != 0;
+  free(at), free(a), free(m), free(o), free(t);
+  return wrong;
+}
+
+int64_t twin_mesh_facets(int64_t handle, int64_t n, const int32_t* nodes, const int32_t* tags,
+                         const int32_t* elements, const int32_t* opposite, const int8_t* inner,
+                         const int32_t* owners) {
+  const pnpbs_mesh mesh = mesh_of(handle);
+  int32_t corners = 1, *e = room(2 * n, sizeof *e), *p = room(n, sizeof *p), *at;
+  int32_t *o = room(n, sizeof *o), *t = room(n, sizeof *t);
+  int8_t* i = room(n, sizeof *i);
+  int64_t facets = -1, wrong = 0;
+  wrong += pnpbs_mesh_sizes(mesh, NULL, &corners, NULL, NULL, NULL, NULL, &facets) != PNPBS_OK;
+  at = room((corners - 1) * n, sizeof *at);
+  wrong += facets != n || pnpbs_mesh_get_facets(mesh, n, at, t, e, p, i, o) != PNPBS_OK;
+  wrong += shifted_short((corners - 1) * n, at, nodes) + shifted_short(2 * n, e, elements);
+  wrong += shifted_short(n, p, opposite);
+  wrong += memcmp(t, tags, (size_t)n * sizeof *t) != 0;
+  wrong += memcmp(i, inner, (size_t)n * sizeof *i) != 0;
+  wrong += memcmp(o, owners, (size_t)n * sizeof *o) != 0;
+  free(at), free(e), free(p), free(o), free(t), free(i);
+  return wrong;
+}
+
+int64_t twin_mesh_sharing(int64_t handle, int64_t nodes, int64_t entries, const int32_t* shared,
+                          const int64_t* offsets, const int32_t* ranks) {
+  const pnpbs_mesh mesh = mesh_of(handle);
+  int32_t *s = room(nodes, sizeof *s), *r = room(entries, sizeof *r);
+  int64_t n = -1, all = -1, wrong = 0, *o = room(nodes, sizeof *o);
+  wrong += pnpbs_mesh_sharing_sizes(mesh, &n, &all) != PNPBS_OK || n != nodes || all != entries;
+  wrong += pnpbs_mesh_get_sharing(mesh, nodes, entries, s, o, r) != PNPBS_OK;
+  wrong += shifted_short(nodes, s, shared) + shifted(nodes + 1, o, offsets);
+  wrong += memcmp(r, ranks, (size_t)entries * sizeof *r) != 0;
+  free(s), free(r), free(o);
   return wrong;
 }
 

@@ -94,6 +94,43 @@ module twins
       integer(c_int64_t) :: twin_exchange
     end function
 
+    function twin_mesh_nodes(handle, n, xyz, numbers, ids, owners, tags) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      real(c_double), intent(in) :: xyz(*)
+      integer(c_int64_t), intent(in) :: numbers(*), ids(*)
+      integer(c_int32_t), intent(in) :: owners(*), tags(*)
+      integer(c_int64_t) :: twin_mesh_nodes
+    end function
+
+    function twin_mesh_elements(handle, n, nodes, numbers, owners, tags, at_corners) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      integer(c_int32_t), intent(in) :: nodes(*), owners(*), tags(*)
+      integer(c_int64_t), intent(in) :: numbers(*), at_corners(*)
+      integer(c_int64_t) :: twin_mesh_elements
+    end function
+
+    function twin_mesh_facets(handle, n, nodes, tags, elements, opposite, inner, owners) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      integer(c_int32_t), intent(in) :: nodes(*), tags(*), elements(*), opposite(*), owners(*)
+      integer(c_int8_t), intent(in) :: inner(*)
+      integer(c_int64_t) :: twin_mesh_facets
+    end function
+
+    function twin_mesh_sharing(handle, nodes, entries, shared, offsets, ranks) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, nodes, entries
+      integer(c_int32_t), intent(in) :: shared(*), ranks(*)
+      integer(c_int64_t), intent(in) :: offsets(*)
+      integer(c_int64_t) :: twin_mesh_sharing
+    end function
+
     function twin_segments(handle, n, segments, tags) bind(C)
       import
       implicit none
@@ -118,6 +155,7 @@ contains
     if (dim == 3) call compare_elements_in_space(placement)
     call compare_exchange(placement)
     call compare_assembly(placement)
+    call compare_mesh(placement)
   end subroutine
 
   subroutine compare_nodes(placement)
@@ -266,5 +304,82 @@ contains
     call placement%get_exchange(ranks, send_offsets, send_nodes, receive_offsets, receive_nodes)
     call expect(twin_exchange(placement%handle(), neighbours, ranks, send_offsets, send_nodes, &
                               receive_offsets, receive_nodes) == 0, 'exchange as in C')
+  end subroutine
+
+  subroutine compare_mesh(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    type(pnpbs_mesh) :: mesh
+    integer(c_int32_t) :: layers
+    integer(c_int64_t) :: count, begin, owned, here, first, numbered
+    call placement%count(count)
+    call placement%get_numbering(begin)
+    do layers = 0, 1
+      call mesh%create(placement, layers)
+      call mesh%sizes(owned_nodes=owned, nodes=here)
+      call mesh%numbering(first, numbered)
+      call expect(owned == count .and. first == begin, 'a mesh has the nodes of the placement')
+      call expect(here >= owned .and. first + owned <= numbered, 'nodes of a mesh')
+      call compare_mesh_nodes(mesh)
+      call compare_mesh_elements(mesh)
+      call compare_mesh_facets(mesh)
+      call compare_mesh_sharing(mesh)
+      call mesh%destroy
+    end do
+  end subroutine
+
+  subroutine compare_mesh_nodes(mesh)
+    type(pnpbs_mesh), intent(in) :: mesh
+    real(c_double), allocatable :: xyz(:,:)
+    integer(c_int64_t), allocatable :: numbers(:), ids(:)
+    integer(c_int32_t), allocatable :: owners(:), tags(:)
+    integer(c_int64_t) :: n
+    integer(c_int32_t) :: dim
+    call mesh%sizes(dim, nodes=n)
+    allocate (xyz(dim, n), numbers(n), ids(n), owners(n), tags(n))
+    call mesh%get_nodes(xyz, numbers, ids, owners, tags)
+    call expect(twin_mesh_nodes(mesh%handle(), n, xyz, numbers, ids, owners, tags) == 0, &
+                'nodes of a mesh as in C')
+  end subroutine
+
+  subroutine compare_mesh_elements(mesh)
+    type(pnpbs_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable :: nodes(:,:), owners(:), tags(:), short(:,:)
+    integer(c_int64_t), allocatable :: numbers(:), long(:,:)
+    integer(c_int64_t) :: n
+    integer(c_int32_t) :: corners
+    call mesh%sizes(corners=corners, elements=n)
+    allocate (nodes(corners, n), numbers(n), owners(n), tags(n))
+    allocate (long(corners, n), short(corners, n))
+    call mesh%get_elements(nodes, numbers, owners, tags)
+    call mesh%get_connectivity(long)
+    call mesh%get_connectivity(short)
+    call expect(all(short == long), 'numbers at corners in four bytes')
+    call expect(twin_mesh_elements(mesh%handle(), n, nodes, numbers, owners, tags, long) == 0, &
+                'elements of a mesh as in C')
+  end subroutine
+
+  subroutine compare_mesh_facets(mesh)
+    type(pnpbs_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable :: nodes(:,:), tags(:), elements(:,:), opposite(:), owners(:)
+    integer(c_int8_t), allocatable :: inner(:)
+    integer(c_int64_t) :: n
+    integer(c_int32_t) :: corners
+    call mesh%sizes(corners=corners, facets=n)
+    allocate (nodes(corners - 1, n), tags(n), elements(2, n), opposite(n), inner(n), owners(n))
+    call mesh%get_facets(nodes, tags, elements, opposite, inner, owners)
+    call expect(twin_mesh_facets(mesh%handle(), n, nodes, tags, elements, opposite, inner, &
+                                 owners) == 0, 'facets as in C')
+  end subroutine
+
+  subroutine compare_mesh_sharing(mesh)
+    type(pnpbs_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable :: shared(:), ranks(:)
+    integer(c_int64_t), allocatable :: offsets(:)
+    integer(c_int64_t) :: nodes, entries
+    call mesh%sharing_sizes(nodes, entries)
+    allocate (shared(nodes), offsets(nodes + 1), ranks(entries))
+    call mesh%get_sharing(shared, offsets, ranks)
+    call expect(twin_mesh_sharing(mesh%handle(), nodes, entries, shared, offsets, ranks) == 0, &
+                'shared nodes as in C')
   end subroutine
 end module twins

@@ -13,6 +13,7 @@ import unittest
 
 import numpy as np
 import pnpbs
+from mesh_checks import check_mesh, measures
 from pnpbs import PNPBSError, Status, _levels
 
 DATA = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"]) / "examples" / "data"
@@ -354,6 +355,81 @@ class Domains(Case):
         self.assertAlmostEqual(domain.set_repair(0.02).measure(), 1 / 6, delta=1e-3)
         with self.assertRaisesRegex(ValueError, "corners"):
             domain.add_surface(corners, [(0, 1)])
+
+
+class Meshes(Case):
+    def placed(self, domain, d):
+        placement = pnpbs.Placement(domain, steps=20).set_spacing(d)
+        placement.run()
+        return placement
+
+    def test_in_the_plane(self):
+        domain = pnpbs.Domain(self.context).add_polyline(SQUARE)
+        domain.add_polyline([(0.3, 0.4), (0.7, 0.6)], role="inner", closed=False, tags=7)
+        placement = self.placed(domain, 0.1)
+        mesh = placement.mesh()
+        check_mesh(self, mesh, 0)
+        self.assertEqual(mesh.elements.shape[1], 3)
+        self.assertAlmostEqual(measures(mesh).sum(), 1, 12)
+        self.assertEqual((mesh.first_node, mesh.owned_nodes, mesh.all_nodes),
+                         (0, *[placement.node_count] * 2))
+        self.assertEqual((mesh.first_element, mesh.owned_elements, mesh.all_elements),
+                         (0, *[len(placement.triangles())] * 2))
+        nodes = placement.nodes()
+        at = [nodes.ids.tolist().index(i) for i in mesh.ids]
+        np.testing.assert_array_equal(mesh.coordinates, nodes.points[at])
+        np.testing.assert_array_equal(mesh.tags, nodes.tags[at])
+
+        edges, tags = placement.boundary_edges()
+        self.assertEqual({(*row, tag) for row, tag in zip(mesh.ids[mesh.facets].tolist(),
+                                                          mesh.facet_tags.tolist())},
+                         {(*row, tag) for row, tag in zip(nodes.ids[edges].tolist(), tags.tolist())})
+        self.assertIn(7, mesh.facet_tags)
+        np.testing.assert_array_equal(mesh.facet_inner, mesh.facet_tags == 7)
+        np.testing.assert_array_equal(mesh.facet_elements[:, 1] >= 0, mesh.facet_inner)
+        self.assertEqual((len(mesh.shared_nodes), len(mesh.sharing_ranks)), (0, 0))
+
+        more = placement.mesh(ghost_layers=16)  # there are no other ranks
+        np.testing.assert_array_equal(more.elements, mesh.elements)
+        self.assertIn(f"{mesh.all_nodes} nodes", repr(mesh))
+        with self.assertRaises(AttributeError):
+            mesh.dim = 3
+
+    def test_in_space(self):
+        domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (2, 1, 1), tag=5)
+        wall = [(1, 0.2, 0.2), (1, 0.8, 0.2), (1, 0.8, 0.8), (1, 0.2, 0.8)]
+        domain.add_surface(wall, [(0, 1, 2), (0, 2, 3)], role="inner", tags=6)
+        mesh = self.placed(domain, 0.25).mesh()
+        check_mesh(self, mesh, 0)
+        self.assertEqual(mesh.elements.shape[1], 4)
+        self.assertAlmostEqual(measures(mesh).sum(), 2, 12)
+        self.assertIn(6, mesh.facet_tags)
+        np.testing.assert_array_equal(mesh.facet_inner, mesh.facet_tags == 6)
+        # From outside they turn counter-clockwise, so together they enclose the box.
+        a, b, c = mesh.coordinates[mesh.facets[mesh.facet_tags == 5]].transpose(1, 0, 2)
+        self.assertAlmostEqual(np.einsum("ij,ij->", a, np.cross(b, c)) / 6, 2, 12)
+        first, second = mesh.facet_elements[mesh.facet_inner].T
+        self.assertTrue((first != second).all() and (second >= 0).all())
+
+    def test_on_surfaces_alone(self):
+        domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1), tag=5)
+        placement = self.placed(domain.set_filled(False), 0.3)
+        mesh = placement.mesh()
+        check_mesh(self, mesh, 0)
+        self.assertEqual((mesh.dim, mesh.elements.shape[1], mesh.facets.shape), (3, 3, (0, 2)))
+        self.assertEqual(set(mesh.element_tags), {5})
+        placement.close()
+        self.assertEqual(mesh.coordinates.shape, (mesh.all_nodes, 3))
+
+    def test_what_is_none(self):
+        placement = self.square()
+        self.assert_status(Status.ERROR_STATE, placement.mesh)
+        placement.set_spacing(0.3).initialise()
+        for layers in (-1, 17):
+            message = self.assert_status(Status.ERROR_ARGUMENT, placement.mesh, ghost_layers=layers)
+            self.assertIn(f"ghost_layers = {layers}", message)
+        placement.close()
+        self.assert_status(Status.ERROR_HANDLE, placement.mesh)
 
 
 class Handles(Case):

@@ -5,6 +5,7 @@ import sys
 import unittest
 
 import numpy as np
+from mesh_checks import check_mesh, measures
 from mpi4py import MPI
 import pnpbs
 from pnpbs import PNPBSError, Status
@@ -104,6 +105,43 @@ class Ranks(unittest.TestCase):
         np.testing.assert_array_equal(pairs, np.stack([sums, -sums], axis=1))
         with self.assertRaises((ValueError, PNPBSError)):
             self.placement.add_from_ghosts([1.0] if WORLD.rank == LAST else sums)
+
+    def test_meshes(self):
+        for placed in (placed_square, placed_box):
+            placement = placed(self.context)
+            with pnpbs.Context() as alone:
+                whole = placed(alone).mesh()
+            for layers in (0, 1, 2):
+                mesh = placement.mesh(layers)
+                check_mesh(self, mesh, WORLD.rank)
+                owned = measures(mesh)[:mesh.owned_elements]
+                self.assertAlmostEqual(WORLD.allreduce(owned.sum()), 1, 12)
+                # What is owned is each once over all ranks.
+                numbers = np.concatenate(WORLD.allgather(mesh.numbers[:mesh.owned_nodes]))
+                np.testing.assert_array_equal(numbers, np.arange(whole.all_nodes))
+                numbers = np.concatenate(WORLD.allgather(
+                    mesh.element_numbers[:mesh.owned_elements]))
+                np.testing.assert_array_equal(numbers, np.arange(whole.all_elements))
+                self.assertEqual((mesh.all_nodes, mesh.all_elements),
+                                 (whole.all_nodes, whole.all_elements))
+                self.assertEqual(mesh.first_node, placement.numbering().first)
+                self.assertEqual(WORLD.allreduce(np.sum(mesh.facet_owners == WORLD.rank)),
+                                 len(whole.facets))
+                at_own_nodes = (mesh.elements < mesh.owned_nodes).any(axis=1).sum()
+                if layers:  # all elements at the nodes of this rank
+                    self.assertEqual(at_own_nodes, len(placement.incident_elements()))
+                self.assertEqual(len(mesh.elements) > mesh.owned_elements,
+                                 layers > 0 and WORLD.size > 1)
+                shared = {other: [i for i, ranks in zip(mesh.ids[mesh.shared_nodes].tolist(),
+                                                        mesh.sharing_ranks) if other in ranks]
+                          for other in range(WORLD.size)}
+                for other, theirs in enumerate(WORLD.allgather(shared)):
+                    self.assertEqual(shared[other], theirs[WORLD.rank])
+            with self.assertRaisesRegex(PNPBSError, "ghost_layers = -1"):
+                placement.mesh(-1)
+            if WORLD.size > 1:
+                with self.assertRaisesRegex(PNPBSError, "all ranks must give the same"):
+                    placement.mesh(int(WORLD.rank == LAST))
 
     def test_sums_have_the_same_bits(self):
         own = self.placement.nodes()

@@ -64,6 +64,13 @@ def results(placement: pnpbs.Placement) -> None:
     field = pnpbs.Transfer(placement, points[:, 0], order=2)
     x: Doubles = field.at_nodes(placement, conserve=True)
     assert math.isclose(placement.sum(x), placement.sum(points[:, 0]), abs_tol=1e-9)
+    mesh: pnpbs.DistributedMesh = placement.mesh(ghost_layers=1)
+    corners: NDArray[np.int32] = mesh.elements[0]
+    connectivity: NDArray[np.int64] = mesh.connectivity
+    is_inner: NDArray[np.bool_] = mesh.facet_inner
+    sharing: pnpbs.CompressedRows[np.int32] = mesh.sharing_ranks
+    assert len(corners) == mesh.dim + 1 and len(connectivity) == mesh.all_elements
+    assert len(is_inner) == len(mesh.facets) and len(sharing) == 0
     everything: Dict[str, Any] = placement.statistics()
     warnings: List[str] = placement.warnings()
     assert everything["nodes"] == len(points) and not warnings
@@ -89,6 +96,7 @@ def mistakes(context: pnpbs.Context, domain: pnpbs.Domain, placement: pnpbs.Plac
     placement.run().message  # type: ignore[attr-defined]
     pnpbs.Placement(context)  # type: ignore[arg-type]
     number: str = placement.node_count  # type: ignore[assignment]
+    placement.mesh().dim = 3  # type: ignore[misc]
     pnpbs.Status.FINE  # type: ignore[attr-defined]
 
 

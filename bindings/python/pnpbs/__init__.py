@@ -22,6 +22,7 @@ from .context import Context
 from .domain import Domain, LeftOut, Outline
 from .errors import PNPBSError, Status
 from .fields import Transfer
+from .mesh import DistributedMesh
 from .placement import Estimate, Placement, PopulationChange
 from .results import EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering, Stars
 from .rows import CompressedRows
@@ -31,10 +32,10 @@ from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unf
                      shutdown, statistic_table)
 
 __all__ = [
-    "CompressedRows", "Context", "Domain", "EdgeBands", "Estimate", "ExchangePattern", "Facets",
-    "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "Nodes", "Numbering", "OptionRow", "Outline",
-    "PNPBSError", "Placement", "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars", "StatisticRow",
-    "Status", "Transfer", "build_info", "discard_unfinished_files", "file_dimension", "format_table",
-    "geo_build_info", "library_path", "library_version", "mpi_library", "option_table", "shutdown",
-    "statistic_table",
+    "CompressedRows", "Context", "DistributedMesh", "Domain", "EdgeBands", "Estimate",
+    "ExchangePattern", "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "Nodes", "Numbering",
+    "OptionRow", "Outline", "PNPBSError", "Placement", "PopulationChange", "Projection",
+    "ShapeCounts", "Shapes", "Stars", "StatisticRow", "Status", "Transfer", "build_info",
+    "discard_unfinished_files", "file_dimension", "format_table", "geo_build_info", "library_path",
+    "library_version", "mpi_library", "option_table", "shutdown", "statistic_table",
 ]

@@ -200,6 +200,25 @@ pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement pl
     int32_t conserve, int64_t capacity, double *values);
 pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n,
     const double *coordinates, double *values);
+pnpbs_status pnpbs_mesh_create(pnpbs_placement placement, int32_t ghost_layers, pnpbs_mesh *mesh);
+pnpbs_status pnpbs_mesh_destroy(pnpbs_mesh *mesh);
+pnpbs_status pnpbs_mesh_sizes(pnpbs_mesh mesh, int32_t *dim, int32_t *corners,
+    int64_t *owned_nodes, int64_t *nodes, int64_t *owned_elements, int64_t *elements,
+    int64_t *facets);
+pnpbs_status pnpbs_mesh_numbering(pnpbs_mesh mesh, int64_t *first_node, int64_t *all_nodes,
+    int64_t *first_element, int64_t *all_elements);
+pnpbs_status pnpbs_mesh_get_nodes(pnpbs_mesh mesh, int64_t capacity, double *coordinates,
+    int64_t *numbers, int64_t *ids, int32_t *owners, int32_t *tags);
+pnpbs_status pnpbs_mesh_get_elements(pnpbs_mesh mesh, int64_t capacity, int32_t *nodes,
+    int64_t *numbers, int32_t *owners, int32_t *tags);
+pnpbs_status pnpbs_mesh_get_connectivity(pnpbs_mesh mesh, int64_t capacity, int64_t *numbers);
+pnpbs_status pnpbs_mesh_get_connectivity_int32(pnpbs_mesh mesh, int64_t capacity,
+    int32_t *numbers);
+pnpbs_status pnpbs_mesh_get_facets(pnpbs_mesh mesh, int64_t capacity, int32_t *nodes,
+    int32_t *tags, int32_t *elements, int32_t *opposite, int8_t *inner, int32_t *owners);
+pnpbs_status pnpbs_mesh_sharing_sizes(pnpbs_mesh mesh, int64_t *nodes, int64_t *entries);
+pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entries,
+    int32_t *shared, int64_t *offsets, int32_t *ranks);
 pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path, int32_t elements);
 pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const char *const *paths, const char *const *formats, const int32_t *elements);

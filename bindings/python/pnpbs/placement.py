@@ -18,6 +18,7 @@ from .context import _set_option
 from .domain import Domain
 from .errors import Status
 from .fields import Fields
+from .mesh import Meshes
 from .results import Results
 
 
@@ -36,7 +37,7 @@ def _keep_going(fraction: float, step: int, nodes: int, max_speed: float) -> boo
     return False
 
 
-class Placement(Results, Fields):
+class Placement(Results, Fields, Meshes):
     """A placement of nodes in a domain, on the domain's context. Keywords are options, as in `set`;
     the others are those of the context. Set a spacing (`set_spacing`), then `run`. Collective.
 

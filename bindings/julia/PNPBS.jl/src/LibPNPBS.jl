@@ -15,6 +15,7 @@ const pnpbs_context = Ptr{Cvoid}
 const pnpbs_domain = Ptr{Cvoid}
 const pnpbs_placement = Ptr{Cvoid}
 const pnpbs_transfer = Ptr{Cvoid}
+const pnpbs_mesh = Ptr{Cvoid}
 const pnpbs_curve_fn = Ptr{Cvoid}
 const pnpbs_level_set_fn = Ptr{Cvoid}
 const pnpbs_spacing_fn = Ptr{Cvoid}
@@ -539,6 +540,58 @@ pnpbs_transfer_at_points(transfer, n, coordinates, values) =
     @ccall $(symbol(:pnpbs_transfer_at_points))(
         transfer::pnpbs_transfer, n::Int64, coordinates::Ptr{Cdouble},
         values::Ptr{Cdouble})::pnpbs_status
+
+# ---------------------------------------------------------------- distributed mesh -----------
+pnpbs_mesh_create(placement, ghost_layers, mesh) =
+    @ccall $(symbol(:pnpbs_mesh_create))(
+        placement::pnpbs_placement, ghost_layers::Int32, mesh::Ptr{pnpbs_mesh})::pnpbs_status
+
+pnpbs_mesh_destroy(mesh) =
+    @ccall $(symbol(:pnpbs_mesh_destroy))(mesh::Ptr{pnpbs_mesh})::pnpbs_status
+
+pnpbs_mesh_sizes(mesh, dim, corners, owned_nodes, nodes, owned_elements, elements, facets) =
+    @ccall $(symbol(:pnpbs_mesh_sizes))(
+        mesh::pnpbs_mesh, dim::Ptr{Int32}, corners::Ptr{Int32}, owned_nodes::Ptr{Int64},
+        nodes::Ptr{Int64}, owned_elements::Ptr{Int64}, elements::Ptr{Int64},
+        facets::Ptr{Int64})::pnpbs_status
+
+pnpbs_mesh_numbering(mesh, first_node, all_nodes, first_element, all_elements) =
+    @ccall $(symbol(:pnpbs_mesh_numbering))(
+        mesh::pnpbs_mesh, first_node::Ptr{Int64}, all_nodes::Ptr{Int64},
+        first_element::Ptr{Int64}, all_elements::Ptr{Int64})::pnpbs_status
+
+pnpbs_mesh_get_nodes(mesh, capacity, coordinates, numbers, ids, owners, tags) =
+    @ccall $(symbol(:pnpbs_mesh_get_nodes))(
+        mesh::pnpbs_mesh, capacity::Int64, coordinates::Ptr{Cdouble}, numbers::Ptr{Int64},
+        ids::Ptr{Int64}, owners::Ptr{Int32}, tags::Ptr{Int32})::pnpbs_status
+
+pnpbs_mesh_get_elements(mesh, capacity, nodes, numbers, owners, tags) =
+    @ccall $(symbol(:pnpbs_mesh_get_elements))(
+        mesh::pnpbs_mesh, capacity::Int64, nodes::Ptr{Int32}, numbers::Ptr{Int64},
+        owners::Ptr{Int32}, tags::Ptr{Int32})::pnpbs_status
+
+pnpbs_mesh_get_connectivity(mesh, capacity, numbers) =
+    @ccall $(symbol(:pnpbs_mesh_get_connectivity))(
+        mesh::pnpbs_mesh, capacity::Int64, numbers::Ptr{Int64})::pnpbs_status
+
+pnpbs_mesh_get_connectivity_int32(mesh, capacity, numbers) =
+    @ccall $(symbol(:pnpbs_mesh_get_connectivity_int32))(
+        mesh::pnpbs_mesh, capacity::Int64, numbers::Ptr{Int32})::pnpbs_status
+
+pnpbs_mesh_get_facets(mesh, capacity, nodes, tags, elements, opposite, inner, owners) =
+    @ccall $(symbol(:pnpbs_mesh_get_facets))(
+        mesh::pnpbs_mesh, capacity::Int64, nodes::Ptr{Int32}, tags::Ptr{Int32},
+        elements::Ptr{Int32}, opposite::Ptr{Int32}, inner::Ptr{Int8},
+        owners::Ptr{Int32})::pnpbs_status
+
+pnpbs_mesh_sharing_sizes(mesh, nodes, entries) =
+    @ccall $(symbol(:pnpbs_mesh_sharing_sizes))(
+        mesh::pnpbs_mesh, nodes::Ptr{Int64}, entries::Ptr{Int64})::pnpbs_status
+
+pnpbs_mesh_get_sharing(mesh, nodes, entries, shared, offsets, ranks) =
+    @ccall $(symbol(:pnpbs_mesh_get_sharing))(
+        mesh::pnpbs_mesh, nodes::Int64, entries::Int64, shared::Ptr{Int32},
+        offsets::Ptr{Int64}, ranks::Ptr{Int32})::pnpbs_status
 
 # ---------------------------------------------------------------- files ----------------------
 pnpbs_placement_write(placement, path, elements) =

@@ -5,6 +5,7 @@ using SparseArrays
 using Test
 
 include("support.jl")
+include("mesh_checks.jl")
 include("open_mpi.jl")
 
 OpenMPI.init()
@@ -151,6 +152,48 @@ end
         @test vec(add_from_ghosts!(placement, view(ones(3, n + g), 2, :)))[(n + 1):end] == ones(g)
         e = thrown(() -> add_from_ghosts!(placement, zeros(n + g + (rank == 0))))
         @test e isa PNPBSError && e.status === :error_argument && occursin("argument n", e.message)
+    end
+    close(context)
+end
+
+# A rank's ids of the nodes that it shares with another one, by number.
+shared_with(mesh, other) =
+    mesh.ids[[node for (node, sharing) in zip(mesh.shared_nodes, mesh.sharing_ranks)
+              if other in sharing]]
+
+@testset "distributed meshes" begin
+    context = Context(world)
+    total(value) = OpenMPI.reduce_over_ranks(value, +, OpenMPI.world())
+    for placed in (placed_square, placed_box)
+        placement = placed(context)
+        alone = Context(context -> DistributedMesh(placed(context)))
+        for layers in 0:2
+            mesh = DistributedMesh(placement; ghost_layers = layers)
+            check_mesh(mesh, rank)
+            @test total(sum(measures(mesh)[1:mesh.owned_elements])) ≈ 1
+            # What is owned is each once over all ranks.
+            @test total(mesh.owned_nodes) == mesh.all_nodes == alone.all_nodes
+            @test total(mesh.owned_elements) == mesh.all_elements == alone.all_elements
+            @test total(count(==(rank), mesh.facet_owners)) == size(alone.facets, 2)
+            @test mesh.first_node == numbering(placement).first
+            numbers = collect(mesh.first_element .+ (0:(mesh.owned_elements - 1)))
+            @test total(sum(numbers)) == sum(0:(mesh.all_elements - 1))
+            # With a layer, all elements at the nodes of this rank.
+            elements_here = size(mesh.elements, 2)
+            at_nodes_here = count(corners -> any(corners .<= mesh.owned_nodes),
+                                  eachcol(mesh.elements))
+            layers == 0 && @test elements_here == mesh.owned_elements
+            layers > 0 && @test at_nodes_here == size(incident_elements(placement), 2)
+            layers > 0 && ranks > 1 && @test elements_here > mesh.owned_elements
+            for other in setdiff(0:(ranks - 1), rank)
+                ids = shared_with(mesh, other)
+                @test OpenMPI.exchange(ids, other, length(ids)) == ids
+            end
+        end
+        @test fails(() -> DistributedMesh(placement; ghost_layers = -1), :error_argument,
+                    "ghost_layers = -1")
+        e = thrown(() -> DistributedMesh(placement; ghost_layers = rank == 0))
+        @test ranks == 1 || e isa PNPBSError && occursin("all ranks must give the same", e.message)
     end
     close(context)
 end

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Distributed meshes of one rank.
+include("mesh_checks.jl")
+
+placed_with(domain, d) = (p = set_spacing!(Placement(domain; steps = 20), d); run!(p); p)
+
+@testset "a distributed mesh in the plane" begin
+    Context() do context
+        domain = add_polyline!(square_domain(context), [0.3 0.7; 0.4 0.6]; role = :inner,
+                               closed = false, tags = 7)
+        placement = placed_with(domain, 0.1)
+        mesh = DistributedMesh(placement)
+        check_mesh(mesh, 0)
+        @test size(mesh.elements, 1) == 3 && sum(measures(mesh)) ≈ 1
+        @test mesh.owned_nodes == mesh.all_nodes == node_count(placement)
+        @test mesh.owned_elements == mesh.all_elements == size(triangles(placement), 2)
+        @test mesh.first_node == mesh.first_element == 0
+        placed = nodes(placement)
+        at = [findfirst(==(id), placed.ids) for id in mesh.ids]
+        @test mesh.coordinates == placed.points[:, at] && mesh.tags == placed.tags[at]
+
+        edges, tags = boundary_edges(placement)
+        pairs(ids, edges, tags) = Set(zip(eachcol(ids[edges]), tags))
+        @test pairs(mesh.ids, mesh.facets, mesh.facet_tags) == pairs(placed.ids, edges, tags)
+        @test mesh.facet_inner == (mesh.facet_tags .== 7) && any(mesh.facet_inner)
+        @test (mesh.facet_elements[2, :] .> 0) == mesh.facet_inner
+        @test isempty(mesh.shared_nodes) && isempty(mesh.sharing_ranks)
+        @test all(mesh.element_tags .== 0) && all(mesh.facet_owners .== 0)
+
+        # Nothing to close, and no other ranks.
+        @test length(context.children) == 2
+        more = DistributedMesh(placement; ghost_layers = 16)
+        @test more.elements == mesh.elements && more.ids == mesh.ids
+        @test occursin("$(mesh.all_nodes) nodes", string(mesh))
+    end
+end
+
+@testset "a distributed mesh in space" begin
+    Context() do context
+        box = add_box!(Domain(context; dim = 3), (0, 0, 0), (2, 1, 1); tag = 5)
+        add_surface!(box, [1 1 1 1; 0.2 0.8 0.8 0.2; 0.2 0.2 0.8 0.8], [1 1; 2 3; 3 4];
+                     role = :inner, tags = 6)
+        mesh = DistributedMesh(placed_with(box, 0.25))
+        check_mesh(mesh, 0)
+        @test size(mesh.elements, 1) == 4 && sum(measures(mesh)) ≈ 2
+        @test mesh.facet_inner == (mesh.facet_tags .== 6) && any(mesh.facet_inner)
+        # From outside they turn counter-clockwise, so together they enclose the box.
+        x = mesh.coordinates
+        enclosed(facets) = sum(measure_of((x[:, k] for k in facet)...) for facet in eachcol(facets))
+        @test enclosed(mesh.facets[:, mesh.facet_tags .== 5]) ≈ 2
+        inner = mesh.facet_elements[:, mesh.facet_inner]
+        @test all(inner .> 0) && all(inner[1, :] .!= inner[2, :])
+    end
+end
+
+@testset "a distributed mesh on surfaces alone" begin
+    Context() do context
+        box = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1); tag = 5)
+        placement = placed_with(set_filled!(box, false), 0.3)
+        mesh = DistributedMesh(placement)
+        check_mesh(mesh, 0)
+        @test mesh.dim == 3 && size(mesh.elements, 1) == 3
+        @test all(mesh.element_tags .== 5) && size(mesh.facets) == (2, 0)
+        close(placement)
+        @test size(mesh.coordinates) == (3, mesh.all_nodes)
+    end
+end
+
+@testset "what is no distributed mesh" begin
+    Context() do context
+        placement = Placement(square_domain(context))
+        @test fails(() -> DistributedMesh(placement), :error_state, "no nodes")
+        initialise!(set_spacing!(placement, 0.3))
+        @test fails(() -> DistributedMesh(placement; ghost_layers = -1), :error_argument,
+                    "ghost_layers = -1", "0 .. 16")
+        @test fails(() -> DistributedMesh(placement; ghost_layers = 17), :error_argument, "17")
+        close(placement)
+        @test fails(() -> DistributedMesh(placement), :error_handle, "Placement")
+    end
+end

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Distributed meshes: a rank's part in plain arrays, of which nothing must be closed."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import List
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._interface import library
+from ._types import Doubles, Ids, Int32s
+from .context import Context
+from .placement_handle import PlacementHandle
+from .rows import CompressedRows
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DistributedMesh:
+    """A rank's part of a distributed mesh, made by `placement.mesh`. Local indices count from 0:
+    first what this rank owns, then the ghosts. Numbers count from 0 over all ranks, contiguously by
+    rank, as in `placement.numbering`.
+
+    - `dim`: coordinates of a node, 2 or 3.
+    - `owned_nodes`, `owned_elements`: how many this rank owns.
+    - `first_node`, `first_element`: its node i has the number `first_node + i`; elements likewise.
+    - `all_nodes`, `all_elements`: how many there are over all ranks, each counted once.
+    - `coordinates`: of the nodes here, (nodes, dim).
+    - `numbers`, `ids`, `owners`, `tags`: of each node; tags as in `placement.nodes`.
+    - `elements`: local indices of their corners, (elements, 3) or (elements, 4).
+    - `element_numbers`, `element_owners`, `element_tags`: of each element; the tag is that of the
+      surface on surfaces alone, and 0 elsewhere.
+    - `connectivity`: numbers of the nodes at the corners, of the same shape as `elements`.
+    - `facets`: local indices of the nodes of facets of these elements, (facets, 2) or (facets, 3):
+      edges of triangles in the plane that are parts of the boundary or of inner curves, in the
+      direction of the curve; triangles of tetrahedra that are parts of the boundary or of inner
+      surfaces, counter-clockwise as seen from outside, or turning as the inner surface does; on
+      surfaces alone the edges of only one triangle. Each comes once on a rank.
+    - `facet_tags`: of the curve or surface; on surfaces alone, of the surface.
+    - `facet_elements`: local indices of the elements at it, (facets, 2); the second is -1 if there
+      is none, or if it is not on this rank.
+    - `facet_opposite`: the corner of the first of them, from 0, that is none of the facet's.
+    - `facet_inner`: whether there are elements on both sides, on whichever ranks.
+    - `facet_owners`: the rank it belongs to, the owner of its element with the lowest number.
+    - `shared_nodes`: local indices of the nodes that this rank shares, by number. A node is shared
+      by its owner and the ranks that own an element at it.
+    - `sharing_ranks`: rows of the other ranks that share each of `shared_nodes`."""
+
+    dim: int
+    owned_nodes: int
+    first_node: int
+    all_nodes: int
+    owned_elements: int
+    first_element: int
+    all_elements: int
+    coordinates: Doubles
+    numbers: Ids
+    ids: Ids
+    owners: Int32s
+    tags: Int32s
+    elements: Int32s
+    element_numbers: Ids
+    element_owners: Int32s
+    element_tags: Int32s
+    connectivity: Ids
+    facets: Int32s
+    facet_tags: Int32s
+    facet_elements: Int32s
+    facet_opposite: Int32s
+    facet_inner: NDArray[np.bool_]
+    facet_owners: Int32s
+    shared_nodes: Int32s
+    sharing_ranks: CompressedRows[np.int32]
+
+    def __repr__(self) -> str:
+        return (f"<pnpbs.DistributedMesh, {len(self.ids)} nodes, {len(self.elements)} elements, "
+                f"{len(self.facets)} facets here>")
+
+    @classmethod
+    def _copied(cls, context: Context, handle: ctypes.c_void_p) -> DistributedMesh:
+        """Copies all of a mesh of the library."""
+        check = context._check
+        dim, corners = ctypes.c_int32(), ctypes.c_int32()
+        owned_nodes, nodes, owned_elements, elements, facets = sizes = _int64s(5)
+        check(library().pnpbs_mesh_sizes(handle, ctypes.byref(dim), ctypes.byref(corners),
+                                         *map(ctypes.byref, sizes)))
+        first_node, all_nodes, first_element, all_elements = numbering = _int64s(4)
+        check(library().pnpbs_mesh_numbering(handle, *map(ctypes.byref, numbering)))
+        shared, entries = sharing = _int64s(2)
+        check(library().pnpbs_mesh_sharing_sizes(handle, *map(ctypes.byref, sharing)))
+        n, m, f, k = nodes.value, elements.value, facets.value, corners.value
+        inner = np.zeros(f, np.int8)
+        mesh = cls(
+            dim.value, owned_nodes.value, first_node.value, all_nodes.value, owned_elements.value,
+            first_element.value, all_elements.value, coordinates=np.zeros((n, dim.value)),
+            numbers=np.zeros(n, np.int64), ids=np.zeros(n, np.int64), owners=np.zeros(n, np.int32),
+            tags=np.zeros(n, np.int32), elements=np.zeros((m, k), np.int32),
+            element_numbers=np.zeros(m, np.int64), element_owners=np.zeros(m, np.int32),
+            element_tags=np.zeros(m, np.int32), connectivity=np.zeros((m, k), np.int64),
+            facets=np.zeros((f, k - 1), np.int32), facet_tags=np.zeros(f, np.int32),
+            facet_elements=np.zeros((f, 2), np.int32), facet_opposite=np.zeros(f, np.int32),
+            facet_inner=inner.view(np.bool_), facet_owners=np.zeros(f, np.int32),
+            shared_nodes=np.zeros(shared.value, np.int32), sharing_ranks=CompressedRows(
+                np.zeros(shared.value + 1, np.int64), np.zeros(entries.value, np.int32)))
+        check(library().pnpbs_mesh_get_nodes(handle, n, mesh.coordinates, mesh.numbers, mesh.ids,
+                                             mesh.owners, mesh.tags))
+        check(library().pnpbs_mesh_get_elements(handle, m, mesh.elements, mesh.element_numbers,
+                                                mesh.element_owners, mesh.element_tags))
+        check(library().pnpbs_mesh_get_connectivity(handle, m, mesh.connectivity))
+        check(library().pnpbs_mesh_get_facets(handle, f, mesh.facets, mesh.facet_tags,
+                                              mesh.facet_elements, mesh.facet_opposite, inner,
+                                              mesh.facet_owners))
+        check(library().pnpbs_mesh_get_sharing(
+            handle, shared.value, entries.value, mesh.shared_nodes, mesh.sharing_ranks.offsets,
+            mesh.sharing_ranks.values))
+        return mesh
+
+
+def _int64s(n: int) -> List[ctypes.c_int64]:
+    return [ctypes.c_int64() for _ in range(n)]
+
+
+class Meshes(PlacementHandle):
+    """The part of `Placement` that makes distributed meshes."""
+
+    def mesh(self, ghost_layers: int = 0) -> DistributedMesh:
+        """Makes a distributed mesh of the current nodes: on each rank the nodes, elements and
+        facets that it owns, and layers of ghost elements with their nodes, in the arrays of a
+        `DistributedMesh`. No rank holds more than its part. Elements are triangles in the plane,
+        tetrahedra in space, and triangles on surfaces alone, all with positive orientation (on
+        surfaces alone counter-clockwise as seen from the side that the normal points to). A node
+        belongs to the rank that owns it in the placement, and an element to the owner of its node
+        with the lowest id. The mesh is a copy: nodes may move afterwards, and the placement may be
+        closed.
+
+        With `ghost_layers=0` this rank has only the elements that it owns. With 1 it also has those
+        of other ranks that have a node in common with these, or with the nodes that it owns, so all
+        elements at its nodes. Each further layer, up to 16, adds the elements that have a node in
+        common with the layer before. All ranks give the same number. Collective."""
+        handle = ctypes.c_void_p()
+        self.context._check(library().pnpbs_mesh_create(self._live(), ghost_layers,
+                                                        ctypes.byref(handle)))
+        try:
+            return DistributedMesh._copied(self.context, handle)
+        finally:
+            self.context._check(library().pnpbs_mesh_destroy(ctypes.byref(handle)))

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All elements at the nodes that a rank owns, whoever owns these elements.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh_records.hpp"
+#include "mesh/rank_ranges.hpp"
+
+namespace pnpbs {
+
+template <std::size_t Corners>
+class ElementsAtNodes {
+ public:
+  using Element = MeshElement<Corners>;
+
+  // own: the elements of this rank, which tells the owners of their corners. Collective.
+  ElementsAtNodes(const Communicator& comm, const RankRanges& nodes, std::vector<Element> own)
+      : nodes_(nodes), elements_(std::move(own)), owned_(elements_.size()) {
+    gather(comm);
+    sort_by_node();
+  }
+
+  std::span<const Element> own() const { return std::span(elements_).first(owned_); }
+  std::span<const Element> of_others() const { return std::span(elements_).subspan(owned_); }
+  // Calls visit(element) for those at an owned node.
+  template <class Visit>
+  void at(std::int64_t node, const Visit& visit) const {
+    const std::size_t k = static_cast<std::size_t>(node - nodes_.first());
+    for (std::int64_t e = offsets_[k]; e < offsets_[k + 1]; ++e)
+      visit(elements_[static_cast<std::size_t>(entries_[static_cast<std::size_t>(e)])]);
+  }
+
+ private:
+  void gather(const Communicator& comm) {
+    Outbox outgoing;
+    for (const Element& element : elements_) {
+      std::vector<int> ranks;
+      for (const std::int64_t corner : element.corners)
+        if (!nodes_.has(corner)) ranks.push_back(nodes_.owner(corner));
+      sort_and_keep_one(ranks, [](int rank) { return rank; });
+      for (const int rank : ranks) pack(outgoing.to(rank), element);
+    }
+    for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
+      for_records<Element>({message.bytes},
+                           [&](const Element& element) { elements_.push_back(element); });
+  }
+
+  // Compressed rows of elements by owned node.
+  void sort_by_node() {
+    const auto for_own_corners = [&](const auto& visit) {
+      for (std::size_t e = 0; e < elements_.size(); ++e)
+        for (const std::int64_t corner : elements_[e].corners)
+          if (nodes_.has(corner)) visit(e, static_cast<std::size_t>(corner - nodes_.first()));
+    };
+    offsets_.assign(static_cast<std::size_t>(nodes_.count()) + 1, 0);
+    for_own_corners([&](std::size_t, std::size_t node) { ++offsets_[node + 1]; });
+    for (std::size_t node = 1; node < offsets_.size(); ++node) offsets_[node] += offsets_[node - 1];
+    entries_.resize(static_cast<std::size_t>(offsets_.back()));
+    std::vector<std::int64_t> next = offsets_;
+    for_own_corners([&](std::size_t e, std::size_t node) {
+      entries_[static_cast<std::size_t>(next[node]++)] = static_cast<std::int64_t>(e);
+    });
+  }
+
+  const RankRanges& nodes_;
+  std::vector<Element> elements_;  // own ones first
+  std::size_t owned_;
+  std::vector<std::int64_t> offsets_, entries_;
+};
+
+}  // namespace pnpbs

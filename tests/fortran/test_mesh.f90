@@ -1,0 +1,368 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Distributed meshes of one process, in the plane, in space and on a surface: numbers, orientation
+!> through the local indices, facets, and wrong arguments. Over ranks: test_ranks.
+program test_mesh
+  use, intrinsic :: iso_c_binding
+  use pnpbs
+  use expectations
+  implicit none
+  real(c_double), parameter :: zero(3) = [0d0, 0d0, 0d0], one(3) = [1d0, 1d0, 1d0]
+  type(pnpbs_context) :: context
+  integer(c_int) :: stat
+  character(len=300) :: errmsg
+
+  call context%create_serial
+  call about_the_plane
+  call about_a_box
+  call about_a_surface
+  call about_wrong_arguments
+  call context%destroy
+  call finish
+
+contains
+
+  !> The unit square and a curve inside, of which edges have triangles on both sides.
+  subroutine about_the_plane
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    type(pnpbs_mesh) :: mesh
+    integer(c_int64_t) :: elements, facets
+    call square(context, domain, placement, 0.15d0)
+    call domain%add_polyline(PNPBS_INNER, .false., &
+                             reshape([0.3d0, 0.3d0, 0.7d0, 0.3d0, 0.7d0, 0.6d0], [2, 3]), [8, 8])
+    call placement%set('steps', 20)
+    call placement%run
+    call placement%triangle_count(elements)
+    call placement%boundary_edge_count(facets)
+    call mesh%create(placement)
+    call look_at(placement, mesh, 2, 3, elements, facets)
+    call placement%destroy
+    call domain%destroy
+    call look_at_elements(mesh, 1d0, 0)
+    call look_at_facets(mesh, 1d0, inner_tag=8)
+    call mesh%destroy
+  end subroutine
+
+  !> A box, and a wall inside.
+  subroutine about_a_box
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    type(pnpbs_mesh) :: mesh
+    integer(c_int64_t) :: elements, facets
+    real(c_double) :: wall(3, 4)
+    wall = reshape([0.2d0, 0.2d0, 0.5d0, 0.8d0, 0.2d0, 0.5d0, 0.8d0, 0.8d0, 0.5d0, &
+                    0.2d0, 0.8d0, 0.5d0], [3, 4])
+    call domain%create(context, 3)
+    call domain%add_box(zero, one, 5)
+    call placement%create(context, domain)
+    call placement%set('steps', 20)
+    call placement%set_spacing_constant(0.3d0)
+    call placement%run
+    call placement%tetrahedron_count(elements)
+    call placement%boundary_triangle_count(facets)
+    call mesh%create(placement, 1)
+    call look_at(placement, mesh, 3, 4, elements, facets)
+    call look_at_elements(mesh, 1d0, 0)
+    call look_at_facets(mesh, 1d0)
+    call mesh%destroy
+    call placement%destroy
+
+    call domain%add_surface(PNPBS_INNER, wall, &
+                            reshape(int([1, 2, 3, 1, 3, 4], c_int64_t), [3, 2]), [9, 9])
+    call placement%create(context, domain)
+    call placement%set('steps', 20)
+    call placement%set_spacing_constant(0.25d0)
+    call placement%run
+    call mesh%create(placement, 0)
+    call placement%destroy
+    call domain%destroy
+    call look_at_elements(mesh, 1d0, 0)
+    call look_at_facets(mesh, 1d0, inner_tag=9)
+    call mesh%destroy
+  end subroutine
+
+  !> The surface of a box alone, which has no border, and half of it, which has one.
+  subroutine about_a_surface
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    type(pnpbs_mesh) :: mesh
+    integer(c_int64_t) :: elements, facets
+    integer(c_int32_t), allocatable :: two(:,:)
+    call domain%create(context, 3)
+    call domain%add_box(zero, one, 5)
+    call domain%set_filled(.false.)
+    call placement%create(context, domain)
+    call placement%set('steps', 20)
+    call placement%set_spacing_constant(0.3d0)
+    call placement%run
+    call placement%boundary_triangle_count(elements)
+    call mesh%create(placement)
+    call look_at(placement, mesh, 3, 3, elements, 0_c_int64_t)
+    call look_at_elements(mesh, 6d0, 5)
+    call mesh%destroy
+    call placement%destroy
+    call domain%destroy
+
+    call domain%create(context, 3)
+    call domain%add_surface(PNPBS_BOUNDARY, reshape([zero, 1d0, 0d0, 0d0, 0d0, 1d0, 0d0], [3, 3]), &
+                            reshape(int([1, 2, 3], c_int64_t), [3, 1]), [6])
+    call domain%set_filled(.false.)
+    call placement%create(context, domain)
+    call placement%set('steps', 20)
+    call placement%set_spacing_constant(0.3d0)
+    call placement%run
+    call mesh%create(placement)
+    call placement%destroy
+    call domain%destroy
+    call look_at_elements(mesh, 0.5d0, 6)
+    call mesh%sizes(facets=facets)
+    allocate (two(2, facets))
+    call mesh%get_facets(elements=two)
+    call expect(facets > 5 .and. all(two(1, :) > 0) .and. all(two(2, :) == 0), 'a border')
+    call mesh%destroy
+  end subroutine
+
+  !> Sizes, numbers and nodes, which are those of the placement.
+  subroutine look_at(placement, mesh, dim, corners, elements, facets)
+    type(pnpbs_placement), intent(in) :: placement
+    type(pnpbs_mesh), intent(in) :: mesh
+    integer, intent(in) :: dim, corners
+    integer(c_int64_t), intent(in) :: elements, facets
+    type(pnpbs_mesh) :: same
+    integer(c_int32_t) :: found(2)
+    integer(c_int64_t) :: owned(2), here(2), sides, first(2), all(2), count, i, k
+    real(c_double), allocatable :: x(:,:), y(:,:)
+    integer(c_int64_t), allocatable :: numbers(:), ids(:), placed_ids(:)
+    integer(c_int32_t), allocatable :: owners(:), tags(:), placed_tags(:)
+    integer(c_int32_t) :: shared(0), ranks(0)
+    integer(c_int64_t) :: offsets(1)
+    logical :: agree
+    call placement%count(count)
+    call mesh%sizes(found(1), found(2), owned(1), here(1), owned(2), here(2), sides)
+    call expect(found(1) == dim .and. found(2) == corners, 'dimension and corners')
+    call expect(owned(1) == count .and. here(1) == count, 'nodes of one rank')
+    call expect(owned(2) == elements .and. here(2) == elements, 'elements of one rank')
+    call expect(sides == facets, 'facets of one rank')
+    call mesh%numbering(first(1), all(1), first(2), all(2))
+    call expect(first(1) == 0 .and. first(2) == 0, 'the first numbers')
+    call expect(all(1) == count .and. all(2) == elements, 'how many there are')
+
+    allocate (x(dim, count), y(dim, count), numbers(count), ids(count), placed_ids(count))
+    allocate (owners(count), tags(count), placed_tags(count))
+    call placement%get_nodes(y, placed_ids, placed_tags)
+    call same%from_handle(mesh%handle())
+    call same%get_nodes(x, numbers, ids, owners, tags)
+    agree = .true.
+    do i = 1, count
+      agree = agree .and. numbers(i) == i - 1 .and. owners(i) == 0
+      if (i > 1) agree = agree .and. ids(i) > ids(i - 1)
+      do k = 1, count
+        if (placed_ids(k) == ids(i)) exit
+      end do
+      if (k > count) then
+        agree = .false.
+        exit
+      end if
+      agree = agree .and. maxval(abs(x(:, i) - y(:, k))) == 0 .and. tags(i) == placed_tags(k)
+    end do
+    call expect(agree, 'nodes by id, numbered from 0')
+
+    call mesh%sharing_sizes(owned(1), owned(2))
+    call expect(owned(1) == 0 .and. owned(2) == 0, 'one rank shares nothing')
+    call mesh%get_sharing(shared, offsets, ranks)
+    call expect(offsets(1) == 1, 'offsets of nothing')
+  end subroutine
+
+  !> They turn rightly and fill a measure; numbers at their corners are those of the local indices.
+  subroutine look_at_elements(mesh, measure, tag)
+    type(pnpbs_mesh), intent(in) :: mesh
+    real(c_double), intent(in) :: measure
+    integer, intent(in) :: tag
+    integer(c_int32_t) :: dim, corners
+    integer(c_int64_t) :: nodes, elements, e
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int32_t), allocatable :: at(:,:), owners(:), tags(:), short(:,:)
+    integer(c_int64_t), allocatable :: numbers(:), of_nodes(:), long(:,:)
+    real(c_double) :: least, filled, one_of_them
+    logical :: agree
+    call mesh%sizes(dim, corners, nodes=nodes, elements=elements)
+    allocate (x(dim, nodes), of_nodes(nodes), at(corners, elements + 1), numbers(elements))
+    allocate (owners(elements), tags(elements), short(corners, elements), long(corners, elements))
+    call mesh%get_nodes(x, of_nodes)
+    at = -7
+    call mesh%get_elements(at)
+    call mesh%get_elements(numbers=numbers, owners=owners, tags=tags)
+    call expect(all(at(:, elements + 1) == -7), 'room that is not needed')
+    call expect(all(numbers == [(e - 1, e = 1, elements)]), 'elements numbered from 0')
+    call expect(all(owners == 0) .and. all(tags == tag), 'owners and tags of elements')
+    call expect(minval(at(:, :elements)) == 1 .and. maxval(at) == nodes, 'indices from 1')
+    call mesh%get_connectivity(long)
+    call mesh%get_connectivity(short)
+    agree = .true.
+    filled = 0
+    least = 1
+    do e = 1, elements
+      agree = agree .and. all(long(:, e) == of_nodes(at(:, e))) .and. all(long(:, e) == short(:, e))
+      one_of_them = measure_of(x(:, at(:, e)))
+      least = min(least, one_of_them)
+      filled = filled + one_of_them
+    end do
+    call expect(agree, 'numbers at corners, in eight and four bytes')
+    call expect(least > 0, 'elements turn rightly')
+    call expect(abs(filled - measure) < 1d-12, 'elements fill the domain')
+  end subroutine
+
+  !> Facets are at their elements, and those of the boundary enclose a measure. inner_tag: of what
+  !> is inside, if anything is.
+  subroutine look_at_facets(mesh, measure, inner_tag)
+    type(pnpbs_mesh), intent(in) :: mesh
+    real(c_double), intent(in) :: measure
+    integer, intent(in), optional :: inner_tag
+    integer(c_int32_t) :: dim, corners
+    integer(c_int64_t) :: nodes, elements, facets, f
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int32_t), allocatable :: at(:,:), of(:,:), tags(:), sides(:,:), opposite(:), owners(:)
+    integer(c_int8_t), allocatable :: flags(:)
+    logical, allocatable :: inner(:)
+    real(c_double) :: enclosed
+    logical :: agree(4)
+    integer :: tag
+    tag = -1
+    if (present(inner_tag)) tag = inner_tag
+    call mesh%sizes(dim, corners, nodes=nodes, elements=elements, facets=facets)
+    allocate (x(dim, nodes), of(corners, elements), at(corners - 1, facets), tags(facets))
+    allocate (sides(2, facets), opposite(facets), owners(facets), flags(facets), inner(facets))
+    call mesh%get_nodes(x)
+    call mesh%get_elements(of)
+    call mesh%get_facets(at, tags, sides, opposite, inner, owners)
+    call mesh%get_facets(inner=flags)
+    call expect(all(inner .eqv. flags /= 0), 'inner facets as logicals')
+    call expect(any(inner) .eqv. present(inner_tag), 'are there inner facets?')
+    call expect(all(owners == 0), 'owners of facets')
+    agree = .true.
+    enclosed = 0
+    do f = 1, facets
+      associate (first => of(:, sides(1, f)))
+        ! All corners of the element but one are the facet's.
+        agree(1) = agree(1) .and. lies_at(at(:, f), first)
+        agree(2) = agree(2) .and. .not. any(at(:, f) == first(opposite(f)))
+      end associate
+      agree(3) = agree(3) .and. (inner(f) .eqv. sides(2, f) > 0) .and. sides(2, f) >= 0
+      agree(4) = agree(4) .and. (inner(f) .eqv. tags(f) == tag)
+      if (inner(f)) then
+        agree(1) = agree(1) .and. lies_at(at(:, f), of(:, sides(2, f)))
+      else
+        enclosed = enclosed + cone_of(x(:, at(:, f)))
+      end if
+    end do
+    call expect(agree(1), 'facets at their elements')
+    call expect(agree(2), 'the corner opposite to a facet')
+    call expect(agree(3), 'elements on both sides of inner facets alone')
+    call expect(agree(4), 'tags of facets')
+    call expect(abs(enclosed - measure) < 1d-12, 'facets turn rightly')
+  end subroutine
+
+  !> Are all corners of a facet corners of an element?
+  function lies_at(facet, element)
+    integer(c_int32_t), intent(in) :: facet(:), element(:)
+    logical :: lies_at
+    integer :: k
+    lies_at = all([(any(element == facet(k)), k = 1, size(facet))])
+  end function
+
+  !> Of a triangle in the plane or in space, where it has no sign, or a tetrahedron.
+  function measure_of(x) result(measure)
+    real(c_double), intent(in) :: x(:,:)
+    real(c_double) :: measure
+    if (size(x, 1) == 2) then
+      measure = (x(1, 2) - x(1, 1)) * (x(2, 3) - x(2, 1)) / 2 &
+        - (x(2, 2) - x(2, 1)) * (x(1, 3) - x(1, 1)) / 2
+    else if (size(x, 2) == 3) then
+      measure = sqrt(sum(product_of(x(:, 2) - x(:, 1), x(:, 3) - x(:, 1))**2)) / 2
+    else
+      measure = sum(product_of(x(:, 2) - x(:, 1), x(:, 3) - x(:, 1)) * (x(:, 4) - x(:, 1))) / 6
+    end if
+  end function
+
+  !> What a facet spans with the origin.
+  function cone_of(x) result(measure)
+    real(c_double), intent(in) :: x(:,:)
+    real(c_double) :: measure
+    if (size(x, 1) == 2) then
+      measure = (x(1, 1) * x(2, 2) - x(2, 1) * x(1, 2)) / 2
+    else
+      measure = sum(product_of(x(:, 1), x(:, 2)) * x(:, 3)) / 6
+    end if
+  end function
+
+  function product_of(a, b) result(c)
+    real(c_double), intent(in) :: a(3), b(3)
+    real(c_double) :: c(3)
+    c = [a(2) * b(3) - a(3) * b(2), a(3) * b(1) - a(1) * b(3), a(1) * b(2) - a(2) * b(1)]
+  end function
+
+  subroutine about_wrong_arguments
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    type(pnpbs_mesh) :: mesh
+    integer(c_int32_t), allocatable :: four(:,:)
+    integer(c_int64_t), allocatable :: long(:,:)
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int64_t) :: nodes, elements, facets, offsets(0), numbers(1)
+    integer(c_int32_t) :: shared(0), ranks(0), dim
+    logical :: inner(1)
+    call square(context, domain, placement, 0.3d0)
+    call mesh%create(placement, stat=stat)
+    call expect(stat == PNPBS_ERROR_STATE .and. mesh%handle() == 0, 'no mesh without nodes')
+    call placement%initialise
+    call mesh%create(placement, -1, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'ghost_layers = -1')
+    call mesh%create(placement, 17, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'ghost_layers = 17')
+    call expect(mesh%handle() == 0, 'no mesh after an error')
+    call mesh%destroy(stat)
+    call expect(stat == PNPBS_OK, 'destroying none')
+    call mesh%create(placement, 16)
+    call mesh%sizes(nodes=nodes, elements=elements, facets=facets)
+    allocate (x(3, nodes), four(4, elements), long(2, elements))
+    call mesh%get_nodes(x, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'has an extent of 3 where 2')
+    call mesh%get_nodes(x(:2, :), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has gaps in memory')
+    call mesh%get_nodes(numbers=numbers, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call mesh%get_nodes(stat=stat)
+    call expect(stat == PNPBS_OK, 'asking for nothing')
+    call mesh%get_elements(four, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'nodes has an extent of 4 where 3')
+    call mesh%get_elements(four(:3, :), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'nodes has gaps in memory')
+    call mesh%get_elements(numbers=numbers, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call mesh%get_connectivity(long, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'numbers has an extent of 2 where 3')
+    call mesh%get_connectivity(four(:3, 2:), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call mesh%get_facets(elements=four(:, :facets), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'elements has an extent of 4 where 2')
+    call mesh%get_facets(inner=inner, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call mesh%get_sharing(shared, offsets, ranks, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'offsets has room for 0; 1')
+
+    call placement%destroy
+    call domain%destroy
+    call mesh%sizes(dim)
+    call expect(dim == 2, 'a mesh outlives its placement')
+    call mesh%destroy
+    call mesh%sizes(dim, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_HANDLE, errmsg, 'mesh')
+    call expect(dim == 0, 'no sizes of a dead mesh')
+    call mesh%get_nodes(x, stat=stat)
+    call expect(stat == PNPBS_ERROR_HANDLE, 'a dead mesh, whatever the array')
+    call mesh%get_connectivity(long, stat)
+    call expect(stat == PNPBS_ERROR_HANDLE, 'a dead mesh, whatever the numbers')
+    call mesh%get_sharing(shared, offsets, ranks, stat)
+    call expect(stat == PNPBS_ERROR_HANDLE, 'a dead mesh, whatever is shared')
+  end subroutine
+end program test_mesh
