@@ -17,6 +17,10 @@ if grep -qiE 'pnpbs_mpi\.h|<mpi\.h>|mpif\.h|use +(, *intrinsic *:: *)?mpi' "$fol
   [ "$with_mpi" = 1 ] || nothing_to_test "$name is on MPI, and this build has none"
 fi
 
+if grep -q '<petsc' "$folder"/*.c 2> /dev/null && ! pkg-config --exists petsc; then
+  nothing_to_test "$name needs PETSc, and pkg-config knows none"
+fi
+
 # Fortran traps invalid numbers; free form is checked strictly, older code has its own flags.
 fortran_flags() {
   [ "$fc_id" = GNU ] || return 0

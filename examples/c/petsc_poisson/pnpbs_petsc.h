@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * A distributed mesh of PNPBS as PETSc's DMPlex. Nothing but this header is needed: put it beside
+ * your program. For PETSc 3.18 or later with real numbers in double precision. */
+#ifndef PNPBS_PETSC_H
+#define PNPBS_PETSC_H
+
+#include <petscdmplex.h>
+#include <petscsf.h>
+#include <pnpbs/pnpbs.h>
+
+/* Turns an error of PNPBS into one of PETSc. */
+#define PnpbsCall(call)                                                                \
+  do {                                                                                 \
+    const pnpbs_status pnpbs_status_of_call = (call);                                  \
+    PetscCheck(pnpbs_status_of_call >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "PNPBS: %s", \
+               pnpbs_status_string(pnpbs_status_of_call));                             \
+  } while (0)
+
+/* In PETSc's integers, which have 32 or 64 bits. */
+static inline pnpbs_status pnpbs_petsc_connectivity(pnpbs_mesh mesh, int64_t capacity,
+                                                    PetscInt *numbers) {
+#if defined(PETSC_USE_64BIT_INDICES)
+  return pnpbs_mesh_get_connectivity(mesh, capacity, (int64_t *)numbers);
+#else
+  return pnpbs_mesh_get_connectivity_int32(mesh, capacity, numbers);
+#endif
+}
+
+/* The point of the plex with these corners. numbers: of the node at each vertex, increasing. */
+static inline PetscErrorCode pnpbs_petsc_face(DM dm, PetscInt corners, const PetscInt nodes[],
+                                              PetscInt vertices, const PetscInt numbers[],
+                                              PetscInt *face) {
+  PetscInt points[3], first, found, k;
+  const PetscInt *join;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &first, NULL));
+  for (k = 0; k < corners; ++k) {
+    PetscCall(PetscFindInt(nodes[k], vertices, numbers, &points[k]));
+    points[k] += first;
+  }
+  PetscCall(DMPlexGetFullJoin(dm, corners, points, &found, &join));
+  PetscCheck(found == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+             "a facet of the mesh is no face of the plex");
+  *face = join[0];
+  PetscCall(DMPlexRestoreJoin(dm, corners, points, &found, &join));
+  PetscFunctionReturn(0);
+}
+
+/* Labels the faces of the elements that this rank owns. */
+static inline PetscErrorCode pnpbs_petsc_label_facets(pnpbs_mesh mesh, DM dm, PetscInt vertices,
+                                                      const PetscInt numbers[]) {
+  int32_t corners = 0, *nodes, *tags, *elements;
+  int64_t all_nodes = 0, owned = 0, facets = 0, *node_numbers, f;
+  int8_t *inner;
+
+  PetscFunctionBegin;
+  PnpbsCall(pnpbs_mesh_sizes(mesh, NULL, &corners, NULL, &all_nodes, &owned, NULL, &facets));
+  PetscCall(PetscMalloc5(all_nodes, &node_numbers, (corners - 1) * facets, &nodes, facets, &tags,
+                         2 * facets, &elements, facets, &inner));
+  PnpbsCall(pnpbs_mesh_get_nodes(mesh, all_nodes, NULL, node_numbers, NULL, NULL, NULL));
+  PnpbsCall(pnpbs_mesh_get_facets(mesh, facets, nodes, tags, elements, NULL, inner, NULL));
+  PetscCall(DMCreateLabel(dm, "Face Sets"));
+  PetscCall(DMCreateLabel(dm, "marker"));
+  for (f = 0; f < facets; ++f) {
+    const int32_t first = elements[2 * f], second = elements[2 * f + 1];
+    PetscInt corner_numbers[3], face = -1;
+    int32_t k;
+    if (first >= owned && (second < 0 || second >= owned)) continue; /* of ghost elements */
+    for (k = 0; k < corners - 1; ++k)
+      corner_numbers[k] = (PetscInt)node_numbers[nodes[(corners - 1) * f + k]];
+    PetscCall(pnpbs_petsc_face(dm, corners - 1, corner_numbers, vertices, numbers, &face));
+    PetscCall(DMSetLabelValue(dm, "Face Sets", face, tags[f]));
+    if (!inner[f]) PetscCall(DMSetLabelValue(dm, "marker", face, 1));
+  }
+  PetscCall(PetscFree5(node_numbers, nodes, tags, elements, inner));
+  PetscFunctionReturn(0);
+}
+
+/* The number of the node at each vertex of the plex, from the ranks that own the nodes. */
+static inline PetscErrorCode pnpbs_petsc_numbers(pnpbs_mesh mesh, PetscSF nodes,
+                                                 PetscInt numbers[]) {
+  int64_t first = 0, owned = 0, i;
+  PetscInt *own;
+
+  PetscFunctionBegin;
+  PnpbsCall(pnpbs_mesh_sizes(mesh, NULL, NULL, &owned, NULL, NULL, NULL, NULL));
+  PnpbsCall(pnpbs_mesh_numbering(mesh, &first, NULL, NULL, NULL));
+  PetscCall(PetscMalloc1(owned, &own));
+  for (i = 0; i < owned; ++i) own[i] = (PetscInt)(first + i);
+  PetscCall(PetscSFBcastBegin(nodes, MPIU_INT, own, numbers, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(nodes, MPIU_INT, own, numbers, MPI_REPLACE));
+  PetscCall(PetscFree(own));
+  PetscFunctionReturn(0);
+}
+
+/** Makes a plex whose cells on each rank are the elements that the rank owns: nothing is gathered,
+ *  read or partitioned. The faces in it are made, too. Labels: "Face Sets" has the tags of boundary
+ *  and inner facets, "marker" is 1 on the boundary, and on surfaces alone "Cell Sets" has the tags
+ *  of the cells. Collective.
+ *  @param[in] mesh    of any number of ghost layers; these are left out, and
+ *                     DMPlexDistributeOverlap makes PETSc's own
+ *  @param[in] comm    the communicator of the mesh's context
+ *  @param[out] dm     to be destroyed with DMDestroy
+ *  @param[out] nodes  between the nodes of the placement and the vertices of the plex: its roots
+ *                     are the nodes that this rank owns, in the order of pnpbs_placement_get_nodes,
+ *                     its leaves the vertices on this rank, in the plex's order. So PetscSFBcast
+ *                     brings a field of the placement to the vertices, and PetscSFReduce brings it
+ *                     back. To be destroyed with PetscSFDestroy; may be NULL */
+static inline PetscErrorCode pnpbs_petsc_plex(pnpbs_mesh mesh, MPI_Comm comm, DM *dm,
+                                              PetscSF *nodes) {
+  int32_t dim = 0, corners = 0, *tags;
+  int64_t owned_nodes = 0, local_nodes = 0, owned = 0, elements = 0, all_nodes = 0, e;
+  PetscInt *cells, *numbers, first, end;
+  PetscReal *x;
+  PetscSF sf;
+
+  PetscFunctionBegin;
+  PnpbsCall(
+      pnpbs_mesh_sizes(mesh, &dim, &corners, &owned_nodes, &local_nodes, &owned, &elements, NULL));
+  PnpbsCall(pnpbs_mesh_numbering(mesh, NULL, &all_nodes, NULL, NULL));
+  PetscCall(PetscMalloc3(corners * elements, &cells, dim * local_nodes, &x, elements, &tags));
+  PnpbsCall(pnpbs_petsc_connectivity(mesh, elements, cells));
+  PnpbsCall(pnpbs_mesh_get_nodes(mesh, local_nodes, x, NULL, NULL, NULL, NULL));
+  PnpbsCall(pnpbs_mesh_get_elements(mesh, elements, NULL, NULL, NULL, tags));
+  /* PETSc's tetrahedra turn the other way round. */
+  for (e = 0; corners == 4 && e < owned; ++e)
+    PetscCall(DMPlexInvertCell(DM_POLYTOPE_TETRAHEDRON, cells + 4 * e));
+  PetscCall(DMPlexCreateFromCellListParallelPetsc(
+      comm, corners - 1, (PetscInt)owned, (PetscInt)owned_nodes, (PetscInt)all_nodes, corners,
+      PETSC_TRUE, cells, dim, x, &sf, NULL, dm));
+  PetscCall(DMPlexGetDepthStratum(*dm, 0, &first, &end));
+  PetscCall(PetscMalloc1(end - first, &numbers));
+  PetscCall(pnpbs_petsc_numbers(mesh, sf, numbers));
+  PetscCall(pnpbs_petsc_label_facets(mesh, *dm, end - first, numbers));
+  for (e = 0; corners == dim && e < owned; ++e)
+    PetscCall(DMSetLabelValue(*dm, "Cell Sets", (PetscInt)e, tags[e]));
+  PetscCall(PetscFree(numbers));
+  PetscCall(PetscFree3(cells, x, tags));
+  if (nodes)
+    *nodes = sf;
+  else
+    PetscCall(PetscSFDestroy(&sf));
+  PetscFunctionReturn(0);
+}
+
+#endif
