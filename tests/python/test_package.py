@@ -421,6 +421,45 @@ class Meshes(Case):
         placement.close()
         self.assertEqual(mesh.coordinates.shape, (mesh.all_nodes, 3))
 
+    def test_for_other_packages_in_the_plane(self):
+        domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=4)
+        domain.add_polyline([(0.3, 0.4), (0.7, 0.6)], role="inner", closed=False, tags=7)
+        mesh = self.placed(domain, 0.1).mesh()
+        taken = mesh.to_meshio()
+        np.testing.assert_array_equal(taken.points, mesh.coordinates)
+        np.testing.assert_array_equal(taken.cells_dict["triangle"], mesh.elements)
+        np.testing.assert_array_equal(taken.cells_dict["line"], mesh.facets)
+        np.testing.assert_array_equal(taken.cell_data["tag"][1], mesh.facet_tags)
+        np.testing.assert_array_equal(taken.point_data["id"], mesh.ids)
+        grid, edges = mesh.to_pyvista(), mesh.to_pyvista(facets=True)
+        self.assertAlmostEqual(grid.area, 1, 12)
+        lengths = edges.compute_cell_sizes()["Length"]
+        self.assertAlmostEqual(lengths[edges["tag"] == 4].sum(), 4, 12)
+        self.assertAlmostEqual(lengths[edges["tag"] == 7].sum(), np.hypot(0.4, 0.2), 12)
+        there = mesh.to_skfem()
+        np.testing.assert_array_equal(np.sort(there.boundaries["tag_4"]), there.boundary_facets())
+        self.assertEqual(len(there.boundaries["tag_7"]), np.count_nonzero(mesh.facet_tags == 7))
+        ends = there.p[:, there.facets[:, there.boundaries["tag_7"]]]
+        np.testing.assert_allclose(ends[1] - 0.4, (ends[0] - 0.3) / 2, atol=1e-12)
+
+    def test_for_other_packages_in_space(self):
+        domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (2, 1, 1), tag=5)
+        mesh = self.placed(domain, 0.25).mesh()
+        self.assertAlmostEqual(mesh.to_pyvista().volume, 2, 12)
+        self.assertAlmostEqual(mesh.to_pyvista(facets=True).area, 10, 12)
+        self.assertEqual(set(mesh.to_meshio().cells_dict), {"tetra", "triangle"})
+        there = mesh.to_skfem()
+        self.assertEqual(there.t.shape, (4, mesh.owned_elements))
+        np.testing.assert_array_equal(np.sort(there.boundaries["tag_5"]), there.boundary_facets())
+
+    def test_for_other_packages_on_surfaces_alone(self):
+        domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1), tag=5)
+        mesh = self.placed(domain.set_filled(False), 0.3).mesh()
+        self.assertAlmostEqual(mesh.to_pyvista().area, 6, 12)
+        self.assertEqual(set(mesh.to_meshio().cells_dict), {"triangle"})
+        with self.assertRaisesRegex(ValueError, "surfaces in space"):
+            mesh.to_skfem()
+
     def test_what_is_none(self):
         placement = self.square()
         self.assert_status(Status.ERROR_STATE, placement.mesh)

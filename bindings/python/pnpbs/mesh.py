@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from ._interface import library
 from ._types import Doubles, Ids, Int32s
 from .context import Context
+from .mesh_conversions import MeshConversions
 from .placement_handle import PlacementHandle
 from .rows import CompressedRows
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DistributedMesh:
+class DistributedMesh(MeshConversions):
     """A rank's part of a distributed mesh, made by `placement.mesh`. Local indices count from 0:
     first what this rank owns, then the ghosts. Numbers count from 0 over all ranks, contiguously by
     rank, as in `placement.numbering`.
@@ -46,7 +47,9 @@ class DistributedMesh:
     - `facet_owners`: the rank it belongs to, the owner of its element with the lowest number.
     - `shared_nodes`: local indices of the nodes that this rank shares, by number. A node is shared
       by its owner and the ranks that own an element at it.
-    - `sharing_ranks`: rows of the other ranks that share each of `shared_nodes`."""
+    - `sharing_ranks`: rows of the other ranks that share each of `shared_nodes`.
+
+    `to_meshio`, `to_pyvista`, `to_skfem` and `to_dolfinx` hand it to other packages."""
 
     dim: int
     owned_nodes: int

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A distributed mesh as other packages take it. Each of them is imported only when it is asked
+for."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any, Tuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._types import Doubles, Ids, Int32s
+
+
+class MeshConversions:
+    """The part of `DistributedMesh` that hands it to other packages."""
+
+    dim: int
+    owned_nodes: int
+    all_nodes: int
+    owned_elements: int
+    coordinates: Doubles
+    numbers: Ids
+    ids: Ids
+    owners: Int32s
+    tags: Int32s
+    elements: Int32s
+    element_owners: Int32s
+    element_tags: Int32s
+    connectivity: Ids
+    facets: Int32s
+    facet_tags: Int32s
+    facet_owners: Int32s
+
+    def to_meshio(self) -> Any:
+        """Returns what this rank owns as a `meshio.Mesh`: elements as cells, and facets as cells of
+        one dimension less. Cells have the data `tag`, points `tag`, `id` and `number`. Nodes of
+        other ranks in these elements are among the points. Local."""
+        meshio = _package("meshio")
+        names = {2: "line", 3: "triangle", 4: "tetra"}
+        mine = self._owned_facets()
+        cells = [(names[self.elements.shape[1]], self.elements[:self.owned_elements])]
+        tags = [self.element_tags[:self.owned_elements]]
+        if mine.any():
+            cells.append((names[self.facets.shape[1]], self.facets[mine]))
+            tags.append(self.facet_tags[mine])
+        return meshio.Mesh(self.coordinates, cells, cell_data={"tag": tags},
+                           point_data={"tag": self.tags, "id": self.ids, "number": self.numbers})
+
+    def to_pyvista(self, facets: bool = False) -> Any:
+        """Returns what this rank owns as a `pyvista.UnstructuredGrid`, of its elements or of its
+        facets. Cells have the data `tag`, points `tag`, `id` and `number`. Nodes of other ranks in
+        these elements are among the points. Local."""
+        pyvista = _package("pyvista")
+        types = {2: pyvista.CellType.LINE, 3: pyvista.CellType.TRIANGLE, 4: pyvista.CellType.TETRA}
+        mine = self._owned_facets() if facets else slice(self.owned_elements)
+        cells = (self.facets if facets else self.elements)[mine]
+        points = np.zeros((len(self.coordinates), 3))
+        points[:, :self.dim] = self.coordinates
+        grid = pyvista.UnstructuredGrid({types[cells.shape[1]]: cells}, points)
+        grid.cell_data["tag"] = (self.facet_tags if facets else self.element_tags)[mine]
+        grid.point_data.update({"tag": self.tags, "id": self.ids, "number": self.numbers})
+        return grid
+
+    def to_skfem(self) -> Any:
+        """Returns the mesh as scikit-fem's `MeshTri` or `MeshTet`, with one of its boundaries for
+        each tag of facets: `tag_7` for 7. scikit-fem has no ranks, so all nodes must be on this
+        one. Local."""
+        skfem = _package("skfem")
+        if self.owned_nodes != self.all_nodes:
+            raise ValueError(f"this rank owns {self.owned_nodes} of {self.all_nodes} nodes; "
+                             "scikit-fem takes meshes that are on one rank")
+        if self.elements.shape[1] != self.dim + 1:
+            raise ValueError("this is a mesh of surfaces in space, which scikit-fem does not have")
+        kind = skfem.MeshTri if self.dim == 2 else skfem.MeshTet
+        mesh = kind(np.ascontiguousarray(self.coordinates.T),
+                    np.ascontiguousarray(self.elements.T.astype(np.int64)))
+        rows = _rows_of(np.sort(mesh.facets.T, axis=1), np.sort(self.facets, axis=1))
+        return mesh.with_boundaries({f"tag_{tag}": rows[self.facet_tags == tag]
+                                     for tag in np.unique(self.facet_tags)})
+
+    def to_dolfinx(self, comm: Any) -> Tuple[Any, Any]:
+        """Returns the mesh for DOLFINx, and the tags of its facets (boundary and inner ones) as
+        mesh tags. Each rank keeps the elements that it owns as cells, with those across their
+        facets as ghosts: DOLFINx partitions nothing. So on several ranks the mesh must have a ghost
+        layer, `placement.mesh(ghost_layers=1)`. `input_global_indices` of the geometry are the
+        numbers of the nodes, by which fields are brought over. `comm`: mpi4py's communicator of the
+        placement's context. Collective. Tried with DOLFINx 0.5.2."""
+        dolfinx = _package("dolfinx")
+        if comm.size > 1 and comm.allreduce(len(self.elements) - self.owned_elements) == 0:
+            raise ValueError("the mesh has no ghost layer, which DOLFINx needs on several ranks: "
+                             "placement.mesh(ghost_layers=1) has one")
+        destinations = dolfinx.cpp.graph.AdjacencyList_int32(*self._destinations(comm.rank))
+        cells = self.connectivity[:self.owned_elements]
+        mesh = dolfinx.mesh.create_mesh(
+            comm, dolfinx.cpp.graph.AdjacencyList_int64(cells),
+            self.coordinates[:self.owned_nodes], _linear_coordinates(self.dim, cells.shape[1]),
+            partitioner=lambda *_: destinations)
+        dim = mesh.topology.dim - 1
+        mine = self._owned_facets()
+        entities, values = dolfinx.cpp.io.distribute_entity_data(
+            mesh._mesh, dim, self.numbers[self.facets[mine]], self.facet_tags[mine])
+        mesh.topology.create_connectivity(dim, 0)
+        mesh.topology.create_connectivity(dim, dim + 1)
+        return mesh, dolfinx.mesh.meshtags_from_entities(
+            mesh, dim, dolfinx.cpp.graph.AdjacencyList_int32(entities), values)
+
+    def _destinations(self, rank: int) -> Tuple[Int32s, Int32s]:
+        """Which ranks have each owned element: this one, and the owners of those across its facets.
+        Compressed rows: ranks, offsets."""
+        here = np.arange(self.owned_elements)
+        element, other = self._across_facets()
+        owned = element < self.owned_elements
+        ranks = np.stack([element[owned], self.element_owners[other[owned]]], axis=1)
+        ranks = np.unique(ranks[ranks[:, 1] != rank], axis=0)
+        row = np.concatenate([here, ranks[:, 0]])
+        order = np.argsort(row, kind="stable")  # this rank comes first, as the owner
+        value = np.concatenate([np.full(len(here), rank), ranks[:, 1]])[order]
+        offsets = np.searchsorted(row[order], np.arange(self.owned_elements + 1))
+        return value.astype(np.int32), offsets.astype(np.int32)
+
+    def _across_facets(self) -> Tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Pairs of elements here with a facet in common, both ways."""
+        n, corners = self.elements.shape
+        if n == 0:
+            return np.zeros(0, np.int64), np.zeros(0, np.int64)
+        ordered = np.sort(self.elements, axis=1)
+        sides = np.concatenate([np.delete(ordered, k, axis=1) for k in range(corners)])
+        element = np.tile(np.arange(n), corners)
+        order = np.lexsort(sides.T)
+        same = (sides[order[1:]] == sides[order[:-1]]).all(axis=1)
+        a, b = element[order[:-1][same]], element[order[1:][same]]
+        return np.concatenate([a, b]), np.concatenate([b, a])
+
+    def _owned_facets(self) -> NDArray[np.bool_]:
+        """A rank without nodes has no facets either."""
+        rank = self.owners[0] if self.owned_nodes else -1
+        return np.equal(self.facet_owners, rank)
+
+
+def _package(name: str) -> Any:
+    """One that need not be there."""
+    return importlib.import_module(name)
+
+
+def _rows_of(table: NDArray[Any], rows: NDArray[Any]) -> NDArray[np.int64]:
+    """Where each of the rows is in the table; all are in it, once."""
+    _, key = np.unique(np.concatenate([table, rows]), axis=0, return_inverse=True)
+    key = key.ravel()
+    place = np.empty(len(table), np.int64)
+    place[key[:len(table)]] = np.arange(len(table))
+    return np.take(place, key[len(table):])
+
+
+def _linear_coordinates(dim: int, corners: int) -> Any:
+    """UFL's mesh of straight triangles or tetrahedra."""
+    ufl = _package("ufl")
+    cell = ufl.Cell("triangle" if corners == 3 else "tetrahedron", geometric_dimension=dim)
+    return ufl.Mesh(ufl.VectorElement("Lagrange", cell, 1, dim=dim))

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Distributed meshes in DOLFINx, on the ranks of MPI: cells stay on their rank, facets keep their
+tags, and Poisson's equation has the same error on any number of ranks, before and after the spacing
+is adapted. usage: test_dolfinx.py [FILE D], instead of the square and the box. DOLFINx 0.5."""
+import sys
+
+import dolfinx
+import numpy as np
+import pnpbs
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+
+WORLD = MPI.COMM_WORLD
+OPTIONS = {"ksp_type": "cg", "ksp_rtol": 1e-12, "pc_type": "jacobi"}
+
+
+def total(comm, form):
+    return comm.allreduce(fem.assemble_scalar(fem.form(form)))
+
+
+def peak(x, centre, length):
+    return 1 / (1 + sum(((x[k] - centre[k]) / length)**2 for k in range(len(centre))))
+
+
+def error_of(mesh, facets, centre, length):
+    """Of linear elements, in L2."""
+    space = fem.FunctionSpace(mesh, ("CG", 1))
+    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+    exact = peak(ufl.SpatialCoordinate(mesh), centre, length)
+    known = fem.Function(space)
+    known.interpolate(lambda x: peak(x, centre, length))
+    fixed = fem.locate_dofs_topological(space, mesh.topology.dim - 1, facets)
+    problem = fem.petsc.LinearProblem(
+        ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, -ufl.div(ufl.grad(exact)) * v * ufl.dx,
+        bcs=[fem.dirichletbc(known, fixed)], petsc_options=OPTIONS)
+    return np.sqrt(total(mesh.comm, (problem.solve() - exact)**2 * ufl.dx))
+
+
+def check(holds, what):
+    assert holds, what
+
+
+def check_mesh(comm, part, mesh, tags):
+    dim = mesh.topology.dim
+    check(mesh.topology.index_map(dim).size_local == part.owned_elements, "cells on their rank")
+    check(mesh.topology.index_map(0).size_global == part.all_nodes, "vertices are shared")
+    owned = tags.indices < mesh.topology.index_map(dim - 1).size_local
+    mine = part.facet_owners == comm.rank
+    for tag in sorted(set(comm.allreduce(np.unique(part.facet_tags).tolist()))):
+        there, here = (comm.allreduce(int(np.count_nonzero(found == tag)))
+                       for found in (tags.values[owned], part.facet_tags[mine]))
+        check(there == here > 0, f"{here} facets with tag {tag}, of which DOLFINx has {there}")
+    place = {number: i for i, number in enumerate(part.numbers)}
+    for k, number in enumerate(mesh.geometry.input_global_indices):
+        if number in place:
+            x = mesh.geometry.x[k, :part.dim]
+            check((x == part.coordinates[place[number]]).all(), f"node {number}")
+
+
+def solve(placement, comm, centre, length):
+    part = placement.mesh(ghost_layers=1)
+    mesh, tags = part.to_dolfinx(comm)
+    check_mesh(comm, part, mesh, tags)
+    boundary = np.isin(tags.indices, dolfinx.mesh.exterior_facet_indices(mesh.topology))
+    return part.all_nodes, error_of(mesh, tags.indices[boundary], centre, length)
+
+
+def run(domain, comm, d, centre, length):
+    """Errors before and after adapting."""
+    placement = pnpbs.Placement(domain, steps=100)
+    placement.set_spacing(d).run()
+    nodes, error = solve(placement, comm, centre, length)
+    away = np.linalg.norm(placement.nodes().points - centre, axis=1) / length
+    placement.set_spacing(d * np.clip(0.4 + 0.6 * away, None, 1)).run()
+    more_nodes, adapted = solve(placement, comm, centre, length)
+    check(adapted < error, "adapting helps")
+    if WORLD.rank == 0:
+        print(f"{comm.size} ranks, {nodes} nodes: {error:.9g}, {more_nodes} adapted: {adapted:.9g}")
+    return error, adapted
+
+
+def square(context):
+    domain = pnpbs.Domain(context).add_polyline([(0, 0), (1, 0), (1, 1), (0, 1)], tags=1)
+    return domain.add_arc((0.3, 0.35), 0.2, tag=2)
+
+
+def box(context):
+    domain = pnpbs.Domain(context, dim=3).add_box((0, 0, 0), (1, 1, 1), tag=1)
+    return domain.add_ball((0.3, 0.35, 0.5), 0.2, tag=2)
+
+
+def check_without_a_layer(context):
+    placement = pnpbs.Placement(square(context), steps=10)
+    placement.set_spacing(0.1).run()
+    try:
+        placement.mesh().to_dolfinx(WORLD)
+        told = WORLD.size == 1
+    except ValueError as error:
+        told = "ghost_layers=1" in str(error)
+    check(told, "without a ghost layer the way out is told")
+
+
+def solve_in_file(context, path, d):
+    if path.endswith(".poly"):
+        domain = pnpbs.Domain(context).read_poly(path)
+    else:
+        domain = pnpbs.Domain(context, dim=3).read_surface(path)
+    low, high = domain.bounds()
+    run(domain, WORLD, d, (np.asarray(low) + high) / 2, 10 * d)
+
+
+def main():
+    context = pnpbs.Context(WORLD)
+    if len(sys.argv) == 3:
+        return solve_in_file(context, sys.argv[1], float(sys.argv[2]))
+    for domain, d, centre, length in ((square, 0.03, (0.7, 0.6), 0.1),
+                                      (box, 0.1, (0.7, 0.6, 0.5), 0.2)):
+        errors = run(domain(context), WORLD, d, centre, length)
+        alone = run(domain(pnpbs.Context()), MPI.COMM_SELF, d, centre, length)
+        np.testing.assert_allclose(errors, alone, rtol=1e-9)
+    return check_without_a_layer(context)
+
+
+main()
