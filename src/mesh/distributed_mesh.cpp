@@ -33,8 +33,9 @@ void add_facets_of_ghosts(const Communicator& comm, const RankRanges& elements,
       if (elements.has(element)) sides.push_back({element, f});
   std::ranges::sort(sides, {}, &Side::element);
   const auto give = [&](std::int64_t element, int, std::vector<Facet>& answers) {
-    for (const Side& side : std::ranges::equal_range(sides, element, {}, &Side::element))
-      answers.push_back(facets[side.facet]);
+    for (auto side = std::ranges::lower_bound(sides, element, {}, &Side::element);
+         side != sides.end() && side->element == element; ++side)
+      answers.push_back(facets[side->facet]);
   };
   std::vector<std::int64_t> numbers;
   for (const MeshElement<Corners>& ghost : ghosts) numbers.push_back(ghost.number);

@@ -40,8 +40,8 @@ struct MeshFacet {
 template <class Record, class Key>
 void sort_and_keep_one(std::vector<Record>& records, const Key& key) {
   std::ranges::sort(records, {}, key);
-  const auto rest = std::ranges::unique(records, {}, key);
-  records.erase(rest.begin(), rest.end());
+  const auto same = [&](const Record& a, const Record& b) { return key(a) == key(b); };
+  records.erase(std::unique(records.begin(), records.end(), same), records.end());
 }
 
 }  // namespace pnpbs

@@ -167,8 +167,9 @@ Reference reference_of(const Case& it) {
     return x[0] == 1 && std::min(x[1], x[2]) > 0.199 && std::max(x[1], x[2]) < 0.801;
   };
   std::map<Ids, std::vector<Ids>> sides;
-  for (const auto& [corners, tag] : all.elements)
-    for_sides(corners, [&](const Ids& side, std::int64_t) { sides[side].push_back(corners); });
+  for (const auto& element : all.elements)
+    for_sides(element.first,
+              [&](const Ids& side, std::int64_t) { sides[side].push_back(element.first); });
   for (const auto& [side, elements] : sides) {
     if (it.body == walled_box && std::ranges::all_of(side, in_wall)) all.facets[side].tag = kWall;
     if (all.corners == it.dim && elements.size() == 1)
