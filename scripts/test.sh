@@ -7,9 +7,11 @@
 # chosen by folder under tests, or by label (a test's folder, or a word of its own):
 #   sanitize  by Clang with address and undefined-behaviour sanitizers, mutated inputs included, on
 #             the oldest Kokkos we promise; no Fortran, whose compiler cannot link with Clang's
-#             sanitizers
+#             sanitizers. Tests of the interface, of ranks and of the command
 #   no-mpi    without MPI, and the static library, on a shared Kokkos as a user would bring it,
 #             adopted from a host program; little optimised, which compiles in half of the time
+#   inner     the same of the tests of the inside (tests/geometry, tests/core), which take as long
+#             again. Not run by default
 #   files     every file compiled by itself, by Clang, as users' builds without a preset do; no
 #             tests. Not run by default: it takes as long as all of sanitize
 # usage: scripts/test.sh [configuration]...     (main, sanitize and no-mpi by default)
@@ -77,8 +79,13 @@ for configuration in "${wanted[@]}"; do
       run_tests release
       ;;
     sanitize)
-      configure_and_build sanitize --preset sanitize
+      configure_and_build sanitize --preset sanitize \
+        -DPNPBS_TEST_FOLDERS="api;parallel;linkage;tool"
       run_tests sanitize -LE '^(many-runs|figures)$'
+      ;;
+    inner)
+      configure_and_build inner --preset sanitize -DPNPBS_TEST_FOLDERS="geometry;core"
+      run_tests inner -LE '^(many-runs|figures)$'
       ;;
     files)
       configure_and_build files --preset debug -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \

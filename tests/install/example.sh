@@ -8,7 +8,7 @@
 set -eu
 . "$1"
 . "$scripts/common.sh"
-language=$2 name=$3 rank_counts=${4:-1 2 4}
+language=$2 name=$3 rank_counts=${4:-1 3}
 folder=$prefix/$datadir/pnpbs/examples/$language/$name
 
 on_mpi=no
