@@ -10,8 +10,8 @@
 #             sanitizers. Tests of the interface, of ranks and of the command
 #   no-mpi    without MPI, and the static library, on a shared Kokkos as a user would bring it,
 #             adopted from a host program; little optimised, which compiles in half of the time
-#   inner     the same of the tests of the inside (tests/geometry, tests/core), which take as long
-#             again. Not run by default
+#   inner     as sanitize, the tests of the inside (tests/geometry, tests/core). Not run by default:
+#             they take as long as those of sanitize
 #   files     every file compiled by itself, by Clang, as users' builds without a preset do; no
 #             tests. Not run by default: it takes as long as all of sanitize
 # usage: scripts/test.sh [configuration]...     (main, sanitize and no-mpi by default)
