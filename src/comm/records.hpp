@@ -62,6 +62,15 @@ std::vector<Record> of_all_ranks(const Communicator& comm, const std::vector<Rec
   return all;
 }
 
+// Sends what is in the outbox, and returns the records that have come here, by rank. Collective.
+template <class Record>
+std::vector<Record> deliver(const Communicator& comm, const Outbox& outgoing) {
+  std::vector<Record> arrived;
+  for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
+    for_records<Record>({message.bytes}, [&](const Record& record) { arrived.push_back(record); });
+  return arrived;
+}
+
 // Brings each record to rank owner(record), from wherever it is, and returns what has come here.
 // Collective.
 template <class Record, class Owner>
@@ -69,10 +78,7 @@ std::vector<Record> redistribute(const Communicator& comm, const std::vector<Rec
                                  const Owner& owner) {
   Outbox outgoing;
   for (const Record& record : records) pack(outgoing.to(owner(record)), record);
-  std::vector<Record> arrived;
-  for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
-    for_records<Record>({message.bytes}, [&](const Record& record) { arrived.push_back(record); });
-  return arrived;
+  return deliver<Record>(comm, outgoing);
 }
 
 }  // namespace pnpbs

@@ -46,10 +46,7 @@ class Ghosts {
         for (const Record& record : news) pack(outgoing.to(rank), record);
       });
     }
-    std::vector<Record> arrived;
-    for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
-      for_records<Record>({message.bytes}, [&](const Record& r) { arrived.push_back(r); });
-    return arrived;
+    return deliver<Record>(comm, outgoing);
   }
 
   // The next exchange must choose them.

@@ -26,10 +26,7 @@ std::vector<Answer> ask_owners(const Communicator& comm, const RankRanges& range
     Bytes& bytes = answers.to(message.rank);
     for (const Answer& one : to_it) pack(bytes, one);
   }
-  std::vector<Answer> arrived;
-  for (const Message& message : comm.sparse_all_to_all(answers.messages()))
-    for_records<Answer>({message.bytes}, [&](const Answer& one) { arrived.push_back(one); });
-  return arrived;
+  return deliver<Answer>(comm, answers);
 }
 
 }  // namespace pnpbs

@@ -67,13 +67,13 @@ void make(Results<Dim>& results, int layers, DistributedMesh& mesh) {
 
   const ElementsAtNodes<Corners> at_nodes(comm, nodes, std::move(own));
   auto facets = facets_of_owned_elements(results, numbers, nodes, elements, at_nodes);
-  const auto ghosts = ghost_elements(comm, nodes, elements, at_nodes, layers);
+  const auto shared = nodes_of_others<Corners>(nodes, at_nodes.own());
+  const auto ghosts = ghost_elements(comm, nodes, elements, at_nodes, shared, layers);
   add_facets_of_ghosts(comm, elements, ghosts, facets);
 
-  const auto shared = nodes_of_others<Corners>(nodes, at_nodes.own());
   std::vector<std::int64_t> others = nodes_of_others<Corners>(nodes, ghosts);
   others.insert(others.end(), shared.begin(), shared.end());
-  sort_and_keep_one(others, [](std::int64_t number) { return number; });
+  sort_and_keep_one(others);
   const auto give = [&](std::int64_t number, int, std::vector<MeshNode>& answers) {
     answers.push_back(mesh_node(results, nodes, number));
   };

@@ -42,12 +42,11 @@ class ElementsAtNodes {
       std::vector<int> ranks;
       for (const std::int64_t corner : element.corners)
         if (!nodes_.has(corner)) ranks.push_back(nodes_.owner(corner));
-      sort_and_keep_one(ranks, [](int rank) { return rank; });
+      sort_and_keep_one(ranks);
       for (const int rank : ranks) pack(outgoing.to(rank), element);
     }
-    for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
-      for_records<Element>({message.bytes},
-                           [&](const Element& element) { elements_.push_back(element); });
+    const std::vector<Element> arrived = deliver<Element>(comm, outgoing);
+    elements_.insert(elements_.end(), arrived.begin(), arrived.end());
   }
 
   // Compressed rows of elements by owned node.

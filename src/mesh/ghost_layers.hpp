@@ -18,17 +18,18 @@ std::vector<std::int64_t> nodes_of_others(const RankRanges& nodes, const Element
   for (const MeshElement<Corners>& element : elements)
     for (const std::int64_t corner : element.corners)
       if (!nodes.has(corner)) numbers.push_back(corner);
-  sort_and_keep_one(numbers, [](std::int64_t number) { return number; });
+  sort_and_keep_one(numbers);
   return numbers;
 }
 
 // By their numbers. All elements at owned nodes are known; those at other nodes, as far as the
-// layers reach, are asked of the owners of these nodes. Collective.
+// layers reach, are asked of the owners of these nodes. front: those of the elements that this rank
+// owns. Collective.
 template <std::size_t Corners>
 std::vector<MeshElement<Corners>> ghost_elements(const Communicator& comm, const RankRanges& nodes,
                                                  const RankRanges& elements,
                                                  const ElementsAtNodes<Corners>& at_nodes,
-                                                 int layers) {
+                                                 std::vector<std::int64_t> front, int layers) {
   using Element = MeshElement<Corners>;
   const auto number = [](const Element& element) { return element.number; };
   const auto give = [&](std::int64_t node, int rank, std::vector<Element>& answers) {
@@ -39,7 +40,6 @@ std::vector<MeshElement<Corners>> ghost_elements(const Communicator& comm, const
   if (layers == 0) return {};
   std::vector<Element> ghosts(at_nodes.of_others().begin(), at_nodes.of_others().end());
   std::unordered_set<std::int64_t> asked;
-  std::vector<std::int64_t> front = nodes_of_others<Corners>(nodes, at_nodes.own());
   for (int layer = 1;; ++layer) {
     for (const Element& element : ask_owners<Element>(comm, nodes, front, give, number))
       ghosts.push_back(element);

@@ -47,14 +47,7 @@ class FacetFinder {
     send(facet);
   }
 
-  // Collective.
-  std::vector<MeshFacet<Corners>> deliver(const Communicator& comm) const {
-    std::vector<MeshFacet<Corners>> arrived;
-    for (const Message& message : comm.sparse_all_to_all(outgoing_.messages()))
-      for_records<MeshFacet<Corners>>(
-          {message.bytes}, [&](const MeshFacet<Corners>& facet) { arrived.push_back(facet); });
-    return arrived;
-  }
+  const Outbox& found() const { return outgoing_; }
 
  private:
   void send(const MeshFacet<Corners>& facet) {
@@ -117,7 +110,7 @@ std::vector<MeshFacet<Corners>> facets_of_owned_elements(const Results<Dim>& res
     results.for_boundary_facets(add);
     if constexpr (Dim == 3) results.for_inner_facets(add);
   }
-  return finder.deliver(results.communicator());
+  return deliver<MeshFacet<Corners>>(results.communicator(), finder.found());
 }
 
 template PNPBS_FACETS_OF(3, 2);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pnpbs {
@@ -37,8 +38,8 @@ struct MeshFacet {
 };
 
 // Sorts by key(record) and keeps one of each.
-template <class Record, class Key>
-void sort_and_keep_one(std::vector<Record>& records, const Key& key) {
+template <class Record, class Key = std::identity>
+void sort_and_keep_one(std::vector<Record>& records, const Key& key = {}) {
   std::ranges::sort(records, {}, key);
   const auto same = [&](const Record& a, const Record& b) { return key(a) == key(b); };
   records.erase(std::unique(records.begin(), records.end(), same), records.end());

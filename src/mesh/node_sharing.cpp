@@ -43,10 +43,7 @@ std::vector<NodeShare> node_sharing(const Communicator& comm, const RankRanges& 
         if (other != to) pack(outgoing.to(to), NodeShare{begin->node, other});
     begin = end;
   }
-  std::vector<NodeShare> shares;
-  for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
-    for_records<NodeShare>({message.bytes},
-                           [&](const NodeShare& share) { shares.push_back(share); });
+  std::vector<NodeShare> shares = deliver<NodeShare>(comm, outgoing);
   sort(shares);
   return shares;
 }
