@@ -44,6 +44,7 @@ module pnpbs
   public :: PNPBS_VERSION_MAJOR, PNPBS_VERSION_MINOR, PNPBS_VERSION_PATCH
   public :: pnpbs_curve_fn, pnpbs_level_set_fn, pnpbs_spacing_fn, pnpbs_monitor_fn
   public :: pnpbs_context, pnpbs_domain, pnpbs_placement, pnpbs_transfer, pnpbs_mesh
+  public :: pnpbs_voronoi
   public :: pnpbs_status_string, pnpbs_last_error, pnpbs_version, pnpbs_build_info
   public :: pnpbs_mpi_library, pnpbs_finalize, pnpbs_discard_unfinished_files
   public :: pnpbs_file_dimension
@@ -258,6 +259,20 @@ module pnpbs
     procedure :: get_sharing => mesh_get_sharing
     procedure :: handle => mesh_handle
     procedure :: from_handle => mesh_from_handle
+  end type
+
+  !> Voronoi cells of a rank's nodes: volumes, faces to neighbours, shares of the boundary.
+  type :: pnpbs_voronoi
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure :: create => voronoi_create
+    procedure :: destroy => voronoi_destroy
+    procedure :: sizes => voronoi_sizes
+    procedure :: get_cells => voronoi_get_cells
+    procedure :: get_faces => voronoi_get_faces
+    procedure :: handle => voronoi_handle
+    procedure :: from_handle => voronoi_from_handle
   end type
 
 contains
@@ -2960,6 +2975,131 @@ contains
   !> Makes this the mesh with the given handle. Local; checks nothing.
   subroutine mesh_from_handle(self, handle)
     class(pnpbs_mesh), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: handle
+    self%c = pointer_of(handle)
+  end subroutine
+
+  ! ------------------------------------------------------------ Voronoi cells -----------------
+
+  !> Makes the Voronoi cells of the current nodes: for each node the part of the elements of the
+  !> placement that is closer to it than to any other, with its volume, its faces to neighbours and
+  !> its share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces
+  !> are lengths there; on surfaces distances are straight. Each element is divided among the
+  !> corners of all elements that touch it, so a node sees none through a gap that has no elements.
+  !> The volumes add up to that of the elements to rounding. Cells are functions of the nodes alone:
+  !> any number of ranks and threads gives the same bits. They are a copy: nodes may move
+  !> afterwards, and the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without
+  !> nodes.
+  !>   placement  whose nodes have the cells
+  subroutine voronoi_create(self, placement, stat, errmsg)
+    class(pnpbs_voronoi), intent(inout) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('voronoi%create', c_voronoi_create(placement%c, self%c), stat, errmsg)
+  end subroutine
+
+  !> Destroys the cells; does nothing if there are none. Local.
+  subroutine voronoi_destroy(self, stat, errmsg)
+    class(pnpbs_voronoi), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('voronoi%destroy', c_voronoi_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> Returns the sizes of the cells of this rank. Local; all are optional.
+  !>   dim    coordinates of a node, 2 or 3
+  !>   nodes  nodes that this rank owns, each of which has a cell
+  !>   faces  faces of these cells: a face between two of them counts twice
+  subroutine voronoi_sizes(self, dim, nodes, faces, stat, errmsg)
+    class(pnpbs_voronoi), intent(in) :: self
+    integer(c_int32_t), intent(out), optional :: dim
+    integer(c_int64_t), intent(out), optional :: nodes, faces
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: columns
+    integer(c_int64_t) :: counts(2)
+    columns = 0
+    counts = 0
+    call conclude('voronoi%sizes', c_voronoi_sizes(self%c, columns, counts(1), counts(2)), stat, &
+                  errmsg)
+    if (present(dim)) dim = columns
+    if (present(nodes)) nodes = counts(1)
+    if (present(faces)) faces = counts(2)
+  end subroutine
+
+  !> Copies the volumes of the cells and their shares of the boundary; both are optional. Nodes are
+  !> in the order of placement%get_nodes. In the plane and in bodies the areas of a cell's faces
+  !> times their normals and its share of the boundary add up to 0. Local.
+  !>   volumes   (nodes)
+  !>   boundary  (dim, nodes) the outward normal integrated over the part of the boundary that is
+  !>             closest to the node: where the boundary is flat, its length is the area of this
+  !>             part; 0 for nodes away from the boundary
+  subroutine voronoi_get_cells(self, volumes, boundary, stat, errmsg)
+    class(pnpbs_voronoi), intent(in) :: self
+    real(c_double), intent(inout), optional :: volumes(:), boundary(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_volumes, a_boundary
+    integer(c_int64_t) :: room(2)
+    integer(c_int32_t) :: dim
+    integer(c_int) :: status
+    call self%sizes(dim=dim, stat=status)
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    call given%place_real('volumes', volumes, a_volumes, room(1))
+    call given%place_real_columns('boundary', boundary, int(dim), a_boundary, room(2))
+    status = c_voronoi_get_cells(self%c, given%capacity(minval(room)), a_volumes, a_boundary)
+    call conclude('voronoi%get_cells', status, stat, errmsg, given)
+  end subroutine
+
+  !> Copies the faces of the cells in compressed rows: those of local node i are offsets(i) to
+  !> offsets(i+1)-1, in the order of the neighbours' ids. Both cells at a face have the same area
+  !> and distance to the last bit. All arrays but offsets are optional. Local.
+  !>   offsets    (nodes + 1)
+  !>   ids        (faces) of the neighbour
+  !>   numbers    (faces) of the neighbour, from 0, as by placement%get_numbering
+  !>   areas      (faces)
+  !>   distances  (faces) from the node to the neighbour
+  !>   normals    (dim, faces) unit vector from the node to the neighbour
+  subroutine voronoi_get_faces(self, offsets, ids, numbers, areas, distances, normals, stat, errmsg)
+    class(pnpbs_voronoi), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: offsets(:)
+    integer(c_int64_t), intent(inout), optional :: ids(:), numbers(:)
+    real(c_double), intent(inout), optional :: areas(:), distances(:), normals(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_offsets, a_ids, a_numbers, a_areas, a_distances, a_normals
+    integer(c_int64_t) :: room(5), rows, nodes
+    integer(c_int32_t) :: dim
+    integer(c_int) :: status
+    call self%sizes(dim, nodes, stat=status)
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    call given%require('offsets', size(offsets, kind=c_int64_t), nodes + 1)
+    call given%place_int64('offsets', offsets, a_offsets, rows)
+    call given%place_int64('ids', ids, a_ids, room(1))
+    call given%place_int64('numbers', numbers, a_numbers, room(2))
+    call given%place_real('areas', areas, a_areas, room(3))
+    call given%place_real('distances', distances, a_distances, room(4))
+    call given%place_real_columns('normals', normals, int(dim), a_normals, room(5))
+    status = c_voronoi_get_faces(self%c, given%capacity(rows - 1), minval(room), a_offsets, &
+                                 a_ids, a_numbers, a_areas, a_distances, a_normals)
+    call conclude('voronoi%get_faces', status, stat, errmsg, given)
+    if (status >= 0) call count_from_one(offsets(:nodes + 1))
+  end subroutine
+
+  !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.
+  !> Local.
+  function voronoi_handle(self) result(handle)
+    class(pnpbs_voronoi), intent(in) :: self
+    integer(c_int64_t) :: handle
+    handle = integer_of(self%c)
+  end function
+
+  !> Makes these the cells with the given handle. Local; checks nothing.
+  subroutine voronoi_from_handle(self, handle)
+    class(pnpbs_voronoi), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
     self%c = pointer_of(handle)
   end subroutine

@@ -1328,6 +1328,56 @@ module pnpbs_c
       integer(c_int) :: c_mesh_get_sharing
     end function
 
+    function c_voronoi_create(placement, voronoi) bind(C, name="pnpbs_voronoi_create")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      type(c_ptr), intent(out) :: voronoi
+      integer(c_int) :: c_voronoi_create
+    end function
+
+    function c_voronoi_destroy(voronoi) bind(C, name="pnpbs_voronoi_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: voronoi
+      integer(c_int) :: c_voronoi_destroy
+    end function
+
+    function c_voronoi_sizes(voronoi, dim, nodes, faces) bind(C, name="pnpbs_voronoi_sizes")
+      import
+      implicit none
+      type(c_ptr), value :: voronoi
+      integer(c_int32_t), intent(out) :: dim
+      integer(c_int64_t), intent(out) :: nodes, faces
+      integer(c_int) :: c_voronoi_sizes
+    end function
+
+    function c_voronoi_get_cells(voronoi, capacity, volumes, boundary) bind(C, &
+      name="pnpbs_voronoi_get_cells")
+      import
+      implicit none
+      type(c_ptr), value :: voronoi
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: volumes ! double *
+      type(c_ptr), value :: boundary ! double *
+      integer(c_int) :: c_voronoi_get_cells
+    end function
+
+    function c_voronoi_get_faces(voronoi, nodes, faces, offsets, ids, numbers, areas, distances, &
+      normals) bind(C, name="pnpbs_voronoi_get_faces")
+      import
+      implicit none
+      type(c_ptr), value :: voronoi
+      integer(c_int64_t), value :: nodes, faces
+      type(c_ptr), value :: offsets ! int64_t *
+      type(c_ptr), value :: ids ! int64_t *
+      type(c_ptr), value :: numbers ! int64_t *
+      type(c_ptr), value :: areas ! double *
+      type(c_ptr), value :: distances ! double *
+      type(c_ptr), value :: normals ! double *
+      integer(c_int) :: c_voronoi_get_faces
+    end function
+
     function c_placement_write(placement, path, elements) bind(C, name="pnpbs_placement_write")
       import
       implicit none

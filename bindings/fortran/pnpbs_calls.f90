@@ -143,8 +143,8 @@ contains
   recursive function in_fortran(message) result(text)
     character(len=*), intent(in) :: message
     character(len=:), allocatable :: text
-    character(len=*), parameter :: objects(5) = &
-      ['context  ', 'domain   ', 'placement', 'transfer ', 'mesh     ']
+    character(len=*), parameter :: objects(6) = &
+      ['context  ', 'domain   ', 'placement', 'transfer ', 'mesh     ', 'voronoi  ']
     character(len=:), allocatable :: prefix
     integer :: i, at
     text = message

@@ -106,6 +106,7 @@ typedef struct pnpbs_domain_handle *pnpbs_domain;
 typedef struct pnpbs_placement_handle *pnpbs_placement;
 typedef struct pnpbs_transfer_handle *pnpbs_transfer;
 typedef struct pnpbs_mesh_handle *pnpbs_mesh;
+typedef struct pnpbs_voronoi_handle *pnpbs_voronoi;
 
 /** Returns the meaning of a status in a few words. Local. Never NULL. */
 PNPBS_API const char *pnpbs_status_string(pnpbs_status status);
@@ -1216,6 +1217,57 @@ PNPBS_API pnpbs_status pnpbs_mesh_sharing_sizes(pnpbs_mesh mesh, int64_t *nodes,
  *  @param[out] ranks    [entries] other ranks, in increasing order for each node */
 PNPBS_API pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entries,
                                               int32_t *shared, int64_t *offsets, int32_t *ranks);
+
+/* ---------------------------------------------------------------- Voronoi cells --------- */
+
+/** Makes the Voronoi cells of the current nodes: for each node the part of the elements of the
+ *  placement that is closer to it than to any other, with its volume, its faces to neighbours and
+ *  its share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces are
+ *  lengths there; on surfaces distances are straight. Each element is divided among the corners of
+ *  all elements that touch it, so a node sees none through a gap that has no elements. The volumes
+ *  add up to that of the elements to rounding. Cells are functions of the nodes alone: any number
+ *  of ranks and threads gives the same bits. The cells are a copy: nodes may move afterwards, and
+ *  the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes.
+ *  @param[in] placement  whose nodes have the cells
+ *  @param[out] voronoi   the handle */
+PNPBS_API pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
+
+/** Destroys the handle and sets it to NULL; accepts NULL. Local. */
+PNPBS_API pnpbs_status pnpbs_voronoi_destroy(pnpbs_voronoi *voronoi);
+
+/** Returns the sizes of the cells of this rank; outputs may be NULL. Local.
+ *  @param[out] dim    coordinates of a node: 2 or 3
+ *  @param[out] nodes  nodes that this rank owns, each of which has a cell
+ *  @param[out] faces  faces of these cells: a face between two of them counts twice */
+PNPBS_API pnpbs_status pnpbs_voronoi_sizes(pnpbs_voronoi voronoi, int32_t *dim, int64_t *nodes,
+                                           int64_t *faces);
+
+/** Copies the volumes of the cells and their shares of the boundary; arrays may be NULL. Nodes are
+ *  in the order of pnpbs_placement_get_nodes. In the plane and in bodies the areas of a cell's faces
+ *  times their normals and its share of the boundary add up to 0. Local. Errors:
+ *  PNPBS_ERROR_CAPACITY.
+ *  @param[in] capacity   nodes the arrays have room for
+ *  @param[out] volumes   [nodes]
+ *  @param[out] boundary  [nodes][dim] the outward normal integrated over the part of the boundary
+ *                        that is closest to the node: where the boundary is flat, its length is the
+ *                        area of this part; 0 for nodes away from the boundary */
+PNPBS_API pnpbs_status pnpbs_voronoi_get_cells(pnpbs_voronoi voronoi, int64_t capacity,
+                                               double *volumes, double *boundary);
+
+/** Copies the faces of the cells in compressed rows: those of local node i are offsets[i] to
+ *  offsets[i + 1] - 1, in the order of the neighbours' ids. Both cells at a face have the same area
+ *  and distance to the last bit; arrays may be NULL. Local. Errors: PNPBS_ERROR_CAPACITY.
+ *  @param[in] nodes       nodes the arrays have room for
+ *  @param[in] faces       faces the arrays have room for
+ *  @param[out] offsets    [nodes + 1]
+ *  @param[out] ids        [faces] of the neighbour
+ *  @param[out] numbers    [faces] of the neighbour, as by pnpbs_placement_get_numbering
+ *  @param[out] areas      [faces]
+ *  @param[out] distances  [faces] from the node to the neighbour
+ *  @param[out] normals    [faces][dim] unit vector from the node to the neighbour */
+PNPBS_API pnpbs_status pnpbs_voronoi_get_faces(pnpbs_voronoi voronoi, int64_t nodes, int64_t faces,
+                                               int64_t *offsets, int64_t *ids, int64_t *numbers,
+                                               double *areas, double *distances, double *normals);
 
 /* ---------------------------------------------------------------- files ----------------- */
 

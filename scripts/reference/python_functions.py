@@ -12,6 +12,7 @@ from typing import NamedTuple
 CLASSES = {"Context": ("context", "context"), "Domain": ("domain", "domain"),
            "Placement": ("placement", "placement"), "Results": ("placement", "placement"),
            "Fields": ("placement", "placement"), "Meshes": ("placement", "placement"),
+           "Tessellation": ("placement", "placement"),
            "PlacementHandle": ("placement", "placement"), "Transfer": ("transfer", "transfer"),
            "Shapes": ("geo", "shapes"), "GeoGrid": ("geo_grid", "grid")}
 # What reaches the user in another way than through a function that he calls.

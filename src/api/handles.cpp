@@ -33,6 +33,10 @@ Registry<MeshObject, pnpbs_mesh>& meshes() {
   static auto* registry = new Registry<MeshObject, pnpbs_mesh>;
   return *registry;
 }
+Registry<VoronoiObject, pnpbs_voronoi>& voronois() {
+  static auto* registry = new Registry<VoronoiObject, pnpbs_voronoi>;
+  return *registry;
+}
 
 namespace {
 
@@ -61,6 +65,9 @@ std::shared_ptr<TransferObject> require(pnpbs_transfer handle) {
 }
 std::shared_ptr<MeshObject> require(pnpbs_mesh handle) {
   return require_live(meshes().find(handle), "mesh");
+}
+std::shared_ptr<VoronoiObject> require(pnpbs_voronoi handle) {
+  return require_live(voronois().find(handle), "voronoi");
 }
 
 }  // namespace pnpbs::api

@@ -18,6 +18,7 @@
 #include "placement/field_transfer.hpp"
 #include "placement/placement_of.hpp"
 #include "pnpbs/pnpbs.h"
+#include "voronoi/voronoi_cells.hpp"
 #include "settings/options.hpp"
 
 namespace pnpbs::api {
@@ -54,6 +55,11 @@ struct TransferObject {
 struct MeshObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<const DistributedMesh> mesh;
+};
+
+struct VoronoiObject {
+  std::shared_ptr<Context> context;
+  std::unique_ptr<const VoronoiCells> cells;
 };
 
 // One for each kind of object. All keys of the process come from one counter, so that a handle of
@@ -98,11 +104,13 @@ Registry<DomainObject, pnpbs_domain>& domains();
 Registry<PlacementObject, pnpbs_placement>& placements();
 Registry<TransferObject, pnpbs_transfer>& transfers();
 Registry<MeshObject, pnpbs_mesh>& meshes();
+Registry<VoronoiObject, pnpbs_voronoi>& voronois();
 
 std::shared_ptr<Context> require(pnpbs_context handle);
 std::shared_ptr<DomainObject> require(pnpbs_domain handle);
 std::shared_ptr<PlacementObject> require(pnpbs_placement handle);
 std::shared_ptr<TransferObject> require(pnpbs_transfer handle);
 std::shared_ptr<MeshObject> require(pnpbs_mesh handle);
+std::shared_ptr<VoronoiObject> require(pnpbs_voronoi handle);
 
 }  // namespace pnpbs::api

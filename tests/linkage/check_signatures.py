@@ -16,7 +16,7 @@ NUMBERS = {
     "double": "real(c_double)",
     "pnpbs_status": "integer(c_int)",  # an enumeration
 }
-HANDLES = {"pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer", "pnpbs_mesh",
+HANDLES = {"pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer", "pnpbs_mesh", "pnpbs_voronoi",
            "pnpbs_geo_shapes", "pnpbs_geo_grid"}
 
 

@@ -421,6 +421,27 @@ class Meshes(Case):
         placement.close()
         self.assertEqual(mesh.coordinates.shape, (mesh.all_nodes, 3))
 
+    def test_voronoi_cells(self):
+        plate = pnpbs.Domain(self.context).add_polyline(SQUARE)
+        box = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
+        for domain, d in (plate, 0.1), (box, 0.25):
+            placement = self.placed(domain, d)
+            nodes, cells = placement.nodes(), placement.voronoi()
+            placement.close()
+            self.assertAlmostEqual(cells.volumes.sum(), 1, 12)
+            rows = np.repeat(np.arange(len(nodes.ids)), cells.neighbours.lengths())
+            others = np.searchsorted(nodes.ids, cells.neighbours.values)
+            np.testing.assert_array_equal(cells.numbers, others)
+            ways = nodes.points[others] - nodes.points[rows]
+            np.testing.assert_allclose(cells.distances[:, None] * cells.normals, ways, atol=1e-15)
+            sums = cells.boundary.copy()
+            np.add.at(sums, rows, cells.areas[:, None] * cells.normals)
+            np.testing.assert_allclose(sums, 0, atol=1e-13)
+            faces = dict(zip(zip(rows.tolist(), others.tolist()), cells.areas.tolist()))
+            self.assertEqual(faces, {(j, i): area for (i, j), area in faces.items()})
+            self.assertIn(f"{len(nodes.ids)} cells, {len(rows)} faces", repr(cells))
+        self.assert_status(Status.ERROR_STATE, pnpbs.Placement(box).voronoi)
+
     def test_for_other_packages_in_the_plane(self):
         domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=4)
         domain.add_polyline([(0.3, 0.4), (0.7, 0.6)], role="inner", closed=False, tags=7)

@@ -60,6 +60,16 @@ class Ranks(unittest.TestCase):
                          self.placement.statistic("nodes"))
         self.placement.check()
 
+    def test_voronoi_cells_are_those_of_one_process(self):
+        cells, ids = self.placement.voronoi(), self.placement.nodes().ids
+        with pnpbs.Context() as alone:
+            placement = placed_square(alone)
+            same, at = placement.voronoi(), np.searchsorted(placement.nodes().ids, ids)
+        np.testing.assert_array_equal(cells.volumes, same.volumes[at])
+        np.testing.assert_array_equal(cells.boundary, same.boundary[at])
+        for row, other in zip(cells.neighbours, at):
+            np.testing.assert_array_equal(row, same.neighbours[other])
+
     def test_ghosts(self):
         own, ghosts = self.placement.nodes(), self.placement.ghosts()
         self.assertEqual(len(ghosts.ids) > 0, WORLD.size > 1)

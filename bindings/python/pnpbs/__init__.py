@@ -30,12 +30,13 @@ from .shapes import GeoGrid, Projection, ShapeCounts, Shapes, geo_build_info
 from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unfinished_files,
                      file_dimension, format_table, library_version, mpi_library, option_table,
                      shutdown, statistic_table)
+from .voronoi import VoronoiCells
 
 __all__ = [
     "CompressedRows", "Context", "DistributedMesh", "Domain", "EdgeBands", "Estimate",
     "ExchangePattern", "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "Nodes", "Numbering",
     "OptionRow", "Outline", "PNPBSError", "Placement", "PopulationChange", "Projection",
-    "ShapeCounts", "Shapes", "Stars", "StatisticRow", "Status", "Transfer", "build_info",
+    "ShapeCounts", "Shapes", "Stars", "StatisticRow", "Status", "Transfer", "VoronoiCells", "build_info",
     "discard_unfinished_files", "file_dimension", "format_table", "geo_build_info", "library_path",
     "library_version", "mpi_library", "option_table", "shutdown", "statistic_table",
 ]

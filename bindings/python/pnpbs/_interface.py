@@ -219,6 +219,15 @@ pnpbs_status pnpbs_mesh_get_facets(pnpbs_mesh mesh, int64_t capacity, int32_t *n
 pnpbs_status pnpbs_mesh_sharing_sizes(pnpbs_mesh mesh, int64_t *nodes, int64_t *entries);
 pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entries,
     int32_t *shared, int64_t *offsets, int32_t *ranks);
+pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
+pnpbs_status pnpbs_voronoi_destroy(pnpbs_voronoi *voronoi);
+pnpbs_status pnpbs_voronoi_sizes(pnpbs_voronoi voronoi, int32_t *dim, int64_t *nodes,
+    int64_t *faces);
+pnpbs_status pnpbs_voronoi_get_cells(pnpbs_voronoi voronoi, int64_t capacity, double *volumes,
+    double *boundary);
+pnpbs_status pnpbs_voronoi_get_faces(pnpbs_voronoi voronoi, int64_t nodes, int64_t faces,
+    int64_t *offsets, int64_t *ids, int64_t *numbers, double *areas, double *distances,
+    double *normals);
 pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path, int32_t elements);
 pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const char *const *paths, const char *const *formats, const int32_t *elements);

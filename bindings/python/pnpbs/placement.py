@@ -20,6 +20,7 @@ from .errors import Status
 from .fields import Fields
 from .mesh import Meshes
 from .results import Results
+from .voronoi import Tessellation
 
 
 class Estimate(NamedTuple):
@@ -37,7 +38,7 @@ def _keep_going(fraction: float, step: int, nodes: int, max_speed: float) -> boo
     return False
 
 
-class Placement(Results, Fields, Meshes):
+class Placement(Results, Fields, Meshes, Tessellation):
     """A placement of nodes in a domain, on the domain's context. Keywords are options, as in `set`;
     the others are those of the context. Set a spacing (`set_spacing`), then `run`. Collective.
 

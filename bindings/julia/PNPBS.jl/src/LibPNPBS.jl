@@ -16,6 +16,7 @@ const pnpbs_domain = Ptr{Cvoid}
 const pnpbs_placement = Ptr{Cvoid}
 const pnpbs_transfer = Ptr{Cvoid}
 const pnpbs_mesh = Ptr{Cvoid}
+const pnpbs_voronoi = Ptr{Cvoid}
 const pnpbs_curve_fn = Ptr{Cvoid}
 const pnpbs_level_set_fn = Ptr{Cvoid}
 const pnpbs_spacing_fn = Ptr{Cvoid}
@@ -592,6 +593,30 @@ pnpbs_mesh_get_sharing(mesh, nodes, entries, shared, offsets, ranks) =
     @ccall $(symbol(:pnpbs_mesh_get_sharing))(
         mesh::pnpbs_mesh, nodes::Int64, entries::Int64, shared::Ptr{Int32},
         offsets::Ptr{Int64}, ranks::Ptr{Int32})::pnpbs_status
+
+# ---------------------------------------------------------------- Voronoi cells --------------
+pnpbs_voronoi_create(placement, voronoi) =
+    @ccall $(symbol(:pnpbs_voronoi_create))(
+        placement::pnpbs_placement, voronoi::Ptr{pnpbs_voronoi})::pnpbs_status
+
+pnpbs_voronoi_destroy(voronoi) =
+    @ccall $(symbol(:pnpbs_voronoi_destroy))(voronoi::Ptr{pnpbs_voronoi})::pnpbs_status
+
+pnpbs_voronoi_sizes(voronoi, dim, nodes, faces) =
+    @ccall $(symbol(:pnpbs_voronoi_sizes))(
+        voronoi::pnpbs_voronoi, dim::Ptr{Int32}, nodes::Ptr{Int64},
+        faces::Ptr{Int64})::pnpbs_status
+
+pnpbs_voronoi_get_cells(voronoi, capacity, volumes, boundary) =
+    @ccall $(symbol(:pnpbs_voronoi_get_cells))(
+        voronoi::pnpbs_voronoi, capacity::Int64, volumes::Ptr{Cdouble},
+        boundary::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_voronoi_get_faces(voronoi, nodes, faces, offsets, ids, numbers, areas, distances, normals) =
+    @ccall $(symbol(:pnpbs_voronoi_get_faces))(
+        voronoi::pnpbs_voronoi, nodes::Int64, faces::Int64, offsets::Ptr{Int64}, ids::Ptr{Int64},
+        numbers::Ptr{Int64}, areas::Ptr{Cdouble}, distances::Ptr{Cdouble},
+        normals::Ptr{Cdouble})::pnpbs_status
 
 # ---------------------------------------------------------------- files ----------------------
 pnpbs_placement_write(placement, path, elements) =

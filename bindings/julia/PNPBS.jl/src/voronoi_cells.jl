@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Voronoi cells in plain arrays: nothing of the library's is left to be closed.
+
+"""
+    VoronoiCells(placement)
+
+Makes the Voronoi cells of the current nodes: for each node the part of the elements of the
+placement that is closer to it than to any other, with its volume, its faces to neighbours and its
+share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces are lengths
+there; on surfaces distances are straight. Each element is divided among the corners of all elements
+that touch it, so a node sees none through a gap that has no elements. The volumes add up to that of
+the elements to rounding. Cells are functions of the nodes alone: any number of ranks and threads
+gives the same bits. They are a copy: nodes may move afterwards, and the placement may be closed.
+Collective.
+
+Cells are in the order of [`nodes`](@ref).
+
+- `volumes`: of each cell.
+- `boundary`: the outward normal integrated over the part of the boundary that is closest to the
+  node, `(dim, nodes)`: where the boundary is flat, its length is the area of this part; 0 for nodes
+  away from the boundary. In the plane and in bodies the areas of a cell's faces times their normals
+  and its share of the boundary add up to 0.
+- `neighbours`: [`CompressedRows`](@ref) of the ids of the neighbours that each cell has a face with,
+  by id.
+- `numbers`: of these neighbours, as in [`numbering`](@ref); one array for all rows, as
+  `neighbours.entries`. So are the following.
+- `areas`: of the faces; both cells at a face have the same area to the last bit.
+- `distances`: from the node to the neighbour.
+- `normals`: unit vectors from the node to the neighbour, `(dim, faces)`.
+"""
+Base.@kwdef struct VoronoiCells
+    volumes::Vector{Float64}
+    boundary::Matrix{Float64}
+    neighbours::CompressedRows{Int64}
+    numbers::Vector{Int64}
+    areas::Vector{Float64}
+    distances::Vector{Float64}
+    normals::Matrix{Float64}
+end
+
+function VoronoiCells(placement::Placement)
+    context = placement.context
+    handle = Ref{LibPNPBS.pnpbs_voronoi}(C_NULL)
+    check(context, LibPNPBS.pnpbs_voronoi_create(live(placement), handle))
+    try
+        return copy_of_cells(context, handle[])
+    finally
+        check(context, LibPNPBS.pnpbs_voronoi_destroy(handle))
+    end
+end
+
+function Base.show(io::IO, cells::VoronoiCells)
+    print(io, "PNPBS.VoronoiCells(", length(cells.volumes), " cells, ", length(cells.areas),
+          " faces here)")
+end
+
+function copy_of_cells(context, voronoi)
+    dim, n, m = Ref{Int32}(0), Ref{Int64}(0), Ref{Int64}(0)
+    check(context, LibPNPBS.pnpbs_voronoi_sizes(voronoi, dim, n, m))
+    nodes, faces = n[], m[]
+    volumes, boundary = zeros(nodes), zeros(dim[], nodes)
+    check(context, LibPNPBS.pnpbs_voronoi_get_cells(voronoi, nodes, volumes, boundary))
+    offsets, ids, numbers = zeros(Int64, nodes + 1), zeros(Int64, faces), zeros(Int64, faces)
+    areas, distances, normals = zeros(faces), zeros(faces), zeros(dim[], faces)
+    check(context, LibPNPBS.pnpbs_voronoi_get_faces(voronoi, nodes, faces, offsets, ids, numbers,
+                                                    areas, distances, normals))
+    return VoronoiCells(; volumes = volumes, boundary = boundary,
+                        neighbours = CompressedRows(offsets .+= 1, ids), numbers = numbers,
+                        areas = areas, distances = distances, normals = normals)
+end

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An element divided among the sites (nodes) that are nearest in some part of it: Voronoi cells
+// within a triangle or a tetrahedron.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "voronoi/convex_piece.hpp"
+
+namespace pnpbs {
+
+// Positive where x is closer to p than to r: half the difference of the squared distances, times
+// two. Exchanging p and r changes the sign and nothing else.
+template <int Dim>
+double closer_by(const Point<Dim>& x, const Point<Dim>& p, const Point<Dim>& r) {
+  double sum = 0;
+  for (std::size_t k = 0; k < Dim; ++k) sum += (p[k] - r[k]) * (2 * x[k] - (p[k] + r[k]));
+  return sum;
+}
+
+// Of points, by their coordinates alone: where both of two sites are equally far from a whole side
+// of an element, this decides in which of its two elements their common face lies.
+template <int Dim>
+bool is_first(const Point<Dim>& a, const Point<Dim>& b) {
+  return a < b;
+}
+
+template <int Dim, std::size_t Corners>
+class DividedElement {
+ public:
+  static constexpr int kExtent = static_cast<int>(Corners) - 1;  // of the element
+  using Piece = ConvexPiece<Dim, kExtent - 1>;
+
+  // The first sites are the corners. They stay the caller's.
+  void set(std::span<const Point<Dim>> sites) { sites_ = sites; }
+
+  // What sites a and b have in common: the part of the element in which they are both as close as
+  // the closest one. The same to the last bit for b and a.
+  const Piece& face(std::size_t a, std::size_t b) {
+    if (!is_first<Dim>(sites_[a], sites_[b])) std::swap(a, b);
+    begin_at_bisector(sites_[a], sites_[b]);
+    for (std::size_t r = 0; r < sites_.size() && !piece_.points().empty(); ++r)
+      if (r != a && r != b) cut(a, r);
+    return piece_;
+  }
+
+  // The part of the side opposite to corner k in which a site is closest.
+  const Piece& part_of_side(std::size_t k, std::size_t site) {
+    piece_.clear();
+    for (std::size_t c = 0; c < Corners; ++c)
+      if (c != k) piece_.add(sites_[c]);
+    for (std::size_t r = 0; r < sites_.size() && !piece_.points().empty(); ++r)
+      if (r != site) cut(site, r);
+    return piece_;
+  }
+
+  // From the side opposite to corner k to this corner, at right angles to the side.
+  Point<Dim> height(std::size_t k) const {
+    std::array<std::size_t, Corners - 1> side;
+    for (std::size_t c = 0, n = 0; c < Corners; ++c)
+      if (c != k) side[n++] = c;
+    const Point<Dim> along = way(sites_[side[0]], sites_[side[1]]);
+    const Point<Dim> up = way(sites_[side[0]], sites_[k]);
+    if constexpr (Corners == 3) {
+      return plus(up, -dot(up, along) / dot(along, along), along);
+    } else {
+      const Point<3> normal = cross(along, way(sites_[side[0]], sites_[side[2]]));
+      return plus({}, dot(up, normal) / dot(normal, normal), normal);
+    }
+  }
+
+  // Of the part in which a site is closest: a cone from a corner over each of its faces, and over
+  // the side opposite to this corner. visit(other, measure of the face) for each of them.
+  template <class Visit>
+  double volume(std::size_t site, const Visit& visit) {
+    const std::size_t apex = site < Corners ? site : 0;
+    double sum = std::sqrt(squared(height(apex))) * part_of_side(apex, site).measure();
+    for (std::size_t other = 0; other < sites_.size(); ++other) {
+      if (other == site) continue;
+      const double measure = face(site, other).measure();
+      if (measure == 0) continue;
+      visit(other, measure);
+      const double slope = 2 * std::sqrt(squared(within(way(sites_[other], sites_[site]))));
+      sum += closer_by<Dim>(sites_[apex], sites_[site], sites_[other]) / slope * measure;
+    }
+    return sum / kExtent;
+  }
+
+ private:
+  static double squared(const Point<Dim>& a) { return dot(a, a); }
+  static Point<Dim> way(const Point<Dim>& from, const Point<Dim>& to) { return plus(to, -1, from); }
+  static Point<Dim> plus(const Point<Dim>& a, double t, const Point<Dim>& b) {
+    Point<Dim> sum;
+    for (std::size_t k = 0; k < Dim; ++k) sum[k] = a[k] + t * b[k];
+    return sum;
+  }
+
+  // The part of a vector that lies in the plane of the element.
+  Point<Dim> within(const Point<Dim>& a) const {
+    if constexpr (Dim == 3 && Corners == 3)
+      return part_across(a,
+                         unit_vector(cross(way(sites_[0], sites_[1]), way(sites_[0], sites_[2]))));
+    else
+      return a;
+  }
+
+  // Where the plane between two points meets the element.
+  void begin_at_bisector(const Point<Dim>& p, const Point<Dim>& q) {
+    std::array<double, Corners> values;
+    std::array<std::size_t, Corners> near, far;
+    std::size_t nears = 0, fars = 0;
+    for (std::size_t c = 0; c < Corners; ++c) {
+      values[c] = closer_by<Dim>(sites_[c], p, q);
+      if (values[c] > 0)
+        near[nears++] = c;
+      else
+        far[fars++] = c;
+    }
+    piece_.clear();
+    const auto add = [&](std::size_t n, std::size_t f) {
+      const std::size_t from = near[n], to = far[f];
+      piece_.add(plus(sites_[from], values[from] / (values[from] - values[to]),
+                      way(sites_[from], sites_[to])));
+    };
+    // Around the piece: what follows has a corner in common with what is before.
+    for (std::size_t n = 0; n < nears; ++n)
+      for (std::size_t f = 0; f < fars; ++f) add(n, n == 0 ? f : fars - 1 - f);
+  }
+
+  void cut(std::size_t site, std::size_t other) {
+    const Point<Dim>&p = sites_[site], &r = sites_[other];
+    piece_.cut([&](const Point<Dim>& x) { return closer_by<Dim>(x, p, r); }, is_first<Dim>(r, p));
+  }
+
+  std::span<const Point<Dim>> sites_;
+  Piece piece_;
+};
+
+}  // namespace pnpbs

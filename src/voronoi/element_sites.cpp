@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "voronoi/element_sites.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "base/chunked_rows.hpp"
+#include "base/counting_sort.hpp"
+#include "base/rank_limit.hpp"
+#include "comm/records.hpp"
+#include "voronoi/divided_element.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// A node that is not a corner is a site if it is closer than the corners, or as close: then two
+// nodes may have a side of the element in common.
+constexpr double kAsClose = 1 + 1e-12;  // of squared distances
+constexpr double kAboveRounding = 1 + 1e-9;
+
+// The nodes that have an element in common with each node.
+template <std::size_t Corners>
+ChunkedRows<std::int32_t> neighbours_in_elements(const DistributedMesh& mesh) {
+  const std::vector<std::int32_t>& corners = mesh.element_corners;
+  const auto key = [&](std::int64_t k) { return corners[static_cast<std::size_t>(k)]; };
+  const std::int64_t nodes = static_cast<std::int64_t>(mesh.numbers.size());
+  CountingSort by_node(static_cast<std::int64_t>(corners.size()), static_cast<std::int32_t>(nodes),
+                       key);
+  std::vector<std::int64_t> at_nodes(corners.size());  // places in corners
+  by_node.for_places(key, [&](std::int64_t k, std::int32_t place) {
+    at_nodes[static_cast<std::size_t>(place)] = k;
+  });
+  ChunkedRows<std::int32_t> neighbours;
+  neighbours.build("pnpbs::voronoi::neighbours", nodes, [&] {
+    return [&](std::int64_t node, std::vector<std::int32_t>& out) {
+      const std::size_t n = static_cast<std::size_t>(node), begin = out.size();
+      for (std::int32_t k = by_node.start()[n]; k < by_node.start()[n + 1]; ++k) {
+        const std::size_t element =
+            static_cast<std::size_t>(at_nodes[static_cast<std::size_t>(k)]) / Corners;
+        for (std::size_t c = 0; c < Corners; ++c)
+          if (corners[element * Corners + c] != node) out.push_back(corners[element * Corners + c]);
+      }
+      const auto row = out.begin() + static_cast<std::ptrdiff_t>(begin);
+      std::sort(row, out.end());
+      out.erase(std::unique(row, out.end()), out.end());
+    };
+  });
+  return neighbours;
+}
+
+// Finds the sites of one element after another.
+template <int Dim, std::size_t Corners>
+class SiteFinder {
+ public:
+  SiteFinder(const ElementSites<Dim>& nodes, const ChunkedRows<std::int32_t>& neighbours)
+      : nodes_(nodes), neighbours_(neighbours) {}
+
+  // corners: by id. Appends them and the others.
+  void find(const std::array<std::int32_t, Corners>& corners, std::vector<std::int32_t>& sites) {
+    list_vertices(corners);
+    sites.insert(sites.end(), corners.begin(), corners.end());
+    const std::size_t first_other = sites.size();
+    for (const std::int32_t corner : corners)
+      for (const std::int32_t node : neighbours_.row(corner))
+        if (is_close(node) && std::ranges::find(corners, node) == corners.end())
+          sites.push_back(node);
+    const auto others = sites.begin() + static_cast<std::ptrdiff_t>(first_other);
+    std::sort(others, sites.end(), [&](std::int32_t a, std::int32_t b) { return id(a) < id(b); });
+    sites.erase(std::unique(others, sites.end()), sites.end());
+  }
+
+ private:
+  struct Vertex {
+    Point<Dim> x;
+    double squared_distance;  // to the closest corners
+  };
+
+  // Where the cells of the corners, by themselves, have their corners within the element.
+  void list_vertices(const std::array<std::int32_t, Corners>& corners) {
+    std::array<Point<Dim>, Corners> x;
+    for (std::size_t c = 0; c < Corners; ++c) x[c] = nodes_.x[static_cast<std::size_t>(corners[c])];
+    divided_.set(x);
+    vertices_.clear();
+    for (std::size_t a = 0; a < Corners; ++a)
+      for (std::size_t b = a + 1; b < Corners; ++b)
+        for (const Point<Dim>& vertex : divided_.face(a, b).points())
+          vertices_.push_back({vertex, squared_distance<Dim>(vertex, x[a]) * kAsClose});
+    enclose_vertices();
+  }
+  // No node outside a ball is closer to any of them than the corners.
+  void enclose_vertices() {
+    middle_ = {};
+    for (const Vertex& vertex : vertices_)
+      for (std::size_t k = 0; k < Dim; ++k)
+        middle_[k] += vertex.x[k] / static_cast<double>(vertices_.size());
+    double reach = 0;
+    for (const Vertex& vertex : vertices_)
+      reach =
+          std::max(reach, distance<Dim>(middle_, vertex.x) + std::sqrt(vertex.squared_distance));
+    squared_reach_ = reach * reach * kAboveRounding;
+  }
+  bool is_close(std::int32_t node) const {
+    const Point<Dim>& x = nodes_.x[static_cast<std::size_t>(node)];
+    if (squared_distance<Dim>(middle_, x) > squared_reach_) return false;
+    return std::ranges::any_of(vertices_, [&](const Vertex& vertex) {
+      return squared_distance<Dim>(vertex.x, x) <= vertex.squared_distance;
+    });
+  }
+  std::int64_t id(std::int32_t node) const { return nodes_.ids[static_cast<std::size_t>(node)]; }
+
+  const ElementSites<Dim>& nodes_;
+  const ChunkedRows<std::int32_t>& neighbours_;
+  DividedElement<Dim, Corners> divided_;
+  std::vector<Vertex> vertices_;
+  Point<Dim> middle_{};  // of them
+  double squared_reach_ = 0;
+};
+
+template <int Dim>
+void copy_nodes(const DistributedMesh& mesh, ElementSites<Dim>& to) {
+  to.ids = mesh.ids;
+  to.numbers = mesh.numbers;
+  to.x.resize(mesh.numbers.size());
+  for (std::size_t n = 0; n < to.x.size(); ++n)
+    std::copy_n(mesh.x.begin() + static_cast<std::ptrdiff_t>(Dim * n), Dim, to.x[n].begin());
+}
+
+// Of each element here the sides that are parts of the boundary, by their opposite corners: bit k
+// for its k-th corner.
+std::vector<std::uint32_t> boundary_sides(const DistributedMesh& mesh) {
+  std::vector<std::uint32_t> sides(mesh.element_numbers.size());
+  for (std::size_t f = 0; f < mesh.facet_tags.size(); ++f)
+    if (!mesh.facet_inner[f])
+      sides[static_cast<std::size_t>(mesh.facet_elements[2 * f])] |= 1U << mesh.facet_opposite[f];
+  return sides;
+}
+
+// The corners of an element by id, and the bits of its sides in this order.
+template <std::size_t Corners>
+std::uint32_t sort_corners(const DistributedMesh& mesh, std::size_t element, std::uint32_t sides,
+                           std::array<std::int32_t, Corners>& corners) {
+  std::array<std::pair<std::int64_t, std::size_t>, Corners> order;  // id, which corner
+  const std::int32_t* const from = mesh.element_corners.data() + Corners * element;
+  for (std::size_t c = 0; c < Corners; ++c)
+    order[c] = {mesh.ids[static_cast<std::size_t>(from[c])], c};
+  std::ranges::sort(order);
+  std::uint32_t sorted = 0;
+  for (std::size_t c = 0; c < Corners; ++c) {
+    corners[c] = from[order[c].second];
+    sorted |= (sides >> order[c].second & 1U) << c;
+  }
+  return sorted;
+}
+
+// Those of the elements that this rank owns.
+template <std::size_t Corners, int Dim>
+void find_own(const DistributedMesh& mesh, ElementSites<Dim>& found) {
+  const auto neighbours = neighbours_in_elements<Corners>(mesh);
+  const std::vector<std::uint32_t> sides = boundary_sides(mesh);
+  found.elements.resize(static_cast<std::size_t>(mesh.owned_elements));
+  ChunkedRows<std::int32_t> rows;
+  rows.build("pnpbs::voronoi::sites", mesh.owned_elements, [&] {
+    return [&, finder = SiteFinder<Dim, Corners>(found, neighbours)](
+               std::int64_t element, std::vector<std::int32_t>& out) mutable {
+      const std::size_t e = static_cast<std::size_t>(element);
+      std::array<std::int32_t, Corners> corners;
+      found.elements[e].boundary = sort_corners(mesh, e, sides[e], corners);
+      finder.find(corners, out);
+    };
+  });
+  for (std::int64_t e = 0; e < mesh.owned_elements; ++e) {
+    const auto row = rows.row(e);
+    auto& element = found.elements[static_cast<std::size_t>(e)];
+    element.first_site = static_cast<std::int64_t>(found.sites.size());
+    element.sites = static_cast<std::int32_t>(row.size());
+    found.sites.insert(found.sites.end(), row.begin(), row.end());
+  }
+}
+
+// A site of an element on its way to the ranks that own a site of it. The sites of an element
+// follow each other.
+template <int Dim>
+struct SentSite {
+  std::int64_t number, id;
+  Point<Dim> x;
+  std::int32_t sites;  // of the element
+  std::uint32_t boundary;
+};
+
+template <int Dim>
+Outbox elements_for_others(const Communicator& comm, const DistributedMesh& mesh,
+                           const ElementSites<Dim>& found) {
+  Outbox outgoing;
+  std::vector<std::int32_t> ranks;
+  for (const auto& element : found.elements) {
+    ranks.clear();
+    for (const std::int32_t site : found.of(element))
+      ranks.push_back(mesh.owners[static_cast<std::size_t>(site)]);
+    std::ranges::sort(ranks);
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    for (const std::int32_t rank : ranks) {
+      if (rank == comm.rank()) continue;
+      for (const std::int32_t site : found.of(element)) {
+        const std::size_t n = static_cast<std::size_t>(site);
+        pack(outgoing.to(rank), SentSite<Dim>{found.numbers[n], found.ids[n], found.x[n],
+                                              element.sites, element.boundary});
+      }
+    }
+  }
+  return outgoing;
+}
+
+// Adds what has come, and the nodes that are new here.
+template <int Dim>
+void add_arrived(const std::vector<SentSite<Dim>>& arrived, ElementSites<Dim>& found) {
+  std::unordered_map<std::int64_t, std::int32_t> index;  // by number
+  if (!arrived.empty())
+    for (std::size_t n = 0; n < found.numbers.size(); ++n)
+      index[found.numbers[n]] = static_cast<std::int32_t>(n);
+  for (std::size_t s = 0; s < arrived.size(); ++s) {
+    const SentSite<Dim>& site = arrived[s];
+    // The first site of an element has the element with it.
+    const bool within =
+        !found.elements.empty() && found.elements.back().first_site + found.elements.back().sites >
+                                       static_cast<std::int64_t>(found.sites.size());
+    if (!within)
+      found.elements.push_back(
+          {static_cast<std::int64_t>(found.sites.size()), site.sites, site.boundary});
+    const auto [known, is_new] =
+        index.try_emplace(site.number, static_cast<std::int32_t>(found.numbers.size()));
+    if (is_new) {
+      found.numbers.push_back(site.number);
+      found.ids.push_back(site.id);
+      found.x.push_back(site.x);
+    }
+    found.sites.push_back(known->second);
+  }
+  require_fits_rank(static_cast<std::int64_t>(found.numbers.size()), "nodes");
+}
+
+}  // namespace
+
+template <std::size_t Corners, int Dim>
+ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh) {
+  ElementSites<Dim> found;
+  copy_nodes(mesh, found);
+  find_own<Corners>(mesh, found);
+  add_arrived(deliver<SentSite<Dim>>(comm, elements_for_others(comm, mesh, found)), found);
+  return found;
+}
+
+template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&);
+template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&);
+template ElementSites<3> find_element_sites<4>(const Communicator&, const DistributedMesh&);
+
+}  // namespace pnpbs

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "voronoi/voronoi_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/chunked_rows.hpp"
+#include "base/counting_sort.hpp"
+#include "voronoi/divided_element.hpp"
+#include "voronoi/element_sites.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Faces that are smaller than this times what is usual, d^(dim - 1) or so, are rounding.
+constexpr double kNoFace = 1e-12;
+
+// Adds terms so that their order does not matter. Sorts them.
+double sum_by_size(std::vector<double>& terms) {
+  std::ranges::sort(terms);
+  double sum = 0;
+  for (const double term : terms) sum += term;
+  return sum;
+}
+
+template <int Dim>
+struct CellFace {
+  std::int32_t neighbour;
+  double area;
+  double distance;
+  Point<Dim> normal;
+};
+
+// The elements of which each owned node is a site, and as which of them.
+template <int Dim>
+class ElementsOfSites {
+ public:
+  struct Entry {
+    std::int32_t element, site;
+  };
+
+  ElementsOfSites(const ElementSites<Dim>& all, std::int64_t owned_nodes)
+      : by_node_(static_cast<std::int64_t>(all.sites.size()),
+                 static_cast<std::int32_t>(owned_nodes), key(all, owned_nodes)),
+        entries_(static_cast<std::size_t>(by_node_.start().back())) {
+    std::vector<Entry> entries(all.sites.size());
+    for (std::size_t e = 0; e < all.elements.size(); ++e)
+      for (std::int32_t s = 0; s < all.elements[e].sites; ++s)
+        entries[static_cast<std::size_t>(all.elements[e].first_site + s)] = {
+            static_cast<std::int32_t>(e), s};
+    by_node_.for_places(key(all, owned_nodes), [&](std::int64_t s, std::int32_t place) {
+      entries_[static_cast<std::size_t>(place)] = entries[static_cast<std::size_t>(s)];
+    });
+  }
+
+  std::span<const Entry> at(std::int64_t node) const {
+    const std::size_t n = static_cast<std::size_t>(node);
+    const std::int32_t begin = by_node_.start()[n], end = by_node_.start()[n + 1];
+    return std::span(entries_).subspan(static_cast<std::size_t>(begin),
+                                       static_cast<std::size_t>(end - begin));
+  }
+
+ private:
+  static auto key(const ElementSites<Dim>& all, std::int64_t owned_nodes) {
+    return [&all, owned_nodes](std::int64_t s) {
+      const std::int32_t node = all.sites[static_cast<std::size_t>(s)];
+      return node < owned_nodes ? node : -1;
+    };
+  }
+
+  CountingSort by_node_;
+  std::vector<Entry> entries_;
+};
+
+// Puts one cell after another together from its parts in elements.
+template <std::size_t Corners, int Dim>
+class CellMaker {
+ public:
+  CellMaker(const ElementSites<Dim>& all, const ElementsOfSites<Dim>& at_nodes, VoronoiCells& cells)
+      : all_(all), at_nodes_(at_nodes), cells_(cells) {}
+
+  // Appends its faces to out.
+  void operator()(std::int64_t node, std::vector<CellFace<Dim>>& out) {
+    volumes_.clear();
+    faces_.clear();
+    for (auto& terms : boundary_) terms.clear();
+    for (const auto& entry : at_nodes_.at(node))
+      add_part(all_.elements[static_cast<std::size_t>(entry.element)],
+               static_cast<std::size_t>(entry.site));
+    const std::size_t n = static_cast<std::size_t>(node);
+    cells_.volumes[n] = sum_by_size(volumes_);
+    for (std::size_t k = 0; k < Dim; ++k) cells_.boundary[Dim * n + k] = sum_by_size(boundary_[k]);
+    append_faces(all_.x[n], out);
+  }
+
+ private:
+  struct FacePart {
+    std::int32_t neighbour;
+    double area;
+  };
+
+  void add_part(const typename ElementSites<Dim>::Element& element, std::size_t site) {
+    const auto sites = all_.of(element);
+    x_.clear();
+    for (const std::int32_t s : sites) x_.push_back(all_.x[static_cast<std::size_t>(s)]);
+    divided_.set(x_);
+    volumes_.push_back(divided_.volume(site, [&](std::size_t other, double area) {
+      faces_.push_back({sites[other], area});
+    }));
+    for (std::size_t k = 0; k < Corners; ++k)
+      if (element.boundary >> k & 1U) add_boundary(k, site);
+  }
+
+  // The side opposite to corner k; its height points inwards.
+  void add_boundary(std::size_t k, std::size_t site) {
+    const double area = divided_.part_of_side(k, site).measure();
+    if (area == 0) return;
+    const Point<Dim> inward = divided_.height(k);
+    const double length = std::sqrt(dot(inward, inward));
+    for (std::size_t c = 0; c < Dim; ++c) boundary_[c].push_back(-inward[c] / length * area);
+  }
+
+  void append_faces(const Point<Dim>& x, std::vector<CellFace<Dim>>& out) {
+    std::ranges::sort(faces_, [&](const FacePart& a, const FacePart& b) {
+      return a.neighbour != b.neighbour ? id(a.neighbour) < id(b.neighbour) : a.area < b.area;
+    });
+    for (std::size_t begin = 0, end = 0; begin < faces_.size(); begin = end) {
+      const std::int32_t neighbour = faces_[begin].neighbour;
+      double area = 0;
+      for (; end < faces_.size() && faces_[end].neighbour == neighbour; ++end)
+        area += faces_[end].area;
+      const Point<Dim>& there = all_.x[static_cast<std::size_t>(neighbour)];
+      const double away = distance<Dim>(x, there);
+      if (area <= kNoFace * std::pow(away, static_cast<int>(Corners) - 2)) continue;
+      Point<Dim> normal;
+      for (std::size_t k = 0; k < Dim; ++k) normal[k] = (there[k] - x[k]) / away;
+      out.push_back({neighbour, area, away, normal});
+    }
+  }
+  std::int64_t id(std::int32_t node) const { return all_.ids[static_cast<std::size_t>(node)]; }
+
+  const ElementSites<Dim>& all_;
+  const ElementsOfSites<Dim>& at_nodes_;
+  VoronoiCells& cells_;
+  DividedElement<Dim, Corners> divided_;
+  std::vector<Point<Dim>> x_;  // of an element's sites
+  std::vector<double> volumes_;
+  std::array<std::vector<double>, Dim> boundary_;
+  std::vector<FacePart> faces_;
+};
+
+template <int Dim>
+void append(const ElementSites<Dim>& all, std::span<const CellFace<Dim>> faces,
+            VoronoiCells& cells) {
+  for (const CellFace<Dim>& face : faces) {
+    const std::size_t n = static_cast<std::size_t>(face.neighbour);
+    cells.ids.push_back(all.ids[n]);
+    cells.numbers.push_back(all.numbers[n]);
+    cells.areas.push_back(face.area);
+    cells.distances.push_back(face.distance);
+    cells.normals.insert(cells.normals.end(), face.normal.begin(), face.normal.end());
+  }
+  cells.offsets.push_back(static_cast<std::int64_t>(cells.ids.size()));
+}
+
+template <std::size_t Corners, int Dim>
+void make(const Communicator& comm, const DistributedMesh& mesh, VoronoiCells& cells) {
+  const ElementSites<Dim> all = find_element_sites<Corners, Dim>(comm, mesh);
+  const ElementsOfSites<Dim> at_nodes(all, mesh.owned_nodes);
+  cells.volumes.resize(static_cast<std::size_t>(mesh.owned_nodes));
+  cells.boundary.resize(static_cast<std::size_t>(Dim * mesh.owned_nodes));
+  ChunkedRows<CellFace<Dim>> faces;
+  faces.build("pnpbs::voronoi::cells", mesh.owned_nodes,
+              [&] { return CellMaker<Corners, Dim>(all, at_nodes, cells); });
+  for (std::int64_t node = 0; node < mesh.owned_nodes; ++node)
+    append<Dim>(all, std::as_const(faces).row(node), cells);
+}
+
+}  // namespace
+
+std::unique_ptr<VoronoiCells> make_voronoi_cells(NodalResults& results) {
+  const std::unique_ptr<DistributedMesh> mesh = make_distributed_mesh(results, 1);
+  auto cells = std::make_unique<VoronoiCells>();
+  cells->dimension = mesh->dimension;
+  const Communicator& comm = results.communicator();
+  if (mesh->dimension == 2)
+    make<3, 2>(comm, *mesh, *cells);
+  else if (mesh->corners == 3)
+    make<3, 3>(comm, *mesh, *cells);
+  else
+    make<4, 3>(comm, *mesh, *cells);
+  return cells;
+}
+
+}  // namespace pnpbs
