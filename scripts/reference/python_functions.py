@@ -34,6 +34,10 @@ class Package:
         self.functions, self.bodies = [], {}
         modules = [ast.parse(path.read_text()) for path in sorted(folder.glob("*.py"))]
         self.public = {name for module in modules for name in exported(module)}
+        self.classes = {node.name: node for module in modules for node in module.body
+                        if isinstance(node, ast.ClassDef)}
+        self.described_below = {base.name for name in self.public & set(self.classes)
+                                for base in self.public_bases(self.classes[name])}
         for module in modules:
             self.read(module)
         self.reach = {one: self.reached(one.name) for one in self.functions}
@@ -49,10 +53,11 @@ class Package:
 
     def read_class(self, node):
         if node.name not in CLASSES:
-            if ast.get_docstring(node) and node.name in self.public:
+            if ast.get_docstring(node) and node.name in self.public - self.described_below:
                 self.bodies[node.name] = (node, None)
-                self.functions.append(Function(node.name, node.name, inspect.cleandoc(
-                    ast.get_docstring(node))))
+                self.functions.append(Function(node.name, node.name, "\n\n".join(
+                    inspect.cleandoc(ast.get_docstring(one))
+                    for one in (node, *self.public_bases(node)))))
             return
         prefix, called = CLASSES[node.name]
         for method in node.body:
@@ -62,6 +67,14 @@ class Package:
                 self.add(method, prefix, node.name, ast.get_docstring(node))
             else:
                 self.add(method, prefix, f"{called}.{method.name}")
+
+    def public_bases(self, node):
+        """What it inherits from, directly or not, and is described with it."""
+        for base in node.bases:
+            one = self.classes.get(getattr(base, "id", None))
+            if one is not None:
+                yield from [one] if one.name in self.public else []
+                yield from self.public_bases(one)
 
     def add(self, node, prefix, name, text=None):
         self.bodies[name] = (node, prefix)

@@ -10,28 +10,12 @@ from typing import Any, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._types import Doubles, Ids, Int32s
+from ._types import Int32s
+from .mesh_arrays import MeshArrays
 
 
-class MeshConversions:
+class MeshConversions(MeshArrays):
     """The part of `DistributedMesh` that hands it to other packages."""
-
-    dim: int
-    owned_nodes: int
-    all_nodes: int
-    owned_elements: int
-    coordinates: Doubles
-    numbers: Ids
-    ids: Ids
-    owners: Int32s
-    tags: Int32s
-    elements: Int32s
-    element_owners: Int32s
-    element_tags: Int32s
-    connectivity: Ids
-    facets: Int32s
-    facet_tags: Int32s
-    facet_owners: Int32s
 
     def to_meshio(self) -> Any:
         """Returns what this rank owns as a `meshio.Mesh`: elements as cells, and facets as cells of
