@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package in one process."""
+import ctypes
 import os
 import pathlib
 import re
@@ -315,6 +316,8 @@ class Domains(Case):
             domain.add_polyline(SQUARE, role="outer")
         with self.assertRaisesRegex(ValueError, "tags"):
             domain.add_polyline(SQUARE, tags=[1, 2])
+        with self.assertRaisesRegex(ValueError, "float64; integers"):
+            domain.add_polyline(SQUARE, tags=[1.5] * 4)
         self.assert_status(Status.ERROR_ARGUMENT, domain.add_polyline, [(0, np.nan), (1, 0), (1, 1)])
         domain.add_polyline([(0, 0), (1, 1), (1, 0), (0, 1)])
         self.assertIn("cross", self.assert_status(Status.ERROR_DOMAIN, domain.check))
@@ -534,6 +537,27 @@ class Handles(Case):
         self.assertIn("steps", self.assert_status(Status.ERROR_KEY, self.context.set, step=3))
         self.assertIn("-3", self.assert_status(Status.ERROR_ARGUMENT, self.square, steps=-3))
         self.square(method="paper", steps=10, tolerance_mean=0.05)
+
+    def test_integers_that_do_not_fit(self):
+        wide = 2**32 + 1
+        domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=np.int64(2**31 - 1))
+        placement = pnpbs.Placement(domain).set_spacing(0.3)
+        placement.run()
+        self.assertEqual(placement.nodes().tags.max(), 2**31 - 1)
+        for function, bits in ((lambda: placement.mesh(ghost_layers=wide), 32),
+                               (lambda: pnpbs.Domain(self.context, dim=-wide), 32),
+                               (lambda: domain.distance([(0, 0)], tag=wide), 32),
+                               (lambda: placement.step(2**64 + 1), 64),
+                               (lambda: placement.set(steps=2**64 + 1), 64)):
+            with self.assertRaisesRegex(ctypes.ArgumentError, rf"\w+ is -?\d+, .* {bits} bits"):
+                function()
+        with self.assertRaisesRegex(ctypes.ArgumentError, "ghost_layers is 4294967297, "):
+            placement.mesh(wide)
+        with self.assertRaises(ctypes.ArgumentError):
+            placement.mesh(1.5)
+        for tags in (wide, [1, 2, wide, 3], np.array([1, 2, wide, 3])):
+            with self.assertRaisesRegex(ValueError, "tags has 4294967297, .* 32 bits"):
+                domain.add_polyline(SQUARE, tags=tags)
 
     def test_what_is_no_communicator(self):
         with self.assertRaises(TypeError):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Optional, Tuple
+from typing import Any, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,10 +27,7 @@ def as_point(point: ArrayLike, dim: int, what: str) -> Doubles:
 
 def as_indices(indices: ArrayLike, columns: int, what: str) -> Ids:
     """(m, columns) indices from 0."""
-    given = np.asarray(indices)
-    if given.size and not np.issubdtype(given.dtype, np.integer):
-        raise ValueError(f"{what} is of type {given.dtype}; integers were expected")
-    array = np.ascontiguousarray(given, dtype=np.int64)
+    array = np.ascontiguousarray(_integers(indices, what), dtype=np.int64)
     if array.size == 0:
         return array.reshape(0, columns)
     if array.ndim != 2 or array.shape[1] != columns:
@@ -42,9 +39,21 @@ def as_tags(tags: Optional[ArrayLike], n: int, what: str) -> Optional[Int32s]:
     """None for the library's default, one for all, or one for each."""
     if tags is None:
         return None
-    if np.ndim(tags) == 0:
-        return np.full(n, tags, dtype=np.int32)
-    return _of_shape(np.ascontiguousarray(tags, dtype=np.int32), (n,), what)
+    given = _integers(tags, what)
+    bounds = np.iinfo(np.int32)
+    wrong = given[(given < bounds.min) | (given > bounds.max)]
+    if wrong.size:
+        raise ValueError(f"{what} has {wrong.flat[0]}, which does not fit into 32 bits")
+    if given.ndim == 0:
+        return np.full(n, given, dtype=np.int32)
+    return _of_shape(np.ascontiguousarray(given, dtype=np.int32), (n,), what)
+
+
+def _integers(values: ArrayLike, what: str) -> NDArray[Any]:
+    given = np.asarray(values)
+    if given.size and not np.issubdtype(given.dtype, np.integer):
+        raise ValueError(f"{what} is of type {given.dtype}; integers were expected")
+    return given
 
 
 def _of_shape(array: NDArray[Scalar], shape: Tuple[int, ...],

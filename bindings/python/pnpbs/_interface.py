@@ -7,6 +7,7 @@ them, with the header."""
 from __future__ import annotations
 
 import ctypes
+import operator
 import re
 from typing import Any, Dict, Optional, Tuple, Type
 
@@ -258,6 +259,30 @@ def _array_of(dtype: str) -> Type[_Array]:
     return type(f"_ArrayOf_{dtype}", (_Array,), {"dtype": np.dtype(dtype)})
 
 
+class _Integer:
+    """An integer argument. ctypes alone would drop the bits that do not fit."""
+
+    bits: int
+    name: str
+
+    @classmethod
+    def from_param(cls, value: Any) -> Any:
+        number = operator.index(value)
+        if not -(1 << cls.bits - 1) <= number < 1 << cls.bits - 1:
+            raise OverflowError(f"{cls.name} is {number}, which does not fit into {cls.bits} bits")
+        return ctypes.c_int32(number) if cls.bits == 32 else ctypes.c_int64(number)
+
+
+_BITS = {"int32_t": 32, "int64_t": 64}
+
+
+def _argument(c_type: str, name: str) -> Any:
+    """What converts an argument of a function, as `function.argtypes` takes it."""
+    if c_type in _BITS:
+        return type(f"_{c_type}_{name}", (_Integer,), {"bits": _BITS[c_type], "name": name})
+    return ctypes_of(c_type)
+
+
 _NUMBERS: Dict[str, Any] = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64,
                             "double": ctypes.c_double, "pnpbs_status": ctypes.c_int}
 _ARRAYS = {"int8_t": _array_of("int8"), "int32_t": _array_of("int32"),
@@ -293,7 +318,7 @@ def declared(opened: ctypes.CDLL, text: str) -> ctypes.CDLL:
     for name, (result, arguments) in declarations(text).items():
         function = getattr(opened, name)
         function.restype = ctypes_of(result)
-        function.argtypes = [ctypes_of(c_type) for c_type, _ in arguments]
+        function.argtypes = [_argument(*argument) for argument in arguments]
     return opened
 
 
