@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package in one process."""
+import contextlib
 import ctypes
+import importlib.util
+import io
 import os
 import pathlib
 import re
@@ -11,6 +14,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 
 import numpy as np
 import pnpbs
@@ -394,7 +398,7 @@ class Meshes(Case):
 
         more = placement.mesh(ghost_layers=16)  # there are no other ranks
         np.testing.assert_array_equal(more.elements, mesh.elements)
-        self.assertIn(f"{mesh.all_nodes} nodes", repr(mesh))
+        self.assertIn(f", 2D, {mesh.all_nodes} nodes, ", repr(mesh))
         with self.assertRaises(AttributeError):
             mesh.dim = 3
 
@@ -493,6 +497,158 @@ class Meshes(Case):
             self.assertIn(f"ghost_layers = {layers}", message)
         placement.close()
         self.assert_status(Status.ERROR_HANDLE, placement.mesh)
+
+
+@unittest.skipUnless(importlib.util.find_spec("matplotlib"), "no Matplotlib")
+class Pictures(Case):
+    def setUp(self):
+        super().setUp()
+        import matplotlib.pyplot
+        matplotlib.use("Agg")
+        self.pyplot = matplotlib.pyplot
+        self.addCleanup(self.pyplot.close, "all")
+
+    def placed(self, domain, d):
+        placement = pnpbs.Placement(domain, steps=20).set_spacing(d)
+        placement.run()
+        return placement
+
+    @staticmethod
+    def legend(ax):
+        return [text.get_text() for text in ax.get_legend().get_texts()]
+
+    def test_in_the_plane(self):
+        domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=4)
+        domain.add_arc((0.5, 0.5), 0.2, tag=7)
+        placement = self.placed(domain, 0.1)
+        mesh, nodes = placement.mesh(), placement.nodes()
+        ax = mesh.plot()
+        drawn = {lines.get_label(): lines for lines in ax.collections}
+        self.assertEqual(self.legend(ax), ["tag 4", "tag 7"])
+        for tag in (4, 7):
+            np.testing.assert_array_equal(drawn[f"tag {tag}"].get_segments(),
+                                          mesh.coordinates[mesh.facets[mesh.facet_tags == tag]])
+        colours = [tuple(lines.get_colors()[0]) for lines in drawn.values()]
+        self.assertEqual(len(set(colours)), 2)
+        edges = len(np.unique(np.sort(mesh.elements[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0))
+        x = ax.lines[0].get_xdata()
+        self.assertEqual(len(x), 3 * edges)  # both ends of each, and a gap
+
+        self.assertIs(placement.plot(ax), ax)
+        self.assertEqual(sorted(self.legend(ax)), ["no tag", "tag 4", "tag 7"])
+        points = {line.get_label(): line.get_xydata() for line in ax.lines}
+        for tag, label in ((0, "no tag"), (4, "tag 4"), (7, "tag 7")):
+            np.testing.assert_array_equal(points[label], nodes.points[nodes.tags == tag])
+        low, high = ax.get_xlim()
+        self.assertTrue(low < 0 and high > 1)
+        ax.figure.canvas.draw()
+
+    def test_in_space(self):
+        placement, alone = (
+            self.placed(pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (2, 1, 1), tag=5)
+                        .set_filled(filled), 0.4) for filled in (True, False))
+        for mesh, triangles in ((placement.mesh(), lambda m: m.facets),
+                                (alone.mesh(), lambda m: m.elements)):
+            ax = self.pyplot.figure().add_subplot(projection="3d")
+            self.assertIs(mesh.plot(ax), ax)
+            self.assertEqual(self.legend(ax), ["tag 5"])
+            ax.figure.canvas.draw()
+            self.assertEqual([len(one.get_paths()) for one in ax.collections], [len(triangles(mesh))])
+        ax = placement.plot(self.pyplot.figure().add_subplot(projection="3d"))
+        self.assertEqual(self.legend(ax), ["tag 5", "no tag"])
+        self.assertEqual(sum(len(line.get_data_3d()[0]) for line in ax.lines), placement.node_count)
+
+    @unittest.skipUnless(importlib.util.find_spec("pyvista"), "no PyVista")
+    def test_in_space_by_pyvista(self):
+        class Plotter:
+            """PyVista's own needs a screen, or a stand-in for one, as soon as it is made."""
+
+            def __init__(self):
+                self.drawn, self.has_legend = [], False
+
+            def add_mesh(self, surface, color, label, show_edges):
+                self.drawn.append((surface.area, color, label))
+
+            def add_points(self, points, color, label, **_):
+                self.drawn.append((len(points), color, label))
+
+            def add_legend(self):
+                self.has_legend = True
+
+        domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (2, 1, 1), tag=5)
+        placement = self.placed(domain, 0.4)
+        with unittest.mock.patch("pyvista.Plotter", Plotter):
+            canvas, points = placement.mesh().plot(), placement.plot()
+        self.assertEqual([(round(area, 12), label) for area, _, label in canvas.drawn], [(10, "tag 5")])
+        self.assertTrue(canvas.has_legend)
+        self.assertEqual([label for _, _, label in points.drawn], ["tag 5", "no tag"])
+        self.assertEqual(sum(count for count, _, _ in points.drawn), placement.node_count)
+
+
+class Progress(Case):
+    def setUp(self):
+        super().setUp()
+        self.placement = self.square().set_spacing(0.05)
+
+    def shown(self):
+        with contextlib.redirect_stderr(io.StringIO()) as text:
+            self.assertEqual(self.placement.run(progress=True), Status.OK)
+        return re.split(r"[\r\n]+", text.getvalue())
+
+    def test_as_text(self):
+        fractions = []
+        self.placement.set_monitor(lambda fraction, *_: fractions.append(fraction))
+        with unittest.mock.patch.dict(sys.modules, {"tqdm.auto": None}):
+            lines = self.shown()
+        self.assertEqual([line[:4] for line in lines if line], [f"{f:4.0%}" for f in fractions])
+        self.assertEqual(lines[-2], f"100% [{'#' * 40}] {self.placement.node_count} nodes ")
+        # The monitor stays, and the bar goes.
+        count = len(fractions)
+        with contextlib.redirect_stderr(io.StringIO()) as text:
+            self.placement.set_spacing(0.04).run()
+        self.assertEqual(text.getvalue(), "")
+        self.assertGreater(len(fractions), count)
+
+    def test_ends_with_an_exception(self):
+        self.placement.set_monitor(lambda *_: 1 / 0)
+        with unittest.mock.patch.dict(sys.modules, {"tqdm.auto": None}), \
+                contextlib.redirect_stderr(io.StringIO()) as text:
+            with self.assertRaises(ZeroDivisionError):
+                self.placement.run(progress=True)
+        self.assertTrue(text.getvalue().endswith("\n"))
+
+    def test_a_monitor_stops_it(self):
+        self.placement.set_monitor(lambda *_: True)
+        with contextlib.redirect_stderr(io.StringIO()):
+            self.assertEqual(self.placement.run(progress=True), Status.STOPPED)
+
+    @unittest.skipUnless(importlib.util.find_spec("tqdm"), "no tqdm")
+    def test_by_tqdm(self):
+        lines = [line for line in self.shown() if line]
+        self.assertTrue(lines[0].startswith("  0%|"))
+        self.assertTrue(lines[-1].startswith("100%|"))
+        self.assertIn(f"{self.placement.node_count} nodes", lines[-1])
+
+
+class Summaries(Case):
+    def test_of_what_is_open(self):
+        placement = self.square().set_spacing(0.02)
+        self.assertEqual(repr(placement), "<pnpbs.Placement, 2D, 0 nodes on this rank>")
+        placement.run()
+        n = placement.node_count
+        self.assertTrue(1000 < n < 10**6)
+        self.assertEqual(repr(placement),
+                         f"<pnpbs.Placement, 2D, {n // 1000} {n % 1000:03} nodes on this rank>")
+        self.assertEqual(repr(self.context), "<pnpbs.Context, one process>")
+        self.assertEqual(repr(pnpbs.Domain(self.context, dim=3)), "<pnpbs.Domain, 3D>")
+        self.assertEqual(repr(placement.nodes()), f"<pnpbs.Nodes, points ({n}, 2), ids ({n},), "
+                                                  f"tags ({n},), spacing ({n},)>")
+        self.assertEqual(repr(placement.numbering()),
+                         f"<pnpbs.Numbering, first 0, count {n}, ghosts (0,)>")
+        for result in (placement.ghosts(), placement.exchange_pattern(), placement.stars(),
+                       placement.boundary_edges(), placement.domain.outline()):
+            self.assertLess(len(repr(result)), 250)
+            self.assertNotIn("array", repr(result))
 
 
 class Handles(Case):

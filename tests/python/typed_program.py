@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A user's program with types, for check_types.py: it must pass as it stands, each `type: ignore` must
 be needed, and it must run."""
+import importlib.util
 import math
 import pathlib
 import tempfile
@@ -44,7 +45,7 @@ def in_the_plane(context: pnpbs.Context) -> Tuple[pnpbs.Domain, pnpbs.Placement]
     assert isinstance(low + high, np.ndarray) and domain.measure() > 3
     watch = Watch()
     placement = pnpbs.Placement(domain, steps=30, method="paper")
-    outcome: pnpbs.Status = placement.set_spacing(spacing).set_monitor(watch).run()
+    outcome: pnpbs.Status = placement.set_spacing(spacing).set_monitor(watch).run(progress=False)
     assert outcome in (pnpbs.Status.OK, pnpbs.Status.NOT_CONVERGED) and watch.turns > 0
     return domain, placement
 
@@ -71,6 +72,9 @@ def results(placement: pnpbs.Placement) -> None:
     sharing: pnpbs.CompressedRows[np.int32] = mesh.sharing_ranks
     assert len(corners) == mesh.dim + 1 and len(connectivity) == mesh.all_elements
     assert len(is_inner) == len(mesh.facets) and len(sharing) == 0
+    if importlib.util.find_spec("matplotlib"):
+        ax = mesh.plot()
+        assert placement.plot(ax=ax) is ax
     everything: Dict[str, Any] = placement.statistics()
     warnings: List[str] = placement.warnings()
     assert everything["nodes"] == len(points) and not warnings
@@ -96,6 +100,7 @@ def mistakes(context: pnpbs.Context, domain: pnpbs.Domain, placement: pnpbs.Plac
     placement.run().message  # type: ignore[attr-defined]
     pnpbs.Placement(context)  # type: ignore[arg-type]
     number: str = placement.node_count  # type: ignore[assignment]
+    placement.run(progress="bar")  # type: ignore[arg-type]
     placement.mesh().dim = 3  # type: ignore[misc]
     pnpbs.Status.FINE  # type: ignore[attr-defined]
 

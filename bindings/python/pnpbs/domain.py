@@ -15,6 +15,7 @@ from . import _interface
 from ._arrays import as_indices, as_point, as_points, as_tags
 from ._callbacks import curve_callback, level_set_callback, spacing_callback
 from ._interface import library
+from ._summaries import summary
 from ._types import ArrayFunction, Doubles, Int32s, Path, Role
 from .context import Context, Handle
 
@@ -29,6 +30,9 @@ class LeftOut(NamedTuple):
 class Outline(NamedTuple):
     segments: Doubles
     tags: Int32s
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def _role_number(role: str) -> int:
@@ -65,7 +69,7 @@ class Domain(Handle):
             self.context._children.remove(self)
 
     def __repr__(self) -> str:
-        return f"<pnpbs.Domain, {f'{self.dim} dimensions' if self.is_open else 'closed'}>"
+        return f"<pnpbs.Domain, {f'{self.dim}D' if self.is_open else 'closed'}>"
 
     def _call(self, name: str, *arguments: Any) -> Domain:
         self.context._check(getattr(library(), f"pnpbs_domain_{name}")(self._live(), *arguments))

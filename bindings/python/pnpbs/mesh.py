@@ -10,6 +10,7 @@ from typing import List
 import numpy as np
 
 from ._interface import library
+from ._summaries import counted
 from .context import Context
 from .mesh_conversions import MeshConversions
 from .placement_handle import PlacementHandle
@@ -19,12 +20,13 @@ from .rows import CompressedRows
 @dataclass(frozen=True, eq=False, repr=False)
 class DistributedMesh(MeshConversions):
     """A rank's part of a distributed mesh, made by `placement.mesh`. Its attributes are those of
-    `MeshArrays`. `to_meshio`, `to_pyvista`, `to_skfem` and `to_dolfinx` hand it to other packages.
-    """
+    `MeshArrays`. `plot` draws it; `to_meshio`, `to_pyvista`, `to_skfem` and `to_dolfinx` hand it to
+    other packages."""
 
     def __repr__(self) -> str:
-        return (f"<pnpbs.DistributedMesh, {len(self.ids)} nodes, {len(self.elements)} elements, "
-                f"{len(self.facets)} facets here>")
+        return (f"<pnpbs.DistributedMesh, {self.dim}D, {counted(len(self.ids), 'node')}, "
+                f"{counted(len(self.elements), 'element')}, {counted(len(self.facets), 'facet')} "
+                "on this rank>")
 
     @classmethod
     def _copied(cls, context: Context, handle: ctypes.c_void_p) -> DistributedMesh:

@@ -10,6 +10,7 @@ from typing import Any, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ._plots import plot_mesh
 from ._types import Int32s
 from .mesh_arrays import MeshArrays
 
@@ -89,6 +90,13 @@ class MeshConversions(MeshArrays):
         mesh.topology.create_connectivity(dim, dim + 1)
         return mesh, dolfinx.mesh.meshtags_from_entities(
             mesh, dim, dolfinx.cpp.graph.AdjacencyList_int32(entities), values)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws what this rank owns on `ax` or a new canvas, which it returns. In the plane:
+        triangles, and facets in the colours of their tags, on axes of Matplotlib. In space: facets
+        of bodies, or the triangles on surfaces alone, in the colours of their tags, by a plotter of
+        PyVista, or on axes of Matplotlib where there is no PyVista. Local."""
+        return plot_mesh(self, self._owned_facets(), ax)
 
     def _destinations(self, rank: int) -> Tuple[Int32s, Int32s]:
         """Which ranks have each owned element: this one, and the owners of those across its facets.

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
-from typing import Any, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, Iterator, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +14,8 @@ from numpy.typing import ArrayLike
 from ._arrays import as_indices, as_point, as_points
 from ._callbacks import monitor_callback, spacing_callback
 from ._interface import library
+from ._progress import ProgressBar
+from ._summaries import counted
 from ._types import ArrayFunction, Doubles, Monitor, OptionValue, Path
 from .context import _set_option
 from .domain import Domain
@@ -59,6 +62,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
         self._spacing: Any = None
         self._spacings_before: List[Any] = []
         self._monitor: Any = None
+        self._monitor_function: Optional[Monitor] = None
         try:
             self.set_monitor(None)
             self.set(**options)
@@ -73,8 +77,9 @@ class Placement(Results, Fields, Meshes, Tessellation):
             self.context._children.remove(self)
 
     def __repr__(self) -> str:
-        what = f"{self.node_count} nodes here" if self.is_open else "closed"
-        return f"<pnpbs.Placement, {what}>"
+        if not self.is_open:
+            return "<pnpbs.Placement, closed>"
+        return f"<pnpbs.Placement, {self.dim}D, {counted(self.node_count, 'node')} on this rank>"
 
     # ------------------------------------------------------------ what is wanted ---------------
 
@@ -203,8 +208,24 @@ class Placement(Results, Fields, Meshes, Tessellation):
         # The library's monitor stays: it is where Ctrl-C acts.
         callback = monitor_callback(_keep_going if monitor is None else monitor, self.context)
         self._call("set_monitor", callback, None)
-        self._monitor = callback
+        self._monitor, self._monitor_function = callback, monitor
         return self
+
+    @contextlib.contextmanager
+    def _progress_shown(self) -> Iterator[None]:
+        """Shows a progress bar in the block, beside the monitor that is set."""
+        before = self._monitor_function
+        with ProgressBar() as bar:
+
+            def monitor(*state: Any) -> object:
+                bar(*state)
+                return before(*state) if before is not None else False
+
+            self.set_monitor(monitor)
+            try:
+                yield
+            finally:
+                self.set_monitor(before)
 
     def set_nodes(self, coordinates: ArrayLike, ids: Optional[ArrayLike] = None) -> Placement:
         """Sets inner nodes to start from instead of the initial fill: the rows of `coordinates`, on
@@ -238,10 +259,14 @@ class Placement(Results, Fields, Meshes, Tessellation):
         self._call("initialise")
         return self
 
-    def run(self) -> Status:
+    def run(self, progress: bool = False) -> Status:
         """Runs the whole placement. A later run, for example after another spacing, starts from the
-        current nodes. See `Status` for the outcomes. Collective."""
-        outcome = self._call("run")
+        current nodes. See `Status` for the outcomes. Collective.
+
+        With `progress` a bar shows how far it is: tqdm's, if that is installed, otherwise one of
+        text, on standard error. On several ranks, give it on one: `progress=comm.rank == 0`."""
+        with self._progress_shown() if progress else contextlib.nullcontext():
+            outcome = self._call("run")
         self._spacings_before.clear()
         return outcome
 

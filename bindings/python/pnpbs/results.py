@@ -12,6 +12,8 @@ from typing import Any, Dict, List, NamedTuple, Sequence, TypeVar, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._plots import plot_nodes
+from ._summaries import summary
 from ._types import Doubles, Ids, Int32s, Path
 from .errors import Status
 from .placement_handle import PlacementHandle
@@ -25,6 +27,9 @@ class Nodes(NamedTuple):
     tags: Int32s
     spacing: Doubles
 
+    def __repr__(self) -> str:
+        return summary(self)
+
 
 class Ghosts(NamedTuple):
     points: Doubles
@@ -33,11 +38,17 @@ class Ghosts(NamedTuple):
     spacing: Doubles
     owners: Int32s
 
+    def __repr__(self) -> str:
+        return summary(self)
+
 
 class ExchangePattern(NamedTuple):
     ranks: Int32s
     send: CompressedRows[np.int64]
     receive: CompressedRows[np.int64]
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Numbering(NamedTuple):
@@ -45,15 +56,24 @@ class Numbering(NamedTuple):
     count: int  # type: ignore[assignment]  # not what tuple.count is
     ghosts: Ids
 
+    def __repr__(self) -> str:
+        return summary(self)
+
 
 class Stars(NamedTuple):
     neighbours: CompressedRows[np.int64]
     triangle: CompressedRows[np.bool_]
 
+    def __repr__(self) -> str:
+        return summary(self)
+
 
 class Facets(NamedTuple):
     corners: Ids
     tags: Int32s
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class EdgeBands(NamedTuple):
@@ -96,6 +116,13 @@ class Results(PlacementHandle):
                       np.zeros(n))
         self._call("get_nodes", n, *found)
         return found
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the nodes of this rank, each in the colour of its tag, on `ax` or a new canvas, which
+        it returns: axes of Matplotlib in the plane, in space a plotter of PyVista, or axes of
+        Matplotlib where there is no PyVista. Local."""
+        nodes = self.nodes()
+        return plot_nodes(nodes.points, nodes.tags, ax)
 
     def normals(self) -> Doubles:
         """Returns the surface normals at this rank's nodes, of a placement in space: (n, 3), the

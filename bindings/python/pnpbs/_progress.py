@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A progress bar for a run: tqdm's, in notebooks its own kind, or a line of text where there is no
+tqdm."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from types import TracebackType
+from typing import Any, Optional, Type
+
+_WIDTH = 40
+
+
+class ProgressBar:
+    """A monitor that shows the fraction and the nodes. The bar is there from the `with` statement to
+    the end of its block."""
+
+    def __enter__(self) -> ProgressBar:
+        try:
+            tqdm = importlib.import_module("tqdm.auto").tqdm
+        except ImportError:
+            self._bar: Any = None
+        else:
+            self._bar = tqdm(total=100, bar_format="{percentage:3.0f}%|{bar}| {postfix}[{elapsed}]")
+        return self
+
+    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        if self._bar is not None:
+            self._bar.close()
+        else:
+            print(file=sys.stderr)
+
+    def __call__(self, fraction: float, step: int, nodes: int, max_speed: float) -> None:
+        if self._bar is not None:
+            self._bar.n = 100 * fraction
+            self._bar.set_postfix_str(f"{nodes} nodes ")
+        else:
+            bar = "#" * round(_WIDTH * fraction)
+            print(f"\r{fraction:4.0%} [{bar:{_WIDTH}}] {nodes} nodes ", end="",
+                  file=sys.stderr, flush=True)
