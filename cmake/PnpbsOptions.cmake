@@ -7,6 +7,8 @@ endif()
 
 option(PNPBS_ENABLE_MPI "Let contexts be made on an MPI communicator" ON)
 option(PNPBS_BUILD_CLI "Build the command pnpbs" ON)
+option(PNPBS_STATIC_CAIRO "Link the command with a static cairo, so that it runs where there is none"
+       OFF)
 option(PNPBS_BUILD_TESTS "Build the tests" OFF)
 option(PNPBS_INSTALL_STATIC "Install libpnpbs.a as well; its users link Kokkos and C++ themselves"
        OFF)

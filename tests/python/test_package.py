@@ -7,6 +7,7 @@ import io
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -865,6 +866,23 @@ class TheLibraryForThisProcessor(unittest.TestCase):
             self.assertEqual(_levels.processor_flags(cpuinfo), set())
             cpuinfo.write_text("processor\t: 0\nflags\t\t: fpu avx2\n\nflags\t\t: other\n")
             self.assertEqual(_levels.processor_flags(cpuinfo), {"fpu", "avx2"})
+
+
+class TheCommandOfAWheel(unittest.TestCase):
+    def test_is_that_of_the_package_in_use(self):
+        script = DATA.parents[1] / "bindings" / "python" / "command.py"
+        with tempfile.TemporaryDirectory() as name:
+            package, installed = pathlib.Path(name) / "pnpbs", pathlib.Path(name) / "scripts" / "pnpbs"
+            installed.parent.mkdir()
+            shutil.copy(script, installed)
+            command = package / "bin" / "pnpbs"
+            command.parent.mkdir(parents=True)
+            (package / "__init__.py").write_text("raise SystemExit('the package is not loaded')")
+            command.write_text("#!/bin/sh\nprintf '%s,' \"$@\"\nexit 3\n")
+            command.chmod(0o755)
+            done = subprocess.run([sys.executable, "-B", installed, "--x=a b", ""], capture_output=True,
+                                  check=False, env={**os.environ, "PYTHONPATH": name}, text=True)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (3, "--x=a b,,", ""))
 
 
 if __name__ == "__main__":

