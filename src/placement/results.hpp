@@ -81,6 +81,7 @@ class Results : public NodalResults {
     for_inner_facets(0, count(), visit);
   }
   bool surfaces_alone() const override {
+    if (level_) return level_->ground.surfaces_alone();
     if constexpr (Dim == 3) return !domain_->filled();
     return false;
   }

@@ -335,6 +335,21 @@ START_TEST(fixed_nodes_and_curves) {
 }
 END_TEST
 
+/* The domain is read when a placement is initialised: elements stay what they are until then. */
+START_TEST(filled_when_it_is_initialised) {
+  job it = box_job(0.4);
+  pnpbs_mesh mesh;
+  int32_t corners;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_domain_set_filled(it.domain, 0));
+  MUST(pnpbs_mesh_create(it.placement, 0, &mesh));
+  MUST(pnpbs_mesh_sizes(mesh, NULL, &corners, NULL, NULL, NULL, NULL, NULL));
+  MUST(pnpbs_mesh_destroy(&mesh));
+  ck_assert_int_eq(corners, 4);
+  job_end(&it);
+}
+END_TEST
+
 int main(void) {
   TCase* tests = tcase_create("surfaces alone");
   Suite* suite = suite_create("surfaces alone");
@@ -349,6 +364,7 @@ int main(void) {
   tcase_add_test(tests, bad_domains);
   tcase_add_test(tests, odd_spacings);
   tcase_add_test(tests, fixed_nodes_and_curves);
+  tcase_add_test(tests, filled_when_it_is_initialised);
   suite_add_tcase(suite, tests);
   return run_suite(suite);
 }

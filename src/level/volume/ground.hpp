@@ -38,7 +38,7 @@ class Ground<3> {
   const VolumeDomain& domain() const { return *domain_; }
   const Box<3>& bounds() const { return bounds_; }  // of all nodes
   double measure() const { return domain_->volume(); }
-  bool surfaces_alone() const { return !domain_->filled(); }
+  bool surfaces_alone() const { return surfaces_alone_; }  // when it was made
   const Spacing<3>& spacing() const { return *spacing_; }
   SpacingEvaluator<3> evaluator() const;  // d, checked; while this ground is there
   const BoundaryMesh<3>& boundary() const { return domain_->mesh(); }
@@ -73,6 +73,7 @@ class Ground<3> {
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
   std::shared_ptr<const VolumeDomain> domain_;
+  bool surfaces_alone_;
   std::shared_ptr<const Spacing<3>> spacing_;
   Box<3> bounds_;
   Surface surface_;
