@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # An installed example, as its readers build it: with its Makefile, which knows pkg-config alone,
-# and with its CMakeLists.txt, which knows find_package alone. Every number that it checks must be
-# right, and the same from both builds and, if it is on MPI, on any number of ranks.
-# usage: example.sh <settings> <c or fortran> <name> [numbers of ranks]
+# and with its CMakeLists.txt, which knows find_package alone; those in C++ have only the latter.
+# Every number that it checks must be right, and the same from both builds and, if it is on MPI, on
+# any number of ranks.
+# usage: example.sh <settings> <c, cpp or fortran> <name> [numbers of ranks]
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
 . "$1"
@@ -21,6 +22,21 @@ if grep -q '<petsc' "$folder"/*.c 2> /dev/null && ! pkg-config --exists petsc; t
   nothing_to_test "$name needs PETSc, and pkg-config knows none"
 fi
 
+if grep -q 'find_package(deal\.II' "$folder/CMakeLists.txt"; then
+  mkdir "$work/probe"
+  cat > "$work/probe/CMakeLists.txt" << 'EOF'
+cmake_minimum_required(VERSION 3.22)
+project(probe LANGUAGES CXX)
+find_package(deal.II 9.4 REQUIRED)
+if(NOT DEAL_II_WITH_MPI OR NOT DEAL_II_WITH_TRILINOS)
+  message(FATAL_ERROR "without MPI or Trilinos")
+endif()
+EOF
+  "$cmake" -S "$work/probe" -B "$work/probe/build" -DCMAKE_CXX_COMPILER="$cxx" \
+    > "$work/log" 2>&1 ||
+    nothing_to_test "$name needs deal.II 9.4 with MPI and Trilinos, and CMake finds none"
+fi
+
 # Fortran traps invalid numbers; free form is checked strictly, older code has its own flags.
 fortran_flags() {
   [ "$fc_id" = GNU ] || return 0
@@ -31,6 +47,8 @@ fortran_flags() {
   echo "-std=f2003 -fimplicit-none -Wall -Werror"
 }
 c_flags="-std=c99 -O2 -Wall -Wextra -pedantic -Werror"
+# deal.II adds options of GCC, which other compilers may not know.
+cxx_flags="-Wall -Wextra -Werror -Wno-unknown-warning-option"
 
 make_it() {
   if [ "$language" = c ]; then
@@ -47,15 +65,22 @@ make_it() {
 cmake_it() {
   if [ "$language" = c ]; then
     build_with_cmake "$folder" "$work/cmake" -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS="$c_flags"
+  elif [ "$language" = cpp ]; then
+    build_with_cmake "$folder" "$work/cmake" -DCMAKE_CXX_COMPILER="$cxx" \
+      -DCMAKE_CXX_FLAGS="$cxx_flags"
   else
     build_with_cmake "$folder" "$work/cmake" -DCMAKE_Fortran_COMPILER="$fc" \
       -DCMAKE_Fortran_FLAGS="$(fortran_flags | tr '\n' ' ')"
   fi
 }
 
-say "$name with pkg-config"
-cp -r "$folder" "$work/make"
-(unset CMAKE_PREFIX_PATH && make_it)
+first=cmake
+if [ -e "$folder/Makefile" ]; then
+  first="make"
+  say "$name with pkg-config"
+  cp -r "$folder" "$work/make"
+  (unset CMAKE_PREFIX_PATH && make_it)
+fi
 say "$name with CMake"
 (unset PKG_CONFIG_PATH && cmake_it)
 
@@ -63,12 +88,12 @@ if [ $on_mpi = yes ]; then
   export OMP_NUM_THREADS=1
   # The last of them with CMake's, the others with make's.
   for ranks in $rank_counts; do
-    build=make
+    build=$first
     [ "$ranks" != "${rank_counts##* }" ] || build=cmake
     say "$build's on $ranks ranks"
     run_and_compare on_ranks $ranks "$work/$build/$name"
   done
 else
-  OMP_NUM_THREADS=2 run_and_compare "$work/make/$name"
+  OMP_NUM_THREADS=2 run_and_compare "$work/$first/$name"
   OMP_NUM_THREADS=1 run_and_compare "$work/cmake/$name"
 fi
