@@ -52,6 +52,10 @@ For example, what a loop over the elements of this rank needs:
         corners = mesh.elements[:, e]
         add_element!(matrix, mesh.numbers[corners], mesh.coordinates[:, corners])
     end
+
+A mesh that is on one rank goes to Ferrite.jl by `Ferrite.Grid(mesh)`, to Gridap.jl by
+`Gridap.Geometry.UnstructuredDiscreteModel(mesh)`, with a facet set or a tag of the name `"tag_7"`
+for the facets with tag 7. Julia 1.9 and later load these methods with the packages.
 """
 Base.@kwdef struct DistributedMesh
     dim::Int

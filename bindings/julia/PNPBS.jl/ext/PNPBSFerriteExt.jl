@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Grids of Ferrite.jl. Loaded by Julia 1.9 and later when both packages are.
+module PNPBSFerriteExt
+
+import Ferrite
+import PNPBS
+
+"""
+    Ferrite.Grid(mesh::PNPBS.DistributedMesh)
+
+Returns the mesh as a grid of triangles or tetrahedra, whose cells and nodes have the indices that
+elements and nodes have in `mesh`. The facet set `"tag_7"` has the facets with tag 7 of the boundary
+and of inner curves or surfaces, an inner one as a facet of one of its two cells. On surfaces alone
+the cell set `"tag_7"` has the triangles of the surface. Ferrite has no ranks, so all nodes must be
+on this one. Local.
+"""
+function Ferrite.Grid(mesh::PNPBS.DistributedMesh)
+    PNPBS.require_whole_mesh(mesh, "Ferrite")
+    cell = size(mesh.elements, 1) == 3 ? Ferrite.Triangle : Ferrite.Tetrahedron
+    cells = cell.(PNPBS.columns_as_tuples(Int, mesh.elements))
+    nodes = Ferrite.Node.(PNPBS.columns_as_tuples(Float64, mesh.coordinates))
+    on_surfaces = size(mesh.elements, 1) == mesh.dim
+    cellsets = sets_by_tag(mesh.element_tags, on_surfaces ? eachindex(cells) : 1:0)
+    facetsets = sets_by_tag(mesh.facet_tags, facets_of_cells(mesh, cells))
+    return Ferrite.Grid(cells, nodes; cellsets = cellsets, facetsets = facetsets)
+end
+
+# Of its first cell, the facet that lacks the opposite corner.
+function facets_of_cells(mesh, cells)
+    return map(axes(mesh.facets, 2)) do k
+        element = Int(mesh.facet_elements[1, k])
+        opposite = mesh.elements[mesh.facet_opposite[k], element]
+        facet = findfirst(corners -> !(opposite in corners), Ferrite.facets(cells[element]))
+        return Ferrite.FacetIndex(element, facet)
+    end
+end
+
+function sets_by_tag(tags, members)
+    sets = Dict{String,Vector{eltype(members)}}()
+    for (tag, member) in zip(tags, members)
+        push!(get!(Vector{eltype(members)}, sets, PNPBS.tag_label(tag)), member)
+    end
+    return sets
+end
+
+end

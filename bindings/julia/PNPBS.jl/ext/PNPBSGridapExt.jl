@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Discrete models of Gridap.jl. Loaded by Julia 1.9 and later when both packages are.
+module PNPBSGridapExt
+
+using Gridap.Arrays: Table
+using Gridap.Geometry: FaceLabeling, NonOriented, Oriented, UnstructuredDiscreteModel,
+                       UnstructuredGrid, UnstructuredGridTopology, add_tag!, get_faces,
+                       num_cell_dims, num_faces
+using Gridap.ReferenceFEs: LagrangianRefFE, TET, TRI
+using Gridap.TensorValues: VectorValue
+import Gridap
+import PNPBS
+
+"""
+    Gridap.UnstructuredDiscreteModel(mesh::PNPBS.DistributedMesh)
+
+Returns the mesh as a discrete model of triangles or tetrahedra, whose cells and nodes have the
+indices that elements and nodes have in `mesh`. The tag `"tag_7"` has the facets with tag 7 of the
+boundary and of inner curves or surfaces, with their edges and vertices; on surfaces alone the
+triangles of the surface as well. The tag `"boundary"` has what lies on the boundary, `"interior"`
+the rest. The corners of a cell are in the order of their indices, as Gridap's oriented simplices
+are; on surfaces alone they turn as in `mesh`. Gridap has no ranks, so all nodes must be on this
+one. Local.
+"""
+function Gridap.Geometry.UnstructuredDiscreteModel(mesh::PNPBS.DistributedMesh)
+    PNPBS.require_whole_mesh(mesh, "Gridap")
+    grid = grid_of(mesh)
+    topology = UnstructuredGridTopology(grid)
+    return UnstructuredDiscreteModel(grid, topology, labels_of(mesh, topology))
+end
+
+function grid_of(mesh)
+    corners, n = size(mesh.elements)
+    nodes = VectorValue.(PNPBS.columns_as_tuples(Float64, mesh.coordinates))
+    elements = on_surfaces(mesh) ? copy(mesh.elements) : sort(mesh.elements, dims = 1)
+    cells = Table(vec(elements), Int32.(1:corners:(corners * n + 1)))
+    shape = corners == 3 ? TRI : TET
+    return UnstructuredGrid(nodes, cells, [LagrangianRefFE(Float64, shape, 1)], fill(Int8(1), n),
+                            on_surfaces(mesh) ? NonOriented() : Oriented())
+end
+
+on_surfaces(mesh) = size(mesh.elements, 1) == mesh.dim
+
+# Where a vertex, edge, triangle or cell lies: on curves or surfaces with these tags, in order, and
+# on the boundary or not. An entity of Gridap is all that lies in the same place.
+const Place = Tuple{Vector{Int32},Bool}
+
+function labels_of(mesh, topology)
+    entities, places = entities_of_faces(mesh, topology)
+    labels = FaceLabeling(entities, Vector{Int32}[], String[])
+    add_tag!(labels, "interior", findall(place -> !place[2], places))
+    add_tag!(labels, "boundary", findall(place -> place[2], places))
+    for tag in sort!(unique!(reduce(vcat, first.(places))))
+        add_tag!(labels, PNPBS.tag_label(tag), findall(place -> tag in place[1], places))
+    end
+    return labels
+end
+
+# The entities of the faces of each dimension, and the place of each entity.
+function entities_of_faces(mesh, topology)
+    dim = num_cell_dims(topology)
+    places = Place[(Int32[], false)]
+    entities = [ones(Int32, num_faces(topology, d)) for d in 0:dim]
+    known = Dict{Tuple{Int32,Int32,Bool},Int32}()
+    function add_place!(d, face, tag, boundary)
+        entity = entities[d + 1][face]
+        entities[d + 1][face] = get!(known, (entity, tag, boundary)) do
+            return entity_with!(places, entity, tag, boundary)
+        end
+    end
+    for (k, facet) in enumerate(facet_numbers(mesh, topology))
+        for (d, face) in faces_in(topology, dim - 1, facet)
+            add_place!(d, face, mesh.facet_tags[k], !mesh.facet_inner[k])
+        end
+    end
+    if on_surfaces(mesh)
+        for (cell, tag) in enumerate(mesh.element_tags), (d, face) in faces_in(topology, dim, cell)
+            add_place!(d, face, tag, false)
+        end
+    end
+    return entities, places
+end
+
+# The entity whose place is on this curve or surface as well.
+function entity_with!(places, entity, tag, boundary)
+    tags, on_boundary = places[entity]
+    place = (tag in tags ? tags : sort([tags; tag]), on_boundary || boundary)
+    found = findfirst(==(place), places)
+    found === nothing || return found
+    push!(places, place)
+    return length(places)
+end
+
+# A face and its own faces, with their dimensions.
+function faces_in(topology, dim, face)
+    own = ((d, f) for d in 0:(dim - 1) for f in get_faces(topology, dim, d)[face])
+    return Iterators.flatten((((dim, face),), own))
+end
+
+# Gridap's numbers of the mesh's facets.
+function facet_numbers(mesh, topology)
+    dim = num_cell_dims(topology)
+    of_cells, vertices = get_faces(topology, dim, dim - 1), get_faces(topology, dim - 1, 0)
+    return map(axes(mesh.facets, 2)) do k
+        facet = view(mesh.facets, :, k)
+        return first(f for f in of_cells[mesh.facet_elements[1, k]] if issubset(vertices[f], facet))
+    end
+end
+
+end

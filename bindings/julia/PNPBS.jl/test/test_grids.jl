@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Meshes as grids of Ferrite and models of Gridap, where these are installed. Without Ferrite its
+# grids are tested with the stand-in beside this file.
+include("poisson.jl")
+
+if !("Ferrite" in GRID_PACKAGES)
+    println("Ferrite is not installed: its grids are tested with a stand-in, and not solved on")
+    push!(LOAD_PATH, joinpath(@__DIR__, "stand_in"))
+    import Ferrite
+    load_extension("Ferrite")
+    pop!(LOAD_PATH)
+end
+"Gridap" in GRID_PACKAGES || println("Gridap is not installed: its models are not tested")
+
+function mesh_of(domain, d)
+    placement = set_spacing!(Placement(domain; steps = 20), d)
+    run!(placement)
+    return DistributedMesh(placement)
+end
+
+function square_with_a_line(context)
+    return add_polyline!(add_polyline!(Domain(context), [0 1 1 0; 0 0 1 1]; tags = [3, 4, 4, 4]),
+                         [0.3 0.7; 0.4 0.6]; role = :inner, closed = false, tags = 7)
+end
+
+function box_with_a_wall(context)
+    box = add_box!(Domain(context; dim = 3), (0, 0, 0), (2, 1, 1); tag = 5)
+    return add_surface!(box, [1 1 1 1; 0.2 0.8 0.8 0.2; 0.2 0.2 0.8 0.8], [1 1; 2 3; 3 4];
+                        role = :inner, tags = 6)
+end
+
+surface_of_a_box(context) =
+    set_filled!(add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1); tag = 5), false)
+
+# As it is on one rank of several.
+lacking_a_node(mesh) =
+    DistributedMesh(; (name => getfield(mesh, name) for name in fieldnames(typeof(mesh)))...,
+                    all_nodes = mesh.all_nodes + 1)
+
+# Sets of nodes of the facets with this tag.
+facets_with(mesh, tag) = Set(Set.(eachcol(mesh.facets[:, mesh.facet_tags .== tag])))
+
+function check_grid_of_ferrite(mesh)
+    grid = Ferrite.Grid(mesh)
+    @test [collect(cell.nodes) for cell in grid.cells] == collect(eachcol(mesh.elements))
+    @test [collect(node.x) for node in grid.nodes] == collect(eachcol(mesh.coordinates))
+    @test Set(keys(grid.facetsets)) == Set("tag_$tag" for tag in mesh.facet_tags)
+    for tag in unique(mesh.facet_tags)
+        there = [Set(Ferrite.facets(grid.cells[cell])[facet])
+                 for (cell, facet) in grid.facetsets["tag_$tag"]]
+        @test allunique(there) && Set(there) == facets_with(mesh, tag)
+    end
+    return grid
+end
+
+@testset "grids of Ferrite" begin
+    Context() do context
+        mesh = mesh_of(square_with_a_line(context), 0.1)
+        @test isempty(check_grid_of_ferrite(mesh).cellsets)
+        check_grid_of_ferrite(mesh_of(box_with_a_wall(context), 0.25))
+        grid = check_grid_of_ferrite(mesh_of(surface_of_a_box(context), 0.3))
+        @test sort(collect(grid.cellsets["tag_5"])) == eachindex(grid.cells)
+        @test length(grid.cellsets) == 1
+        e = thrown(() -> Ferrite.Grid(lacking_a_node(mesh)))
+        @test e isa ArgumentError && occursin("Ferrite takes meshes that are on one rank", e.msg)
+    end
+end
+
+# Measures of the facets with each tag, and of all cells.
+function measures_in_gridap(model, tags)
+    measure(cells) = sum(Gridap.:∫(1.0) * Gridap.Measure(cells, 0))
+    on(tag) = measure(Gridap.BoundaryTriangulation(model, tags = tag))
+    return [on(tag) for tag in tags], measure(Gridap.Triangulation(model))
+end
+
+function check_model_of_gridap(mesh)
+    Geometry = Gridap.Geometry
+    model = Geometry.UnstructuredDiscreteModel(mesh)
+    topology, labels = Geometry.get_grid_topology(model), Geometry.get_face_labeling(model)
+    @test [Set(cell) for cell in Geometry.get_cell_node_ids(model)] == Set.(eachcol(mesh.elements))
+    @test [collect(Tuple(x)) for x in Geometry.get_node_coordinates(model)] ==
+          collect(eachcol(mesh.coordinates))
+    with(name, d) = findall(Geometry.get_face_mask(labels, name, d))
+    dim = Geometry.num_cell_dims(model)
+    vertices = Geometry.get_faces(topology, dim - 1, 0)
+    tags = setdiff([mesh.facet_tags; mesh.element_tags], 0)
+    @test labels.tag_to_name == ["interior"; "boundary"; ["tag_$tag" for tag in sort(tags)]]
+    for tag in unique(mesh.facet_tags)
+        facets = facets_with(mesh, tag)
+        @test Set(Set(vertices[f]) for f in with("tag_$tag", dim - 1)) == facets
+        @test Set(with("tag_$tag", 0)) == reduce(union, facets)
+    end
+    @test Set(with("boundary", 0)) == Set(mesh.facets[:, .!mesh.facet_inner])
+    @test sort([with("boundary", 0); with("interior", 0)]) == eachindex(mesh.ids)
+    return model
+end
+
+"Gridap" in GRID_PACKAGES && @testset "models of Gridap" begin
+    Context() do context
+        mesh = mesh_of(square_with_a_line(context), 0.1)
+        model = check_model_of_gridap(mesh)
+        on, all = measures_in_gridap(model, ["tag_3", "tag_4", "tag_7", "boundary"])
+        @test on ≈ [1, 3, hypot(0.4, 0.2), 4] && all ≈ 1
+        model = check_model_of_gridap(mesh_of(box_with_a_wall(context), 0.25))
+        on, all = measures_in_gridap(model, ["tag_5", "tag_6"])
+        @test on ≈ [10, 0.36] && all ≈ 2
+        model = check_model_of_gridap(mesh_of(surface_of_a_box(context), 0.3))
+        @test last(measures_in_gridap(model, [])) ≈ 6
+        e = thrown(() -> Gridap.Geometry.UnstructuredDiscreteModel(lacking_a_node(mesh)))
+        @test e isa ArgumentError && occursin("Gridap takes meshes that are on one rank", e.msg)
+    end
+end
+
+# The same errors as on the plain arrays, and those that examples/c/petsc_poisson names.
+for name in GRID_PACKAGES
+    @testset "Poisson's equation in $name" begin
+        Context() do context
+            both(mesh, p) = ERRORS[name](mesh, p), error_in_arrays(mesh, p)
+            plane = before_and_after_adapting(both, square_with_hole(context), 0.03, SQUARE_PEAK)
+            space = before_and_after_adapting(both, box_with_hollow(context), 0.1, BOX_PEAK)
+            there, here = (map(found -> found[2][k], (plane..., space...)) for k in 1:2)
+            @test all(there .≈ here)
+            known = (0.00148331, 0.00104073, 0.00459653, 0.00400664)
+            @test all(isapprox.(there, known; rtol = 1e-4))
+        end
+    end
+end
