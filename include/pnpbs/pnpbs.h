@@ -1222,12 +1222,12 @@ PNPBS_API pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, in
 
 /** Makes the Voronoi cells of the current nodes: for each node the part of the elements of the
  *  placement that is closer to it than to any other, with its volume, its faces to neighbours and
- *  its share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces are
- *  lengths there; on surfaces distances are straight. Each element is divided among the corners of
- *  all elements that touch it, so a node sees none through a gap that has no elements. The volumes
- *  add up to that of the elements to rounding. Cells are functions of the nodes alone: any number
- *  of ranks and threads gives the same bits. The cells are a copy: nodes may move afterwards, and
- *  the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes.
+ *  its share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces
+ * are lengths there; on surfaces distances are straight. Each element is divided among the corners
+ * of all elements that touch it, so a node sees none through a gap that has no elements. The
+ * volumes add up to that of the elements to rounding. Cells are functions of the nodes alone: any
+ * number of ranks and threads gives the same bits. The cells are a copy: nodes may move afterwards,
+ * and the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes.
  *  @param[in] placement  whose nodes have the cells
  *  @param[out] voronoi   the handle */
 PNPBS_API pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
@@ -1243,8 +1243,8 @@ PNPBS_API pnpbs_status pnpbs_voronoi_sizes(pnpbs_voronoi voronoi, int32_t *dim, 
                                            int64_t *faces);
 
 /** Copies the volumes of the cells and their shares of the boundary; arrays may be NULL. Nodes are
- *  in the order of pnpbs_placement_get_nodes. In the plane and in bodies the areas of a cell's faces
- *  times their normals and its share of the boundary add up to 0. Local. Errors:
+ *  in the order of pnpbs_placement_get_nodes. In the plane and in bodies the areas of a cell's
+ * faces times their normals and its share of the boundary add up to 0. Local. Errors:
  *  PNPBS_ERROR_CAPACITY.
  *  @param[in] capacity   nodes the arrays have room for
  *  @param[out] volumes   [nodes]

@@ -18,8 +18,8 @@
 #include "placement/field_transfer.hpp"
 #include "placement/placement_of.hpp"
 #include "pnpbs/pnpbs.h"
-#include "voronoi/voronoi_cells.hpp"
 #include "settings/options.hpp"
+#include "voronoi/voronoi_cells.hpp"
 
 namespace pnpbs::api {
 

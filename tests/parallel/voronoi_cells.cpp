@@ -332,6 +332,7 @@ void check_case(const Case& it) {
   check_faces(all);
   if (it.known != Known::measure) check_closed(all, it.dim);
   if (it.known == Known::everything && rank == 0) check_by_brute_force(all, it.dim);
+  pnpbs_placement_destroy(&alone);
   pnpbs_context_destroy(&serial);
 
   pnpbs_placement placement = placed(it, context);
