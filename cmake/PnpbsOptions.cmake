@@ -68,12 +68,18 @@ endif()
 add_library(pnpbs_arithmetic INTERFACE)
 target_compile_options(pnpbs_arithmetic INTERFACE -ffp-contract=off -fno-math-errno
                                                   -fno-trapping-math -fopenmp-simd)
-# Some projects and distributions build Release with -O2; the vector loops want -O3.
-target_compile_options(pnpbs_arithmetic
-                       INTERFACE $<$<CONFIG:Release>:-O3> $<$<CONFIG:RelWithDebInfo>:-O3>)
 if(PNPBS_ARCH)
   target_compile_options(pnpbs_arithmetic INTERFACE -march=${PNPBS_ARCH})
 endif()
+
+# Some projects and distributions build Release with -O2; the vector loops want -O3.
+add_library(pnpbs_optimised INTERFACE)
+foreach(build_type Release RelWithDebInfo)
+  string(TOUPPER ${build_type} name)
+  if(CMAKE_CXX_FLAGS_${name} MATCHES "-O2")
+    target_compile_options(pnpbs_optimised INTERFACE $<$<CONFIG:${build_type}>:-O3>)
+  endif()
+endforeach()
 
 # Sanitizers go into every target, the tests' included.
 if(PNPBS_SANITIZE)

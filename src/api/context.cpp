@@ -6,6 +6,7 @@
 
 #include "api/guard.hpp"
 #include "base/build_config.hpp"
+#include "base/build_level.hpp"
 #include "base/execution.hpp"
 #include "base/kokkos_runtime.hpp"
 
@@ -152,7 +153,7 @@ pnpbs_status pnpbs_version(int32_t* major, int32_t* minor, int32_t* patch) {
 const char* pnpbs_build_info(void) {
   static const std::string text =
       std::string("version: ") + PNPBS_VERSION_STRING + "\ncompiler: " + PNPBS_BUILD_COMPILER +
-      "\nbuild: " + PNPBS_BUILD_TYPE PNPBS_BUILD_LEVEL + "\nKokkos: " + PNPBS_KOKKOS_VERSION_TEXT +
+      "\nbuild: " + PNPBS_BUILD_TYPE + build_level() + "\nKokkos: " + PNPBS_KOKKOS_VERSION_TEXT +
       "\nKokkos back end: " + Exec::name() + "\nKokkos linkage: " + PNPBS_KOKKOS_LINKAGE +
       "\nMPI: " + (PNPBS_HAVE_MPI ? PNPBS_MPI_LIBRARY_TEXT : "none") +
       "\nHDF5: " + (PNPBS_HAVE_HDF5 ? PNPBS_HDF5_TEXT : "none") + "\n";
