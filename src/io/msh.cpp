@@ -40,7 +40,7 @@ class Writer {
   void write() {
     file_.append_text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
     count_nodes();
-    append_physical_names(physical_groups(), file_);
+    file_.append_text(physical_names(physical_groups()));
     write_entities();
     write_nodes();
     write_elements();
@@ -93,27 +93,13 @@ class Writer {
         sink.number(counts[d]);
         sink.text(d < 3 ? " " : "\n");
       }
-      for (const MshGroup& group : groups_.tagged) write_entity(group, true, sink);
-      if (has_inside()) write_entity(groups_.inside, has_inside_elements(), sink);
+      for (const MshGroup& group : groups_.tagged)
+        write_entity(std::to_string(group.number), group, true, sink);
+      if (has_inside())
+        write_entity(std::to_string(groups_.inside.number), groups_.inside, has_inside_elements(),
+                     sink);
     });
     file_.append_text("$EndEntities\n");
-  }
-
-  // Its box, of a point the place of that; its group; nothing of what bounds it.
-  static void write_entity(const MshGroup& group, bool is_physical, Sink& sink) {
-    sink.number(group.number);
-    write_numbers(group.rows.low, sink);
-    if (group.dimension > 0) write_numbers(group.rows.high, sink);
-    sink.text(is_physical ? " 1 " : " 0");
-    if (is_physical) sink.number(group.number);
-    sink.text(group.dimension > 0 ? " 0\n" : "\n");
-  }
-
-  static void write_numbers(const std::array<double, 3>& numbers, Sink& sink) {
-    for (const double number : numbers) {
-      sink.text(" ");
-      sink.number(number);
-    }
   }
 
   // ------------------------------------------------------------ nodes

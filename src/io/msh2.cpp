@@ -86,7 +86,7 @@ void write_names(const MshGroups& groups, bool with_inside, SharedFile& file) {
   for (const MshGroup& group : groups.tagged)
     if (group.rows.tag > 0) named.push_back(&group);
   if (with_inside) named.push_back(&groups.inside);
-  append_physical_names(named, file);
+  file.append_text(physical_names(named));
 }
 
 }  // namespace

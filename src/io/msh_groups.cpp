@@ -31,7 +31,16 @@ std::string name_of(const Contents& all, std::int32_t tag) {
   return name_of_tag(tag);
 }
 
-MshGroup inside_of(const Contents& all) {
+void write_numbers(const std::array<double, 3>& numbers, Sink& sink) {
+  for (const double number : numbers) {
+    sink.text(" ");
+    sink.number(number);
+  }
+}
+
+}  // namespace
+
+MshGroup inside_group(const Contents& all) {
   MshGroup inside{all.dimension, 1, "domain", {}};
   std::int64_t named = 0;
   if (all.names)
@@ -45,33 +54,43 @@ MshGroup inside_of(const Contents& all) {
   return named > 1 ? MshGroup{all.dimension, 1, "domain", {}} : inside;
 }
 
-}  // namespace
+std::vector<MshGroup> tagged_groups(const Contents& all, const std::vector<TagGroup>& tags) {
+  const int dimension = all.with_elements ? all.dimension - 1 : 0;
+  std::vector<MshGroup> groups;
+  std::int64_t free = 1;
+  for (const TagGroup& tag : tags) free = std::max<std::int64_t>(free, tag.tag + std::int64_t{1});
+  for (const TagGroup& tag : tags)
+    groups.push_back({dimension, tag.tag > 0 ? tag.tag : free++, name_of(all, tag.tag), tag});
+  return groups;
+}
 
-const MshGroup* MshGroups::of(std::int32_t tag) const {
-  const auto found = std::ranges::lower_bound(tagged, tag, {},
+const MshGroup* group_of(const std::vector<MshGroup>& groups, std::int32_t tag) {
+  const auto found = std::ranges::lower_bound(groups, tag, {},
                                               [](const MshGroup& group) { return group.rows.tag; });
-  return found == tagged.end() || found->rows.tag != tag ? nullptr : &*found;
+  return found == groups.end() || found->rows.tag != tag ? nullptr : &*found;
 }
 
 MshGroups msh_groups(const NodeSource& nodes) {
   const Contents& all = nodes.contents();
-  const int dimension = all.with_elements ? all.dimension - 1 : 0;
-  MshGroups groups{{}, inside_of(all)};
-  const std::vector<TagGroup> tags = all.with_elements ? nodes.facet_groups() : nodes.node_groups();
-  std::int64_t free = 1;
-  for (const TagGroup& tag : tags) free = std::max<std::int64_t>(free, tag.tag + std::int64_t{1});
-  for (const TagGroup& tag : tags)
-    groups.tagged.push_back(
-        {dimension, tag.tag > 0 ? tag.tag : free++, name_of(all, tag.tag), tag});
-  return groups;
+  return {tagged_groups(all, all.with_elements ? nodes.facet_groups() : nodes.node_groups()),
+          inside_group(all)};
 }
 
-void append_physical_names(const std::vector<const MshGroup*>& groups, SharedFile& file) {
+std::string physical_names(const std::vector<const MshGroup*>& groups) {
   std::string text = "$PhysicalNames\n" + std::to_string(groups.size()) + "\n";
   for (const MshGroup* group : groups)
     text += std::to_string(group->dimension) + " " + std::to_string(group->number) + " " +
             quoted_name(group->name) + "\n";
-  file.append_text(text + "$EndPhysicalNames\n");
+  return text + "$EndPhysicalNames\n";
+}
+
+void write_entity(const std::string& head, const MshGroup& group, bool is_physical, Sink& sink) {
+  sink.text(head);
+  write_numbers(group.rows.low, sink);
+  if (group.dimension > 0) write_numbers(group.rows.high, sink);
+  sink.text(is_physical ? " 1 " : " 0");
+  if (is_physical) sink.number(group.number);
+  sink.text(group.dimension > 0 ? " 0\n" : "\n");
 }
 
 }  // namespace pnpbs::io

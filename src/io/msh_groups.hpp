@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/node_source.hpp"
-#include "io/shared_file.hpp"
+#include "io/sink.hpp"
 
 namespace pnpbs::io {
 
@@ -19,17 +19,29 @@ struct MshGroup {
   TagGroup rows;
 };
 
+// The inside is called as the domain's is, if that has one name.
+MshGroup inside_group(const Contents& all);
+// Of facets, or of nodes without elements. Tags that are not positive, which Gmsh's groups must be,
+// get numbers that are free.
+std::vector<MshGroup> tagged_groups(const Contents& all, const std::vector<TagGroup>& tags);
+// In groups by tag; nullptr if there is none.
+const MshGroup* group_of(const std::vector<MshGroup>& groups, std::int32_t tag);
+
 struct MshGroups {
   std::vector<MshGroup> tagged;  // of facets, or of nodes; by tag
   MshGroup inside;
 
-  const MshGroup* of(std::int32_t tag) const;  // nullptr if there is none
+  const MshGroup* of(std::int32_t tag) const { return group_of(tagged, tag); }
 };
 
-// Tags that are not positive, which Gmsh's groups must be, get numbers that are free. The inside is
-// called as the domain's is, if that has one name. Collective.
+// Collective.
 MshGroups msh_groups(const NodeSource& nodes);
 
-void append_physical_names(const std::vector<const MshGroup*>& groups, SharedFile& file);
+// The section of the file.
+std::string physical_names(const std::vector<const MshGroup*>& groups);
+
+// Its box, of a point the place of that; its group; nothing of what bounds it. head: its number,
+// and what stands before the box of a part of it.
+void write_entity(const std::string& head, const MshGroup& group, bool is_physical, Sink& sink);
 
 }  // namespace pnpbs::io

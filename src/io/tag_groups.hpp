@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counts of what has each tag, and the boxes around it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "comm/records.hpp"
+#include "io/node_source.hpp"
+
+namespace pnpbs::io {
+
+// Of this rank, then of all.
+class TagGroups {
+ public:
+  template <int Dim>
+  void add(std::int32_t tag, std::span<const Point<Dim>> corners) {
+    TagGroup& group = at(tag);
+    ++group.count;
+    for (const Point<Dim>& x : corners)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double coordinate = k < Dim ? x[k] : 0;
+        group.low[k] = std::min(group.low[k], coordinate);
+        group.high[k] = std::max(group.high[k], coordinate);
+      }
+  }
+
+  // Collective.
+  std::vector<TagGroup> of_all(const Communicator& comm) const {
+    Bytes mine;
+    for (const auto& [tag, group] : groups_) pack(mine, group);
+    TagGroups all;
+    for_records<TagGroup>({comm.allgather(mine)}, [&](const TagGroup& group) { all.join(group); });
+    std::vector<TagGroup> list;
+    for (const auto& [tag, group] : all.groups_) list.push_back(group);
+    return list;
+  }
+
+ private:
+  TagGroup& at(std::int32_t tag) {
+    return groups_.try_emplace(tag, TagGroup{tag, 0, filled(HUGE_VAL), filled(-HUGE_VAL)})
+        .first->second;
+  }
+  static std::array<double, 3> filled(double value) { return {value, value, value}; }
+
+  void join(const TagGroup& other) {
+    TagGroup& group = at(other.tag);
+    group.count += other.count;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group.low[k] = std::min(group.low[k], other.low[k]);
+      group.high[k] = std::max(group.high[k], other.high[k]);
+    }
+  }
+
+  std::map<std::int32_t, TagGroup> groups_;
+};
+
+}  // namespace pnpbs::io
