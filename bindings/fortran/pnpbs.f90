@@ -257,6 +257,7 @@ module pnpbs
     generic :: get_facets => mesh_get_facets, mesh_get_facets_logical
     procedure :: sharing_sizes => mesh_sharing_sizes
     procedure :: get_sharing => mesh_get_sharing
+    procedure :: write => mesh_write
     procedure :: handle => mesh_handle
     procedure :: from_handle => mesh_from_handle
   end type
@@ -2962,6 +2963,25 @@ contains
     if (status < 0) return
     call count_from_one(shared(:nodes))
     call count_from_one(offsets(:nodes + 1))
+  end subroutine
+
+  !> Writes the mesh in files of Gmsh's format 4.1, in parts as Gmsh partitions a mesh: rank r
+  !> writes prefix_<r + 1>.msh, partition r + 1. The file has the nodes, elements and ghost elements
+  !> of the rank and the facets that it owns. Nodes and elements have their numbers plus 1, and
+  !> facets are numbered behind all elements, so that the files have the same numbers for the same
+  !> things. Tags are physical groups, named as by placement%write; the inside is one, too. Programs
+  !> that read ghost elements, such as deal.II, need a mesh of one ghost layer; without layers the
+  !> files have none. All files appear when all are complete; after an error, existing files are
+  !> unchanged. Files of an earlier mesh on more ranks remain. Collective. Errors:
+  !> PNPBS_ERROR_ARGUMENT for a prefix that is empty or not the same on all ranks; PNPBS_ERROR_FILE
+  !> on all ranks if one cannot write, with a message that names its file.
+  !>   prefix  folder and begin of the names of the files; trailing blanks are ignored
+  subroutine mesh_write(self, prefix, stat, errmsg)
+    class(pnpbs_mesh), intent(in) :: self
+    character(len=*), intent(in) :: prefix
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('mesh%write', c_mesh_write(self%c, c_text(prefix)), stat, errmsg)
   end subroutine
 
   !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.

@@ -1328,6 +1328,14 @@ module pnpbs_c
       integer(c_int) :: c_mesh_get_sharing
     end function
 
+    function c_mesh_write(mesh, prefix) bind(C, name="pnpbs_mesh_write")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: prefix(*)
+      integer(c_int) :: c_mesh_write
+    end function
+
     function c_voronoi_create(placement, voronoi) bind(C, name="pnpbs_voronoi_create")
       import
       implicit none

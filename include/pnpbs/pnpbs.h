@@ -1218,6 +1218,19 @@ PNPBS_API pnpbs_status pnpbs_mesh_sharing_sizes(pnpbs_mesh mesh, int64_t *nodes,
 PNPBS_API pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entries,
                                               int32_t *shared, int64_t *offsets, int32_t *ranks);
 
+/** Writes the mesh in files of Gmsh's format 4.1, in parts as Gmsh partitions a mesh: rank r writes
+ *  prefix_<r + 1>.msh, partition r + 1. The file has the nodes, elements and ghost elements of the
+ *  rank and the facets that it owns. Nodes and elements have their numbers plus 1, and facets are
+ *  numbered behind all elements, so that the files have the same numbers for the same things. Tags
+ *  are physical groups, named as by pnpbs_placement_write; the inside is one, too. Programs that
+ *  read ghost elements, such as deal.II, need a mesh of one ghost layer; without layers the files
+ *  have none. All files appear when all are complete; after an error, existing files are unchanged.
+ *  Files of an earlier mesh on more ranks remain. Collective. Errors: PNPBS_ERROR_ARGUMENT for a
+ *  prefix that is NULL, empty or not the same on all ranks; PNPBS_ERROR_FILE on all ranks if one
+ *  cannot write, with a message that names its file.
+ *  @param[in] prefix  folder and begin of the names of the files */
+PNPBS_API pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
+
 /* ---------------------------------------------------------------- Voronoi cells --------- */
 
 /** Makes the Voronoi cells of the current nodes: for each node the part of the elements of the

@@ -11,6 +11,9 @@ CHECKS = {"check", "check_without_context", "check_geo", "live"}
 OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError",
              "pnpbs_mesh_get_connectivity_int32": "DistributedMesh"}
 
+# What a function calls on its way, but does not stand for.
+IN_PASSING = {"write_mesh": {"pnpbs_mesh_create", "pnpbs_mesh_destroy"}}
+
 
 class Docstring(NamedTuple):
     names: tuple  # what it documents: ("set_spacing!",)
@@ -78,4 +81,5 @@ class Package:
         if c_name in OTHERWISE:
             return [self.documented[OTHERWISE[c_name]]]
         return [one for one in self.docstrings
-                if any(c_name in self.reached(name) for name in one.names)]
+                if any(c_name in self.reached(name) - IN_PASSING.get(name, set())
+                       for name in one.names)]

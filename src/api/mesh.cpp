@@ -5,6 +5,7 @@
 
 #include "api/copy_out.hpp"
 #include "api/placement_calls.hpp"
+#include "io/msh_parts.hpp"
 #include "mesh/distributed_mesh.hpp"
 
 using namespace pnpbs;
@@ -47,6 +48,22 @@ pnpbs_status copy_connectivity(pnpbs_mesh mesh, std::int64_t capacity, Number* n
     for (const std::int32_t node : m.element_corners)
       *numbers++ = static_cast<Number>(m.numbers[static_cast<std::size_t>(node)]);
   });
+}
+
+void require_prefix(const Communicator& comm, const char* prefix) {
+  agreed(comm, [&] {
+    require_pointer(prefix, "prefix");
+    if (*prefix == 0)
+      throw Error(ErrorKind::argument,
+                  "argument prefix is empty; the files are named prefix_1.msh, prefix_2.msh, ...");
+  });
+  const std::string mine = prefix;
+  Bytes first(mine.begin(), mine.end());
+  comm.broadcast(first, 0);
+  if (std::string(first.begin(), first.end()) != mine)
+    throw Error(ErrorKind::argument, "argument prefix = '" + mine + "'; on rank 0 it is '" +
+                                         std::string(first.begin(), first.end()) +
+                                         "': all ranks must give the same");
 }
 
 }  // namespace
@@ -155,5 +172,17 @@ pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entr
     copy_out(m.shared_nodes, shared);
     copy_out(m.sharing_offsets, offsets);
     copy_out(m.sharing_ranks, ranks);
+  });
+}
+
+pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char* prefix) {
+  return guarded(mesh, [&](MeshObject& object) {
+    const Computing computing(*object.context);
+    const Communicator& comm = *object.context->communicator;
+    agreed(comm, [&] {
+      require_prefix(comm, prefix);
+      io::write_msh_parts(comm, *object.mesh, prefix);
+    });
+    return PNPBS_OK;
   });
 }

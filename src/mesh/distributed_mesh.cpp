@@ -98,6 +98,7 @@ std::unique_ptr<DistributedMesh> make_distributed_mesh(NodalResults& results, in
   auto mesh = std::make_unique<DistributedMesh>();
   mesh->dimension = results.dimension();
   in_its_dimension(results, [&]<int Dim>(Results<Dim>& in) {
+    mesh->names = in.domain().names();
     if (in.surfaces_alone())
       make<3>(in, layers, *mesh);
     else

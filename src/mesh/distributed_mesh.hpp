@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
+#include "formats/group_names.hpp"
 #include "placement/nodal_results.hpp"
 
 namespace pnpbs {
@@ -42,6 +43,8 @@ struct DistributedMesh {
   std::vector<std::int32_t> shared_nodes;  // indices, by number
   std::vector<std::int64_t> sharing_offsets{0};
   std::vector<std::int32_t> sharing_ranks;  // increasing, of each node
+
+  GroupNames names;  // of the domain's tags
 };
 
 // layers: of ghost elements. Those of the first have a node in common with the nodes and elements

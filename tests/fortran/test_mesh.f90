@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Distributed meshes of one process, in the plane, in space and on a surface: numbers, orientation
-!> through the local indices, facets, and wrong arguments. Over ranks: test_ranks.
+!> through the local indices, facets, files, and wrong arguments. Over ranks: test_ranks.
 program test_mesh
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -64,6 +64,7 @@ contains
     call look_at(placement, mesh, 3, 4, elements, facets)
     call look_at_elements(mesh, 1d0, 0)
     call look_at_facets(mesh, 1d0)
+    call look_at_file(mesh, elements, facets)
     call mesh%destroy
     call placement%destroy
 
@@ -120,6 +121,29 @@ contains
     call mesh%get_facets(elements=two)
     call expect(facets > 5 .and. all(two(1, :) > 0) .and. all(two(2, :) == 0), 'a border')
     call mesh%destroy
+  end subroutine
+
+  !> The file of one rank has all elements and facets, numbered from 1.
+  subroutine look_at_file(mesh, elements, facets)
+    type(pnpbs_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(in) :: elements, facets
+    character(len=80) :: line
+    integer(c_int64_t) :: sizes(4)
+    integer, parameter :: unit = 30
+    integer :: stat
+    call mesh%write('fortran_mesh  ')
+    open (unit, file='fortran_mesh_1.msh', status='old', action='read')
+    sizes = 0
+    do
+      read (unit, '(a)', iostat=stat) line
+      if (stat /= 0) exit
+      if (line == '$Elements') read (unit, *) sizes
+    end do
+    close (unit, status='delete')
+    call expect(sizes(2) == elements + facets .and. sizes(3) == 1 .and. sizes(4) == sizes(2), &
+                'a file with all elements')
+    call mesh%write(' ', stat)
+    call expect(stat == PNPBS_ERROR_ARGUMENT, 'an empty prefix')
   end subroutine
 
   !> Sizes, numbers and nodes, which are those of the placement.

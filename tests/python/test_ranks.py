@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package over the ranks of mpi4py's world. Run by mpirun."""
 import math
+import pathlib
+import shutil
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -152,6 +155,29 @@ class Ranks(unittest.TestCase):
             if WORLD.size > 1:
                 with self.assertRaisesRegex(PNPBSError, "all ranks must give the same"):
                     placement.mesh(int(WORLD.rank == LAST))
+
+    def test_files_of_meshes(self):
+        folder = WORLD.bcast(tempfile.mkdtemp() if WORLD.rank == 0 else None)
+        for layers in ({}, {"ghost_layers": 0}):
+            mesh = self.placement.mesh(**{"ghost_layers": 1, **layers})
+            self.assertIs(self.placement.write_mesh(pathlib.Path(folder) / "mesh", **layers),
+                          self.placement)
+            lines = pathlib.Path(folder, f"mesh_{WORLD.rank + 1}.msh").read_text().splitlines()
+            owned_facets = np.count_nonzero(mesh.facet_owners == WORLD.rank)
+            for section, rows in (("Nodes", len(mesh.numbers)),
+                                  ("Elements", len(mesh.elements) + owned_facets)):
+                header = lines[lines.index(f"${section}") + 1].split()
+                self.assertEqual(int(header[1]), rows)
+            ghosts = len(mesh.elements) - mesh.owned_elements
+            self.assertEqual("$GhostElements" in lines, ghosts > 0)
+            if ghosts:
+                self.assertEqual(int(lines[lines.index("$GhostElements") + 1]), ghosts)
+        for prefix, message in (("", "prefix is empty"), (folder + "/none/mesh", "mesh_1.msh")):
+            with self.assertRaisesRegex(PNPBSError, message):
+                self.placement.write_mesh(prefix)
+        WORLD.Barrier()
+        if WORLD.rank == 0:
+            shutil.rmtree(folder)
 
     def test_sums_have_the_same_bits(self):
         own = self.placement.nodes()

@@ -220,6 +220,7 @@ pnpbs_status pnpbs_mesh_get_facets(pnpbs_mesh mesh, int64_t capacity, int32_t *n
 pnpbs_status pnpbs_mesh_sharing_sizes(pnpbs_mesh mesh, int64_t *nodes, int64_t *entries);
 pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entries,
     int32_t *shared, int64_t *offsets, int32_t *ranks);
+pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
 pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
 pnpbs_status pnpbs_voronoi_destroy(pnpbs_voronoi *voronoi);
 pnpbs_status pnpbs_voronoi_sizes(pnpbs_voronoi voronoi, int32_t *dim, int64_t *nodes,

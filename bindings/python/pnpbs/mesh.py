@@ -4,13 +4,17 @@
 from __future__ import annotations
 
 import ctypes
+import os
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import List
+from typing import Iterator, List, TypeVar
 
 import numpy as np
 
 from ._interface import library
+from ._signals import signals_kept_in
 from ._summaries import counted
+from ._types import Path
 from .context import Context
 from .mesh_conversions import MeshConversions
 from .placement_handle import PlacementHandle
@@ -72,6 +76,9 @@ def _int64s(n: int) -> List[ctypes.c_int64]:
     return [ctypes.c_int64() for _ in range(n)]
 
 
+_Self = TypeVar("_Self", bound="Meshes")
+
+
 class Meshes(PlacementHandle):
     """The part of `Placement` that makes distributed meshes."""
 
@@ -89,10 +96,33 @@ class Meshes(PlacementHandle):
         of other ranks that have a node in common with these, or with the nodes that it owns, so all
         elements at its nodes. Each further layer, up to 16, adds the elements that have a node in
         common with the layer before. All ranks give the same number. Collective."""
+        with self._mesh_of_library(ghost_layers) as handle:
+            return DistributedMesh._copied(self.context, handle)
+
+    def write_mesh(self: _Self, prefix: Path, ghost_layers: int = 1) -> _Self:
+        """Writes a distributed mesh of the current nodes (see `mesh`) in files of Gmsh's format
+        4.1, in parts as Gmsh partitions a mesh: rank r writes `prefix_<r + 1>.msh`, partition
+        r + 1. The file has the nodes, elements and ghost elements of the rank and the facets that
+        it owns. Nodes and elements have their numbers plus 1, and facets are numbered behind all
+        elements, so that the files have the same numbers for the same things. Tags are physical
+        groups, named as by `write`; the inside is one, too. Programs that read ghost elements, such
+        as deal.II, need one ghost layer; with none the files have none. All files appear when all
+        are complete; after an error, existing files are unchanged. Files of an earlier mesh on more
+        ranks remain. All ranks give the same prefix: folder and begin of the names of the files.
+        Collective."""
+        with self._mesh_of_library(ghost_layers) as handle:
+            with signals_kept_in(self.context):
+                code = library().pnpbs_mesh_write(handle, os.fsencode(prefix))
+            self.context._check(code)
+        return self
+
+    @contextmanager
+    def _mesh_of_library(self, ghost_layers: int) -> Iterator[ctypes.c_void_p]:
+        """A handle that is destroyed where the block ends."""
         handle = ctypes.c_void_p()
         self.context._check(library().pnpbs_mesh_create(self._live(), ghost_layers,
                                                         ctypes.byref(handle)))
         try:
-            return DistributedMesh._copied(self.context, handle)
+            yield handle
         finally:
             self.context._check(library().pnpbs_mesh_destroy(ctypes.byref(handle)))

@@ -594,6 +594,9 @@ pnpbs_mesh_get_sharing(mesh, nodes, entries, shared, offsets, ranks) =
         mesh::pnpbs_mesh, nodes::Int64, entries::Int64, shared::Ptr{Int32},
         offsets::Ptr{Int64}, ranks::Ptr{Int32})::pnpbs_status
 
+pnpbs_mesh_write(mesh, prefix) =
+    @ccall $(symbol(:pnpbs_mesh_write))(mesh::pnpbs_mesh, prefix::Cstring)::pnpbs_status
+
 # ---------------------------------------------------------------- Voronoi cells --------------
 pnpbs_voronoi_create(placement, voronoi) =
     @ccall $(symbol(:pnpbs_voronoi_create))(

@@ -40,7 +40,7 @@ export exchange_pattern, numbering, reinterpret_columns
 export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes
 export add_from_ghosts!, incident_elements, incident_elements!
 export Transfer, at_nodes, at_points, linear_nodes
-export DistributedMesh, VoronoiCells
+export DistributedMesh, write_mesh, VoronoiCells
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
 export boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files

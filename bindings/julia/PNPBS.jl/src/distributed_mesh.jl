@@ -86,11 +86,36 @@ Base.@kwdef struct DistributedMesh
 end
 
 function DistributedMesh(placement::Placement; ghost_layers::Integer = 0)
+    return with_mesh(mesh -> copy_of_mesh(placement.context, mesh), placement, ghost_layers)
+end
+
+"""
+    write_mesh(placement, prefix; ghost_layers = 1) -> Placement
+
+Writes a distributed mesh of the current nodes (see [`DistributedMesh`](@ref)) in files of Gmsh's
+format 4.1, in parts as Gmsh partitions a mesh: rank r writes `prefix_<r + 1>.msh`, partition r + 1.
+The file has the nodes, elements and ghost elements of the rank and the facets that it owns. Nodes
+and elements have their numbers plus 1, and facets are numbered behind all elements, so that the
+files have the same numbers for the same things. Tags are physical groups, named as by
+[`write_file`](@ref); the inside is one, too. Programs that read ghost elements, such as deal.II,
+need one ghost layer; with none the files have none. All files appear when all are complete; after
+an error, existing files are unchanged. Files of an earlier mesh on more ranks remain. All ranks
+give the same prefix: folder and begin of the names of the files. Collective.
+"""
+function write_mesh(placement::Placement, prefix::AbstractString; ghost_layers::Integer = 1)
+    with_mesh(placement, ghost_layers) do mesh
+        check(placement.context, LibPNPBS.pnpbs_mesh_write(mesh, prefix))
+    end
+    return placement
+end
+
+# Returns body(mesh) of the library's mesh, which does not outlive that.
+function with_mesh(body, placement, ghost_layers)
     context = placement.context
     handle = Ref{LibPNPBS.pnpbs_mesh}(C_NULL)
     check(context, LibPNPBS.pnpbs_mesh_create(live(placement), ghost_layers, handle))
     try
-        return copy_of_mesh(context, handle[])
+        return body(handle[])
     finally
         check(context, LibPNPBS.pnpbs_mesh_destroy(handle))
     end

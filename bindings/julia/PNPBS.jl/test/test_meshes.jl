@@ -32,6 +32,17 @@ placed_with(domain, d) = (p = set_spacing!(Placement(domain; steps = 20), d); ru
         more = DistributedMesh(placement; ghost_layers = 16)
         @test more.elements == mesh.elements && more.ids == mesh.ids
         @test occursin("$(mesh.all_nodes) nodes", string(mesh))
+
+        mktempdir() do folder
+            @test write_mesh(placement, joinpath(folder, "mesh")) === placement
+            @test readdir(folder) == ["mesh_1.msh"]
+            lines = readlines(joinpath(folder, "mesh_1.msh"))
+            sizes = parse.(Int, split(lines[findfirst(==("\$Elements"), lines) + 1]))
+            @test sizes[2:4] == [size(mesh.elements, 2) + size(mesh.facets, 2), 1, sizes[2]]
+            @test fails(() -> write_mesh(placement, ""), :error_argument, "prefix is empty")
+            @test fails(() -> write_mesh(placement, joinpath(folder, "none", "mesh")), :error_file,
+                        "mesh_1.msh")
+        end
     end
 end
 
