@@ -72,11 +72,12 @@ if(PNPBS_ARCH)
   target_compile_options(pnpbs_arithmetic INTERFACE -march=${PNPBS_ARCH})
 endif()
 
-# Some projects and distributions build Release with -O2; the vector loops want -O3.
+# Some projects and distributions build Release with -O2, which may come with the flags of all build
+# types; the vector loops want -O3. Who asks for less than -O2 in Release means it.
 add_library(pnpbs_optimised INTERFACE)
 foreach(build_type Release RelWithDebInfo)
   string(TOUPPER ${build_type} name)
-  if(CMAKE_CXX_FLAGS_${name} MATCHES "-O2")
+  if(NOT CMAKE_CXX_FLAGS_${name} MATCHES "-O[^23]")
     target_compile_options(pnpbs_optimised INTERFACE $<$<CONFIG:${build_type}>:-O3>)
   endif()
 endforeach()
