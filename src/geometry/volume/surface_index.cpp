@@ -4,38 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "base/space_vectors.hpp"
+#include "geometry/facet_tree.hpp"
 #include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-FacetIndex<3> index_sides(const BoundaryMesh<3>& mesh, const Box<3>& bounds) {
-  constexpr std::size_t kMaxFacets = 12;
-  constexpr int kMaxDepth = 16;  // where more meet in a node, no cell holds fewer
-  FacetCells<3> facets(mesh);
-  std::int32_t parents = 0;  // first cell of the depth above
-  const auto add_children_before = [&](const BackgroundTree<3>& tree, std::int32_t last) {
-    for (std::int32_t parent = parents; parent < last; ++parent)
-      if (tree.cell(parent).first_child >= 0) facets.add_children(tree, parent);
-    parents = last;
-  };
-  BackgroundTree<3> tree;
-  tree.build(bounds, [&](const BackgroundTree<3>& grown, std::int32_t first, std::int32_t last,
-                         std::vector<char>& split) {
-    if (first == 0) facets.add_root(grown);
-    add_children_before(grown, first);
-    for (std::int32_t c = first; c < last; ++c)
-      split[static_cast<std::size_t>(c - first)] =
-          grown.cell(c).depth < kMaxDepth && facets.facets(c).size() > kMaxFacets;
-  });
-  add_children_before(tree, tree.cell_count());
-  return FacetIndex<3>(std::move(tree), facets);
-}
 
 // Is the triangle's plane surely farther from x than that? No is said, too, where rounding matters.
 bool plane_is_beyond(const FacetCorners<3>& triangle, const Point<3>& x, double reach) {
@@ -51,7 +28,7 @@ bool plane_is_beyond(const FacetCorners<3>& triangle, const Point<3>& x, double 
 }  // namespace
 
 SurfaceIndex::SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds)
-    : sides_(index_sides(mesh, bounds)) {
+    : sides_(index_facets<3>(mesh, bounds)) {
   std::vector<Box<3>> boxes;
   for (const BoundaryTriangle& facet : mesh.facets) {
     const auto [a, b, c] = corners_of(mesh, facet);
