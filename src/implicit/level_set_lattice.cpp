@@ -55,11 +55,15 @@ LatticePlace LevelSetLattice::place(std::uint64_t key) {
 Point<3> LevelSetLattice::position(const LatticePlace& place) const {
   Point<3> x;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double steps = cells_[k] - 1;
+    const double steps = std::max(1, cells_[k] - 1);
     const double part = std::clamp((place[k] - kShift[k]) / steps, 0.0, 1.0);
     x[k] = (1 - part) * set_.box().low[k] + part * set_.box().high[k];
   }
   return x;
+}
+
+bool LevelSetLattice::is_flat(std::size_t axis) const {
+  return set_.box().low[axis] == set_.box().high[axis];
 }
 
 LatticePlace LevelSetLattice::corner(const LatticePlace& cell, int depth, int which) const {
@@ -140,7 +144,7 @@ void LevelSetLattice::flood(Depth& at) {
       for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t axis = face / 2;
         const bool high = face % 2 == 1;
-        if (!face_crossed(cell, at.depth, axis, high)) continue;
+        if (is_flat(axis) || !face_crossed(cell, at.depth, axis, high)) continue;
         LatticePlace beyond = cell;
         beyond[axis] += high ? 1 : -1;
         if (there.insert(key(beyond)).second) at.cells.push_back(key(beyond));
@@ -188,7 +192,7 @@ void LevelSetLattice::sample(int depth, std::span<const std::uint64_t> cells) {
 
 void LevelSetLattice::reject_border(const LatticePlace& at) const {
   for (std::size_t k = 0; k < 3; ++k)
-    if (at[k] == 0 || at[k] == cells_[k])
+    if (!is_flat(k) && (at[k] == 0 || at[k] == cells_[k]))
       throw Error(ErrorKind::domain,
                   set_.name() + ": f is negative at " + point_text(position(at)) +
                       ", on the border of the box: the body must lie in the box, so give a larger "

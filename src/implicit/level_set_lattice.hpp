@@ -3,7 +3,7 @@
 // cells are cut in eight where the signs of f at corners and centre differ, where the differences
 // of f there say that it may be 0 between, and next to a face in which signs differ. So f is asked
 // near the surface only, and small bodies far from others can be missed where f does not fall
-// towards them.
+// towards them. Where the box has no extent in z, they are squares of a lattice in the plane.
 #pragma once
 
 #include <array>
@@ -46,6 +46,7 @@ class LevelSetLattice {
     std::vector<char> crossed, near;  // near: f may be 0 in it
   };
 
+  bool is_flat(std::size_t axis) const;
   Depth coarsest() const;
   void judge(Depth& at);
   void flood(Depth& at);

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "implicit/level_curves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "implicit/level_set_lattice.hpp"
+#include "implicit/level_set_zeros.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kCosCorner = 0.93969262078590838;  // 20 degrees: by less, curves only bend
+// In units of the resolution.
+constexpr double kOnePoint = 1e-6;         // vertices so near each other are one
+constexpr double kCornerTolerance = 1e-5;  // of f at a corner, as a distance
+constexpr double kCornerReach = 2;         // of a corner from its neighbours on the curve
+
+Point<2> flat(const Point<3>& x) { return {x[0], x[1]}; }
+Point<3> raised(const Point<2>& x, double z) { return {x[0], x[1], z}; }
+
+// The side of a lattice square, by its middle in half steps of the lattice.
+std::uint64_t side_between(const LatticePlace& a, const LatticePlace& b) {
+  return LevelSetLattice::key({a[0] + b[0], a[1] + b[1], 0});
+}
+
+std::array<LatticePlace, 2> ends_of_side(std::uint64_t side) {
+  const LatticePlace middle = LevelSetLattice::place(side);
+  return {LatticePlace{middle[0] / 2, middle[1] / 2, 0},
+          LatticePlace{(middle[0] + 1) / 2, (middle[1] + 1) / 2, 0}};
+}
+
+// Counterclockwise.
+std::array<LatticePlace, 4> corners_of_square(const LatticePlace& at) {
+  return {LatticePlace{at[0], at[1], 0}, LatticePlace{at[0] + 1, at[1], 0},
+          LatticePlace{at[0] + 1, at[1] + 1, 0}, LatticePlace{at[0], at[1] + 1, 0}};
+}
+
+// ------------------------------------------------------------------ marching squares -----------
+
+// A piece of the curve within a square, from side to side, the region on its left.
+struct Piece {
+  std::uint64_t from, to;
+};
+
+// Pieces of the squares that the curve goes through.
+std::vector<Piece> pieces_in_squares(const LevelSet& set, const LevelSetLattice& lattice) {
+  std::vector<Piece> pieces;
+  for (const LatticePlace& square : lattice.crossed()) {
+    const auto corners = corners_of_square(square);
+    std::array<bool, 4> in;
+    for (std::size_t k = 0; k < 4; ++k) in[k] = lattice.value(corners[k]) < 0;
+    std::vector<std::size_t> leaving, entering;  // sides on which the way around does so
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (in[k] && !in[(k + 1) % 4]) leaving.push_back(k);
+      if (!in[k] && in[(k + 1) % 4]) entering.push_back(k);
+    }
+    // Where there are two of each: does the region go through the middle, or end before it?
+    bool joined = false;
+    if (leaving.size() == 2) {
+      const Point<3> a = lattice.position(corners[0]), b = lattice.position(corners[2]);
+      joined = set.values(std::vector{middle_of<3>(a, b)})[0] < 0;
+    }
+    for (const std::size_t side : leaving) {
+      std::size_t end = entering[0];
+      if (leaving.size() == 2) end = joined ? (side + 1) % 4 : (side + 3) % 4;
+      pieces.push_back({side_between(corners[side], corners[(side + 1) % 4]),
+                        side_between(corners[end], corners[(end + 1) % 4])});
+    }
+  }
+  return pieces;
+}
+
+// ------------------------------------------------------------------ corners --------------------
+
+// f where it is asked, and the straight line on which it would be 0 by its slope.
+struct Tangent {
+  Point<2> at;
+  double f;
+  Point<2> gradient;
+};
+
+double product(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
+
+// Does the curve come from the tangent's point to x? It has the region, where f < 0, on its left.
+bool leads_to(const Tangent& tangent, const Point<2>& x) {
+  const Point<2>& g = tangent.gradient;
+  return g[0] * (x[1] - tangent.at[1]) - g[1] * (x[0] - tangent.at[0]) >= 0;
+}
+
+bool turns(const Tangent& a, const Tangent& b) {
+  const double both = std::sqrt(product(a.gradient, a.gradient) * product(b.gradient, b.gradient));
+  return both > 0 && product(a.gradient, b.gradient) < kCosCorner * both;
+}
+
+std::optional<Point<2>> crossing(const Tangent& a, const Tangent& b) {
+  const Point<2>&g = a.gradient, &h = b.gradient;
+  const double determinant = g[0] * h[1] - g[1] * h[0];
+  if (determinant == 0) return std::nullopt;
+  const double c = product(g, a.at) - a.f, d = product(h, b.at) - b.f;
+  return Point<2>{(c * h[1] - d * g[1]) / determinant, (g[0] * d - h[0] * c) / determinant};
+}
+
+// Where the curve turns between two of its points.
+struct CornerSearch {
+  std::size_t piece;
+  std::array<Point<2>, 2> from;  // the points
+  Point<2> x{};                  // the corner, as far as it is known
+};
+
+class CurveCorners {
+ public:
+  CurveCorners(const LevelSet& set, std::vector<CornerSearch> open)
+      : set_(set), z_(set.box().low[2]), open_(std::move(open)) {}
+
+  // Of each piece its corner.
+  std::vector<std::optional<Point<2>>> run(std::size_t pieces) {
+    // Where the sides bend, the tangents from closer by tell better.
+    for (const double share : {1.0, 0.1, 0.01}) approach(share);
+    std::vector<std::optional<Point<2>>> corners(pieces);
+    std::vector<Point<3>> at;
+    for (const CornerSearch& search : open_) at.push_back(raised(search.x, z_));
+    const std::vector<LevelSetSlope> slope = set_.slopes(at);
+    for (std::size_t k = 0; k < open_.size(); ++k)
+      if (std::fabs(slope[k].f) <= kCornerTolerance * set_.resolution())
+        corners[open_[k].piece] = open_[k].x;
+    return corners;
+  }
+
+ private:
+  // Of the way from the corner back to the points; what does not turn there goes.
+  void approach(double share) {
+    std::vector<Point<3>> at;
+    for (const CornerSearch& search : open_)
+      for (const Point<2>& from : search.from)
+        at.push_back(raised(share == 1 ? from : between(search.x, from, share), z_));
+    const std::vector<LevelSetSlope> slopes = set_.slopes(at);
+    std::vector<CornerSearch> turning;
+    for (std::size_t k = 0; k < open_.size(); ++k) {
+      const Tangent a = tangent(slopes[2 * k]), b = tangent(slopes[2 * k + 1]);
+      const std::optional<Point<2>> x = turns(a, b) ? crossing(a, b) : std::nullopt;
+      if (!x || !is_near(*x, open_[k]) || !leads_to(a, *x) || leads_to(b, *x)) continue;
+      turning.push_back(open_[k]);
+      turning.back().x = *x;
+    }
+    open_ = std::move(turning);
+  }
+
+  static Point<2> between(const Point<2>& x, const Point<2>& from, double share) {
+    return {x[0] + share * (from[0] - x[0]), x[1] + share * (from[1] - x[1])};
+  }
+
+  static Tangent tangent(const LevelSetSlope& slope) {
+    return {flat(slope.x), slope.f, flat(slope.gradient)};
+  }
+
+  bool is_near(const Point<2>& x, const CornerSearch& search) const {
+    const double reach = kCornerReach * set_.resolution();
+    return distance<2>(x, search.from[0]) <= reach && distance<2>(x, search.from[1]) <= reach;
+  }
+
+  const LevelSet& set_;
+  double z_;
+  std::vector<CornerSearch> open_;
+};
+
+// ------------------------------------------------------------------ from piece to piece --------
+
+class CurveWalk {
+ public:
+  CurveWalk(const LevelSet& set, std::vector<Piece> pieces, const LevelSetLattice& lattice)
+      : pieces_(std::move(pieces)), one_(kOnePoint * set.resolution()) {
+    std::ranges::sort(pieces_, {}, &Piece::from);
+    std::vector<CrossedSegment> segments;
+    for (const Piece& piece : pieces_) {
+      const auto [low, high] = ends_of_side(piece.from);
+      segments.push_back(
+          {lattice.position(low), lattice.position(high), lattice.value(low), lattice.value(high)});
+    }
+    for (const Point<3>& zero : zeros_on(set, segments)) x_.push_back(flat(zero));
+    std::vector<CornerSearch> searches;
+    for (std::size_t p = 0; p < pieces_.size(); ++p) searches.push_back({p, {x_[p], x_[next(p)]}});
+    corners_ = CurveCorners(set, std::move(searches)).run(pieces_.size());
+  }
+
+  std::vector<LevelCurve> run() {
+    std::vector<LevelCurve> curves;
+    std::vector<char> seen(pieces_.size());
+    for (std::size_t first = 0; first < pieces_.size(); ++first) {
+      if (seen[first] != 0) continue;
+      std::vector<Vertex> loop;
+      for (std::size_t p = first; seen[p] == 0; p = next(p)) {
+        seen[p] = 1;
+        add({x_[p], false}, loop);
+        if (corners_[p]) add({*corners_[p], true}, loop);
+      }
+      close(loop);
+      if (loop.size() >= 3) append(loop, curves);
+    }
+    return curves;
+  }
+
+ private:
+  struct Vertex {
+    Point<2> x;
+    bool corner;
+  };
+
+  // The piece that goes on where this one ends: one begins on each side that one ends on.
+  std::size_t next(std::size_t p) const {
+    const auto found = std::ranges::lower_bound(pieces_, pieces_[p].to, {}, &Piece::from);
+    return static_cast<std::size_t>(found - pieces_.begin());
+  }
+
+  // Of two that are one a corner stays.
+  void add(const Vertex& vertex, std::vector<Vertex>& loop) const {
+    if (loop.empty() || distance<2>(loop.back().x, vertex.x) > one_)
+      loop.push_back(vertex);
+    else if (vertex.corner)
+      loop.back() = vertex;
+  }
+
+  void close(std::vector<Vertex>& loop) const {
+    while (loop.size() > 1 && distance<2>(loop.back().x, loop.front().x) <= one_) {
+      if (loop.back().corner) loop.front() = loop.back();
+      loop.pop_back();
+    }
+  }
+
+  // From corner to corner.
+  static void append(std::vector<Vertex>& loop, std::vector<LevelCurve>& curves) {
+    const auto corner = std::ranges::find(loop, true, &Vertex::corner);
+    LevelCurve curve{corner == loop.end(), {}};
+    if (!curve.closed) {
+      std::rotate(loop.begin(), corner, loop.end());
+      loop.push_back(loop.front());
+    }
+    for (const Vertex& vertex : loop) {
+      curve.points.push_back(vertex.x);
+      if (!vertex.corner || curve.points.size() == 1) continue;
+      curves.push_back(curve);
+      curve.points = {vertex.x};
+    }
+    if (curve.closed) curves.push_back(curve);
+  }
+
+  std::vector<Piece> pieces_;  // by the side that they begin on
+  std::vector<Point<2>> x_;    // where each begins
+  std::vector<std::optional<Point<2>>> corners_;
+  double one_;
+};
+
+}  // namespace
+
+std::vector<LevelCurve> level_curves(const LevelSet& set) {
+  const LevelSetLattice lattice(set);
+  return CurveWalk(set, pieces_in_squares(set, lattice), lattice).run();
+}
+
+}  // namespace pnpbs
