@@ -50,6 +50,20 @@ pnpbs_status change_volume(pnpbs_domain domain, const Change& change) {
   return change_domain(domain, [&](DomainObject& object) { change(volume_of(object)); });
 }
 
+// Another domain, to be used with this one.
+inline std::shared_ptr<DomainObject> body_with(const Context& context, bool in_plane,
+                                               pnpbs_domain body) {
+  require_pointer(body, "body");
+  std::shared_ptr<DomainObject> object = require(body);
+  if (object->context.get() != &context)
+    throw Error(ErrorKind::argument, "argument body belongs to another context");
+  if ((object->plane != nullptr) != in_plane)
+    throw Error(ErrorKind::argument, std::string("argument body has ") +
+                                         (object->plane ? "two" : "three") +
+                                         " dimensions, expected " + (in_plane ? "two" : "three"));
+  return object;
+}
+
 inline CurveRole role_from(int32_t role) {
   if (role == PNPBS_BOUNDARY) return CurveRole::boundary;
   if (role == PNPBS_INNER) return CurveRole::inner;

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/chunked_rows.hpp"
-#include "base/counting_sort.hpp"
+#include "voronoi/cells_within.hpp"
 #include "voronoi/divided_element.hpp"
-#include "voronoi/element_sites.hpp"
+#include "voronoi/elements_of_sites.hpp"
 
 namespace pnpbs {
 
@@ -33,47 +33,6 @@ struct CellFace {
   Point<Dim> normal;
 };
 
-// The elements of which each owned node is a site, and as which of them.
-template <int Dim>
-class ElementsOfSites {
- public:
-  struct Entry {
-    std::int32_t element, site;
-  };
-
-  ElementsOfSites(const ElementSites<Dim>& all, std::int64_t owned_nodes)
-      : by_node_(static_cast<std::int64_t>(all.sites.size()),
-                 static_cast<std::int32_t>(owned_nodes), key(all, owned_nodes)),
-        entries_(static_cast<std::size_t>(by_node_.start().back())) {
-    std::vector<Entry> entries(all.sites.size());
-    for (std::size_t e = 0; e < all.elements.size(); ++e)
-      for (std::int32_t s = 0; s < all.elements[e].sites; ++s)
-        entries[static_cast<std::size_t>(all.elements[e].first_site + s)] = {
-            static_cast<std::int32_t>(e), s};
-    by_node_.for_places(key(all, owned_nodes), [&](std::int64_t s, std::int32_t place) {
-      entries_[static_cast<std::size_t>(place)] = entries[static_cast<std::size_t>(s)];
-    });
-  }
-
-  std::span<const Entry> at(std::int64_t node) const {
-    const std::size_t n = static_cast<std::size_t>(node);
-    const std::int32_t begin = by_node_.start()[n], end = by_node_.start()[n + 1];
-    return std::span(entries_).subspan(static_cast<std::size_t>(begin),
-                                       static_cast<std::size_t>(end - begin));
-  }
-
- private:
-  static auto key(const ElementSites<Dim>& all, std::int64_t owned_nodes) {
-    return [&all, owned_nodes](std::int64_t s) {
-      const std::int32_t node = all.sites[static_cast<std::size_t>(s)];
-      return node < owned_nodes ? node : -1;
-    };
-  }
-
-  CountingSort by_node_;
-  std::vector<Entry> entries_;
-};
-
 // Puts one cell after another together from its parts in elements.
 template <std::size_t Corners, int Dim>
 class CellMaker {
@@ -91,6 +50,7 @@ class CellMaker {
                static_cast<std::size_t>(entry.site));
     const std::size_t n = static_cast<std::size_t>(node);
     cells_.volumes[n] = sum_by_size(volumes_);
+    cells_.at_boundary[n] = !boundary_[0].empty();
     for (std::size_t k = 0; k < Dim; ++k) cells_.boundary[Dim * n + k] = sum_by_size(boundary_[k]);
     append_faces(all_.x[n], out);
   }
@@ -165,33 +125,62 @@ void append(const ElementSites<Dim>& all, std::span<const CellFace<Dim>> faces,
   cells.offsets.push_back(static_cast<std::int64_t>(cells.ids.size()));
 }
 
+// What cells of a body larger than the elements are made with.
+template <int Dim>
+struct Surroundings {
+  const Domain<Dim>& body;
+  std::vector<double> d;  // of the owned nodes
+};
+
+// surroundings: null if the elements are all there is.
 template <std::size_t Corners, int Dim>
-void make(const Communicator& comm, const DistributedMesh& mesh, VoronoiCells& cells) {
+std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMesh& mesh,
+                                   const Surroundings<Dim>* surroundings) {
+  auto made = std::make_unique<VoronoiCells>();
+  VoronoiCells& cells = *made;
+  cells.dimension = Dim;
   const ElementSites<Dim> all = find_element_sites<Corners, Dim>(comm, mesh);
   const ElementsOfSites<Dim> at_nodes(all, mesh.owned_nodes);
   cells.volumes.resize(static_cast<std::size_t>(mesh.owned_nodes));
   cells.boundary.resize(static_cast<std::size_t>(Dim * mesh.owned_nodes));
+  cells.at_boundary.resize(static_cast<std::size_t>(mesh.owned_nodes));
   ChunkedRows<CellFace<Dim>> faces;
   faces.build("pnpbs::voronoi::cells", mesh.owned_nodes,
               [&] { return CellMaker<Corners, Dim>(all, at_nodes, cells); });
   for (std::int64_t node = 0; node < mesh.owned_nodes; ++node)
     append<Dim>(all, std::as_const(faces).row(node), cells);
+  if (surroundings != nullptr)
+    extend_to_wall<Dim>(comm, all, at_nodes, surroundings->body, surroundings->d, cells);
+  return made;
 }
 
 }  // namespace
 
 std::unique_ptr<VoronoiCells> make_voronoi_cells(NodalResults& results) {
   const std::unique_ptr<DistributedMesh> mesh = make_distributed_mesh(results, 1);
-  auto cells = std::make_unique<VoronoiCells>();
-  cells->dimension = mesh->dimension;
   const Communicator& comm = results.communicator();
-  if (mesh->dimension == 2)
-    make<3, 2>(comm, *mesh, *cells);
-  else if (mesh->corners == 3)
-    make<3, 3>(comm, *mesh, *cells);
-  else
-    make<4, 3>(comm, *mesh, *cells);
-  return cells;
+  if (mesh->dimension == 2) return make<3, 2>(comm, *mesh, nullptr);
+  if (mesh->corners == 3) return make<3, 3>(comm, *mesh, nullptr);
+  return make<4, 3>(comm, *mesh, nullptr);
 }
+
+template <int Dim>
+std::unique_ptr<VoronoiCells> make_voronoi_cells_within(NodalResults& results,
+                                                        const Domain<Dim>& body) {
+  const std::unique_ptr<DistributedMesh> mesh = make_distributed_mesh(results, 1);
+  if (mesh->corners != Dim + 1)
+    throw Error(ErrorKind::argument,
+                "argument placement has nodes on surfaces alone: no body is around them");
+  Surroundings<Dim> surroundings{body, {}};
+  const NodeColumns nodes = results.nodes();
+  for (std::int64_t place = 0; place < mesh->owned_nodes; ++place)
+    surroundings.d.push_back(nodes.d(results.node_at(place)));
+  return make<Dim + 1, Dim>(results.communicator(), *mesh, &surroundings);
+}
+
+template std::unique_ptr<VoronoiCells> make_voronoi_cells_within<2>(NodalResults&,
+                                                                    const PlaneDomain&);
+template std::unique_ptr<VoronoiCells> make_voronoi_cells_within<3>(NodalResults&,
+                                                                    const VolumeDomain&);
 
 }  // namespace pnpbs

@@ -144,11 +144,15 @@ void VolumeDomain::add_cylinder(const Point<3>& begin, const Point<3>& end, doub
 
 void VolumeDomain::add_level_set(LevelSetFunction f, const Box<3>& box, double resolution,
                                  std::int32_t tag) {
-  require_box(box);
-  require_resolution(box, resolution);
+  add_level_set(std::make_shared<LevelSet>("level set " + std::to_string(level_sets_given_),
+                                           std::move(f), box, resolution),
+                tag);
+}
+
+void VolumeDomain::add_level_set(std::shared_ptr<const LevelSet> set, std::int32_t tag) {
+  require_box(set->box());
+  require_resolution(set->box(), set->resolution());
   require_tag("tag", tag);
-  const auto set = std::make_shared<LevelSet>("level set " + std::to_string(level_sets_given_),
-                                              std::move(f), box, resolution);
   SurfaceSource source = level_set_surface(*set, tag);
   add_creases(*set, source);
   source.level_set = set;

@@ -90,6 +90,7 @@ class VolumeDomain : public DomainBase<3> {
   void add_cylinder(const Point<3>& begin, const Point<3>& end, double radius, std::int32_t tag);
   // The body where f < 0. It is asked now, and again where nodes are to lie on its surface.
   void add_level_set(LevelSetFunction f, const Box<3>& box, double resolution, std::int32_t tag);
+  void add_level_set(std::shared_ptr<const LevelSet> set, std::int32_t tag);
   // The surfaces given by triangles that bound the domain are taken for what encloses one body
   // badly; resolution: 0 for the default (implicit/repaired_body.hpp).
   void set_repair(double resolution);

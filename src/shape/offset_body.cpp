@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shape/offset_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "base/started_execution.hpp"
+#include "domain/given_values.hpp"
+#include "implicit/level_curves.hpp"
+#include "shape/signed_distance.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using given_values::reject;
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+constexpr double kFineness = 0.5;  // the resolution, unless given, in units of the least d
+constexpr double kRoom = 2;        // beyond the body, in units of the resolution
+
+template <int Dim>
+void require_limits(const Offset<Dim>& offset) {
+  const double low = offset.low, high = offset.high;
+  if (!(low < high))
+    reject("low is " + number_text(low) + ", expected less than high, which is " +
+           number_text(high));
+  if (!std::isfinite(high) || low == kNoLimit)
+    reject("high is " + number_text(high) + ", expected a finite number");
+  if (!(offset.resolution >= 0 && std::isfinite(offset.resolution)))
+    reject("resolution is " + number_text(offset.resolution) +
+           ", expected a positive number, or 0 for half of the least spacing");
+  given_values::require_tag("tag", offset.tag);
+}
+
+template <int Dim>
+std::string name_of(const Offset<Dim>& offset) {
+  const std::string unit = offset.spacing ? " d" : "";
+  const std::string low = std::isfinite(offset.low) ? number_text(offset.low) + unit : "-infinity";
+  return "the body at distances from " + low + " to " + number_text(offset.high) + unit;
+}
+
+template <int Dim>
+class OffsetFunction {
+ public:
+  OffsetFunction(const Domain<Dim>& body, Offset<Dim> offset)
+      : distance_(std::make_shared<const SignedDistance<Dim>>(body)), offset_(std::move(offset)) {}
+
+  // Negative between the limits, and where they are not far nearly a distance.
+  void operator()(std::int64_t n, const Point<Dim>* x, double* f) const {
+    const std::vector<double> d = spacing_at(n, x);
+    for_each_if_started("pnpbs::shape::offset", n, [&](std::int64_t i) {
+      const double s = (*distance_)(x[i]), here = d[static_cast<std::size_t>(i)];
+      f[i] = s - offset_.high * here;
+      if (offset_.low > -kNoLimit) f[i] = std::max(f[i], offset_.low * here - s);
+    });
+  }
+
+  double resolution() const {
+    if (offset_.resolution > 0) return offset_.resolution;
+    const std::vector<double> d = spacing_at_corners();
+    double least = *std::ranges::min_element(d);
+    if (!offset_.spacing) {
+      least = kNoLimit;
+      for (const double limit : {std::fabs(offset_.low), std::fabs(offset_.high)})
+        if (limit > 0) least = std::min(least, limit);
+    }
+    return kFineness * least;
+  }
+
+  // In which the body lies, with some room about it.
+  Box<Dim> box() const {
+    const double room = kRoom * resolution();
+    if (offset_.high <= 0) return widened(distance_->bounds(), room);
+    const std::vector<double> d = spacing_at_corners();
+    const Box<Dim> near = widened(distance_->bounds(), offset_.high * *std::ranges::max_element(d));
+    std::vector<Point<Dim>> corners;
+    for (int corner = 0; corner < 1 << Dim; ++corner) {
+      Point<Dim>& x = corners.emplace_back();
+      for (int k = 0; k < Dim; ++k) x[k] = corner >> k & 1 ? near.high[k] : near.low[k];
+    }
+    const std::vector<double> beyond = spacing_at(1 << Dim, corners.data());
+    const double most = std::max(*std::ranges::max_element(d), *std::ranges::max_element(beyond));
+    return widened(distance_->bounds(), offset_.high * most + room);
+  }
+
+ private:
+  std::vector<double> spacing_at(std::int64_t n, const Point<Dim>* x) const {
+    std::vector<double> d(static_cast<std::size_t>(n), 1);
+    if (offset_.spacing) (*offset_.spacing)(n, x, d.data());
+    return d;
+  }
+
+  // Of the pieces that bound the body.
+  std::vector<double> spacing_at_corners() const {
+    std::vector<Point<Dim>> corners;
+    for (const ShapePiece<Dim>& piece : distance_->shape())
+      if (piece.bounds()) corners.insert(corners.end(), piece.corners.begin(), piece.corners.end());
+    return spacing_at(std::ssize(corners), corners.data());
+  }
+
+  std::shared_ptr<const SignedDistance<Dim>> distance_;
+  Offset<Dim> offset_;
+};
+
+}  // namespace
+
+void add_offset(PlaneDomain& domain, const PlaneDomain& body, const Offset<2>& offset) {
+  require_limits(offset);
+  const OffsetFunction<2> f(body, offset);
+  const Box<2> box = f.box();
+  const LevelSet set(
+      name_of(offset),
+      [&f](std::int64_t n, const Point<3>* x, double* values) {
+        std::vector<Point<2>> flat;
+        for (std::int64_t i = 0; i < n; ++i) flat.push_back({x[i][0], x[i][1]});
+        f(n, flat.data(), values);
+      },
+      {{box.low[0], box.low[1], 0}, {box.high[0], box.high[1], 0}}, f.resolution());
+  constexpr double kNoCorners = 180;  // but the ends of the curves
+  for (const LevelCurve& curve : level_curves(set)) {
+    const auto n = std::ssize(curve.points);
+    const std::vector<std::int32_t> tags(curve.points.size(), offset.tag);
+    domain.add_polyline(CurveRole::boundary, curve.closed, n, curve.points.data()->data(),
+                        tags.data(), kNoCorners);
+  }
+}
+
+void add_offset(VolumeDomain& domain, const VolumeDomain& body, const Offset<3>& offset) {
+  require_limits(offset);
+  const OffsetFunction<3> f(body, offset);
+  domain.add_level_set(
+      std::make_shared<const LevelSet>(name_of(offset), f, f.box(), f.resolution()), offset.tag);
+}
+
+}  // namespace pnpbs

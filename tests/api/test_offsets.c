@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Bodies at a distance from others: areas and volumes by Steiner's formula, d by a callback, nodes
+ * in them and the volumes that these stand for, bad input.
+ */
+#include "volume_support.h"
+
+/* ---------------------------------------------------------------- in the plane ---------- */
+
+static double measure_of(pnpbs_domain domain) {
+  double measure;
+  MUST(pnpbs_domain_measure(domain, &measure));
+  return measure;
+}
+
+static void add_square(pnpbs_domain domain) {
+  add_rectangle(domain, PNPBS_BOUNDARY, 0, 0, 1, 1, 1);
+}
+
+static void add_l(pnpbs_domain domain) {
+  const double outline[12] = {0, 0, 2, 0, 2, 1, 1, 1, 1, 2, 0, 2};
+  MUST(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 6, outline, NULL, 0));
+}
+
+static void add_square_with_hole(pnpbs_domain domain) {
+  add_square(domain);
+  add_rectangle(domain, PNPBS_BOUNDARY, 0.3, 0.3, 0.7, 0.7, 2);
+}
+
+/* A body in the plane: right corners that stick out, and others; its length around. */
+typedef struct {
+  void (*add)(pnpbs_domain domain);
+  double area, around;
+  int convex, reentrant;
+} plane_body;
+static const plane_body plane_bodies[] = {
+    {add_square, 1, 4, 4, 0}, {add_l, 3, 8, 5, 1}, {add_square_with_hole, 0.84, 5.6, 4, 4}};
+
+/* All that is within h of the inside, or of the outside: straight strips, which lie over each other
+ * or meet in arcs at corners. */
+static double area_within(const plane_body* it, double h) {
+  const int sharp = h < 0 ? it->convex : it->reentrant, round = h < 0 ? it->reentrant : it->convex;
+  const double strips = it->around * fabs(h) - sharp * h * h + round * PI / 4 * h * h;
+  return h < 0 ? it->area - strips : it->area + strips;
+}
+
+START_TEST(areas_by_steiner) {
+  const plane_body* from = &plane_bodies[_i];
+  const double limits[5] = {-INFINITY, -0.13, -0.04, 0.05, 0.1};
+  pnpbs_context context;
+  pnpbs_domain body;
+  int a, b;
+  MUST(pnpbs_context_create_serial(&context));
+  MUST(pnpbs_domain_create(context, 2, &body));
+  from->add(body);
+  for (a = 0; a < 5; ++a)
+    for (b = a + 1; b < 5; ++b) {
+      const double inner = a == 0 ? 0 : area_within(from, limits[a]);
+      const double area = area_within(from, limits[b]) - inner;
+      pnpbs_domain offset;
+      MUST(pnpbs_domain_create(context, 2, &offset));
+      MUST(pnpbs_domain_add_offset(offset, body, limits[a], limits[b], NULL, NULL, 0.02, 7));
+      /* Arcs become chords no longer than sqrt(2) times the resolution; without arcs, exact. */
+      ck_assert_double_eq_tol(measure_of(offset), area, 5e-4);
+      if (from->reentrant == 0 && limits[b] < 0)
+        ck_assert_double_eq_tol(measure_of(offset), area, 1e-9);
+      MUST(pnpbs_domain_destroy(&offset));
+    }
+  MUST(pnpbs_domain_destroy(&body));
+  MUST(pnpbs_context_destroy(&context));
+}
+END_TEST
+
+/* The four corners of the inset are corners of its boundary, all with the tag. */
+START_TEST(corners_are_kept) {
+  double segments[400][4];
+  int32_t tags[400];
+  int64_t count, k, corners = 0;
+  pnpbs_domain body, inset;
+  pnpbs_context context;
+  MUST(pnpbs_context_create_serial(&context));
+  MUST(pnpbs_domain_create(context, 2, &body));
+  MUST(pnpbs_domain_create(context, 2, &inset));
+  add_square(body);
+  MUST(pnpbs_domain_add_offset(inset, body, -INFINITY, -0.2, NULL, NULL, 0, 7));
+  MUST(pnpbs_domain_get_segments(inset, 400, &count, segments[0], tags));
+  for (k = 0; k < count; ++k) {
+    const double x = segments[k][0], y = segments[k][1];
+    ck_assert_double_eq_tol(fmin(fmin(x, 1 - x), fmin(y, 1 - y)), 0.2, 1e-10);
+    ck_assert_int_eq(tags[k], 7);
+    corners += fabs(fabs(x - 0.5) - 0.3) < 1e-9 && fabs(fabs(y - 0.5) - 0.3) < 1e-9;
+  }
+  ck_assert_int_eq(corners, 4);
+  MUST(pnpbs_domain_destroy(&body));
+  MUST(pnpbs_domain_destroy(&inset));
+  MUST(pnpbs_context_destroy(&context));
+}
+END_TEST
+
+/* With a d that grows, the boundary is where the distance is so much of d there. */
+START_TEST(depth_follows_the_spacing) {
+  cone grows = {0.02, 0.1, 0, 0};
+  double segments[2000][4];
+  int64_t count, k;
+  pnpbs_domain body, inset;
+  pnpbs_context context;
+  MUST(pnpbs_context_create_serial(&context));
+  MUST(pnpbs_domain_create(context, 2, &body));
+  MUST(pnpbs_domain_create(context, 2, &inset));
+  add_square(body);
+  MUST(pnpbs_domain_add_offset(inset, body, -INFINITY, -0.5, cone_spacing, &grows, 0, 1));
+  MUST(pnpbs_domain_get_segments(inset, 2000, &count, segments[0], NULL));
+  ck_assert_int_gt(count, 100);
+  for (k = 0; k < count; ++k) {
+    const double x = segments[k][0], y = segments[k][1];
+    ck_assert_double_eq_tol(fmin(fmin(x, 1 - x), fmin(y, 1 - y)), 0.5 * (0.02 + 0.1 * hypot(x, y)),
+                            1e-8);
+  }
+  MUST(pnpbs_domain_destroy(&body));
+  MUST(pnpbs_domain_destroy(&inset));
+  MUST(pnpbs_context_destroy(&context));
+}
+END_TEST
+
+/* ---------------------------------------------------------------- in space -------------- */
+
+START_TEST(volumes_by_steiner) {
+  const double limits[4] = {-INFINITY, -0.2, -0.05, 0.1}, corner[3] = {0, 0, 0},
+               other[3] = {1, 1, 1};
+  double within[4];
+  pnpbs_context context;
+  pnpbs_domain body;
+  int a, b;
+  within[0] = 0;
+  for (b = 1; b < 3; ++b) within[b] = pow(1 + 2 * limits[b], 3);
+  within[3] = 1 + 6 * 0.1 + 12 * PI / 4 * 0.01 + 4 * PI / 3 * 0.001;
+  MUST(pnpbs_context_create_serial(&context));
+  MUST(pnpbs_domain_create(context, 3, &body));
+  MUST(pnpbs_domain_add_box(body, corner, other, 1));
+  for (a = 0; a < 4; ++a)
+    for (b = a + 1; b < 4; ++b) {
+      pnpbs_domain offset;
+      MUST(pnpbs_domain_create(context, 3, &offset));
+      MUST(pnpbs_domain_add_offset(offset, body, limits[a], limits[b], NULL, NULL, 0.05, 7));
+      ck_assert_double_eq_tol(measure_of(offset), within[b] - within[a], b == 3 ? 3e-3 : 1e-7);
+      MUST(pnpbs_domain_destroy(&offset));
+    }
+  MUST(pnpbs_domain_destroy(&body));
+  MUST(pnpbs_context_destroy(&context));
+}
+END_TEST
+
+/* ---------------------------------------------------------------- particles ------------- */
+
+static int32_t larger_bubbles(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  int64_t i;
+  cone_spacing(n, dim, x, d, user);
+  for (i = 0; i < n; ++i) d[i] *= dim == 2 ? 1.076 : 1.147;
+  return 0;
+}
+
+/* As many as the body's measure asks for, none on its wall, and with volumes that add up to it,
+ * each near d^dim. In the plane, then in space. */
+START_TEST(particles_stand_for_the_body) {
+  const int dim = _i + 2;
+  const double corner[3] = {0, 0, 0}, other[3] = {1, 1, 1};
+  cone grows = {dim == 2 ? 0.02 : 0.08, 0.03, 0, 0};
+  double sum = 0, wanted = 0, *x, *volumes;
+  int64_t i, n;
+  pnpbs_domain body;
+  pnpbs_voronoi cells;
+  job it = {NULL, NULL, NULL};
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, dim, &it.domain));
+  MUST(pnpbs_domain_create(it.context, dim, &body));
+  if (dim == 2)
+    add_square(body);
+  else
+    MUST(pnpbs_domain_add_box(body, corner, other, 1));
+  MUST(pnpbs_domain_add_offset(it.domain, body, -INFINITY, dim == 2 ? -0.42 : -0.46, cone_spacing,
+                               &grows, 0, 1));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, larger_bubbles, &grows));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_voronoi_create_within(it.placement, body, &cells));
+  MUST(pnpbs_domain_destroy(&body)); /* the cells keep nothing of it */
+  MUST(pnpbs_voronoi_sizes(cells, NULL, &n, NULL));
+  x = malloc((size_t)n * 3 * sizeof *x);
+  volumes = malloc((size_t)n * sizeof *volumes);
+  ck_assert(x && volumes);
+  MUST(pnpbs_placement_get_nodes(it.placement, n, x, NULL, NULL, NULL));
+  MUST(pnpbs_voronoi_get_cells(cells, n, volumes, NULL));
+  for (i = 0; i < n; ++i) {
+    double d, share, nearest = 1;
+    int k;
+    cone_spacing(1, dim, x + dim * i, &d, &grows);
+    share = volumes[i] / pow(d, dim);
+    for (k = 0; k < dim; ++k) nearest = fmin(nearest, fmin(x[dim * i + k], 1 - x[dim * i + k]));
+    ck_assert_double_ge(nearest, (dim == 2 ? 0.42 : 0.46) * d * (1 - 1e-6));
+    ck_assert(share > 0.4 && share < 2);
+    sum += volumes[i];
+    wanted += pow(d, dim);
+  }
+  ck_assert_double_eq_tol(sum, 1, 1e-12);
+  ck_assert_double_eq_tol(wanted, 1, 0.05);
+  free(x);
+  free(volumes);
+  MUST(pnpbs_voronoi_destroy(&cells));
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- bad ones -------------- */
+
+static int32_t constant(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  int64_t i;
+  (void)dim, (void)x;
+  for (i = 0; i < n; ++i) d[i] = *(double*)user;
+  return *(double*)user == 77 ? 77 : 0;
+}
+
+START_TEST(bad_input) {
+  const double corner[3] = {0, 0, 0}, other[3] = {1, 1, 1};
+  double d = 0.1, negative = -0.1, failing = 77;
+  pnpbs_context context, stranger;
+  pnpbs_domain to, body, box, sheet, foreign;
+  MUST(pnpbs_context_create_serial(&context));
+  MUST(pnpbs_context_create_serial(&stranger));
+  MUST(pnpbs_domain_create(context, 2, &to));
+  MUST(pnpbs_domain_create(context, 2, &body));
+  MUST(pnpbs_domain_create(context, 3, &box));
+  MUST(pnpbs_domain_create(context, 3, &sheet));
+  MUST(pnpbs_domain_create(stranger, 2, &foreign));
+  add_square(body);
+  add_square(to);
+  MUST(pnpbs_domain_add_box(box, corner, other, 1));
+  MUST(pnpbs_domain_add_box(sheet, corner, other, 1));
+  MUST(pnpbs_domain_set_filled(sheet, 0));
+#define REFUSED(status, first, second, ...) \
+  MUST_FAIL(PNPBS_ERROR_##status, pnpbs_domain_add_offset(__VA_ARGS__), first, second)
+  REFUSED(ARGUMENT, "low is -1", "high, which is -1", to, body, -1, -1, constant, &d, 0, 1);
+  REFUSED(ARGUMENT, "low is nan", "", to, body, NAN, -1, constant, &d, 0, 1);
+  REFUSED(ARGUMENT, "high is inf", "finite", to, body, 0, INFINITY, constant, &d, 0, 1);
+  REFUSED(ARGUMENT, "resolution is -1", "0 for", to, body, -1, 1, constant, &d, -1, 1);
+  REFUSED(ARGUMENT, "tag", "0", to, body, -1, 1, constant, &d, 0, 0);
+  REFUSED(ARGUMENT, "body", "NULL", to, NULL, -1, 1, constant, &d, 0, 1);
+  REFUSED(ARGUMENT, "body has three dimensions", "two", to, box, -1, 1, constant, &d, 0, 1);
+  REFUSED(ARGUMENT, "body has no inside", "", box, sheet, -1, 1, constant, &d, 0, 1);
+  REFUSED(ARGUMENT, "body belongs", "context", to, foreign, -1, 1, constant, &d, 0, 1);
+  REFUSED(SPACING, "-0.1", "", to, body, -1, 1, constant, &negative, 0, 1);
+  REFUSED(CALLBACK, "77", "", to, body, -1, 1, constant, &failing, 0, 1);
+  REFUSED(DOMAIN, "from -infinity to -6 d", "negative at none", to, body, -INFINITY, -6, constant,
+          &d, 0, 1);
+  REFUSED(DOMAIN, "from -infinity to -6 d", "negative at none", box, box, -INFINITY, -6, constant,
+          &d, 0, 1);
+#undef REFUSED
+  /* All as it was. */
+  ck_assert_double_eq(measure_of(to), 1);
+  ck_assert_double_eq(measure_of(box), 1);
+  MUST(pnpbs_domain_destroy(&to));
+  MUST(pnpbs_domain_destroy(&body));
+  MUST(pnpbs_domain_destroy(&box));
+  MUST(pnpbs_domain_destroy(&sheet));
+  MUST(pnpbs_domain_destroy(&foreign));
+  MUST(pnpbs_context_destroy(&stranger));
+  MUST(pnpbs_context_destroy(&context));
+}
+END_TEST
+
+/* The body must be around the nodes, and full of them. */
+START_TEST(bad_bodies) {
+  job it = square_job(1);
+  pnpbs_domain body;
+  pnpbs_voronoi cells;
+  MUST(pnpbs_domain_create(it.context, 2, &body));
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_voronoi_create_within(it.placement, it.domain, &cells),
+            "nodes", "");
+  MUST(pnpbs_placement_set(it.placement, "steps", "5"));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_voronoi_create_within(it.placement, NULL, &cells), "body",
+            "NULL");
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_voronoi_create_within(it.placement, body, &cells), "", "");
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_voronoi_create_within(it.placement, it.domain, &cells),
+            "on its wall or outside", "pnpbs_domain_add_offset");
+  add_rectangle(body, PNPBS_BOUNDARY, -3, -3, 4, 4, 1);
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_voronoi_create_within(it.placement, body, &cells),
+            "do not fill this body", "");
+  ck_assert_ptr_null(cells);
+  MUST(pnpbs_domain_destroy(&body));
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("offsets");
+  TCase* good = tcase_create("good");
+  TCase* bad = tcase_create("bad");
+  tcase_add_loop_test(good, areas_by_steiner, 0, COUNT_OF(plane_bodies));
+  tcase_add_test(good, corners_are_kept);
+  tcase_add_test(good, depth_follows_the_spacing);
+  tcase_add_test(good, volumes_by_steiner);
+  tcase_add_loop_test(good, particles_stand_for_the_body, 0, 2);
+  tcase_add_test(bad, bad_input);
+  tcase_add_test(bad, bad_bodies);
+  tcase_set_timeout(good, 0);
+  tcase_set_timeout(bad, 0);
+  suite_add_tcase(suite, good);
+  suite_add_tcase(suite, bad);
+  return run_suite(suite);
+}
