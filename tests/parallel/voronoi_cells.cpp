@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Voronoi cells against cells that are cut by brute force out of a square and a cube, and what
 // holds for all of them: volumes add up to that of the elements, faces and boundary of a cell add
-// up to 0, both sides know the same face, and any number of ranks gives the bits of one. Nothing
-// but the public interface is asked. Usage: voronoi_cells
+// up to 0, both sides know the same face, and any number of ranks gives the bits of one. The same
+// of cells within a body that is larger than the elements. Nothing but the public interface is
+// asked. Usage: voronoi_cells
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -105,11 +106,15 @@ struct Cell {
 };
 using Cells = std::map<std::int64_t, Cell>;  // by id
 
-Cells cells_of(pnpbs_placement placement, std::int32_t dim) {
+// body: that they fill; null: the elements.
+Cells cells_of(pnpbs_placement placement, std::int32_t dim, pnpbs_domain body = nullptr) {
   pnpbs_voronoi voronoi;
   std::int64_t n = 0, m = 0;
   std::int32_t told_dim = 0;
-  expect(pnpbs_voronoi_create(placement, &voronoi) == PNPBS_OK, "cells");
+  if (body)
+    expect(pnpbs_voronoi_create_within(placement, body, &voronoi) == PNPBS_OK, "cells in a body");
+  else
+    expect(pnpbs_voronoi_create(placement, &voronoi) == PNPBS_OK, "cells");
   expect(pnpbs_voronoi_sizes(voronoi, &told_dim, &n, &m) == PNPBS_OK && told_dim == dim, "sizes");
   const auto nodes = static_cast<std::size_t>(n), faces = static_cast<std::size_t>(m),
              width = static_cast<std::size_t>(dim);
@@ -240,24 +245,34 @@ std::vector<std::int64_t> closest(const Cells& cells, std::int64_t id, std::size
   return ids;
 }
 
-void check_by_brute_force(const Cells& cells, std::int32_t dim) {
-  double worst_volume = 0, worst_area = 0;
+struct Worst {
+  double volume = 0, area = 0;
+};
+
+// Of all cells and faces, as shares of the cells' size.
+Worst off_brute_force(const Cells& cells, std::int32_t dim) {
+  Worst worst;
   for (const auto& [id, cell] : cells) {
     const std::vector<std::int64_t> ids = closest(cells, id, dim == 2 ? 30 : 80);
     std::vector<Point> others;
     for (const std::int64_t other : ids) others.push_back(cells.at(other).x);
     std::vector<double> areas;
     const double volume = brute_cell(cell.x, others, areas);
-    worst_volume = std::max(worst_volume, std::abs(cell.volume - volume) / volume);
+    worst.volume = std::max(worst.volume, std::abs(cell.volume - volume) / volume);
     std::map<std::int64_t, double> told;
     for (const Face& face : cell.faces) told[face.id] = face.area;
     const double scale = std::pow(volume, dim == 2 ? 0.5 : 2. / 3);
     for (std::size_t k = 0; k < ids.size(); ++k)
-      worst_area = std::max(worst_area, std::abs(told[ids[k]] - areas[k]) / scale);
+      worst.area = std::max(worst.area, std::abs(told[ids[k]] - areas[k]) / scale);
   }
-  if (rank == 0) std::printf("  brute force: %.2g, %.2g\n", worst_volume, worst_area);
-  expect(worst_volume < 1e-11, "volumes by brute force");
-  expect(worst_area < 1e-10, "areas by brute force");
+  if (rank == 0) std::printf("  brute force: %.2g, %.2g\n", worst.volume, worst.area);
+  return worst;
+}
+
+void check_by_brute_force(const Cells& cells, std::int32_t dim) {
+  const Worst worst = off_brute_force(cells, dim);
+  expect(worst.volume < 1e-11, "volumes by brute force");
+  expect(worst.area < 1e-10, "areas by brute force");
 }
 
 // ------------------------------------------------------------------ what holds of all ----------
@@ -343,6 +358,86 @@ void check_case(const Case& it) {
   if (failures > before) std::printf("rank %d, %s: WRONG\n", rank, it.name);
 }
 
+// ------------------------------------------------------------------ within a body --------------
+
+// Nodes some way off the walls of the unit square, or cube, or of a plane with a slit and a hole.
+struct BodyCase {
+  const char* name;
+  std::int32_t dim;
+  volume_body body;
+  double d;
+  double tolerance;  // of a volume, against brute force; 0: not known
+};
+const BodyCase kBodyCases[] = {{"in a square", 2, unit_square, 0.05, 1e-4},
+                               {"in a plane with a slit", 2, slotted_plane, 0.04, 0},
+                               {"in a cube", 3, volume_unit_box, 0.1, 3e-3}};
+
+struct PlacedInBody {
+  pnpbs_domain body;
+  pnpbs_placement placement;
+};
+
+PlacedInBody placed_in_body(const BodyCase& it, pnpbs_context in) {
+  PlacedInBody made;
+  pnpbs_domain inset;
+  expect(pnpbs_domain_create(in, it.dim, &made.body) == PNPBS_OK &&
+             pnpbs_domain_create(in, it.dim, &inset) == PNPBS_OK &&
+             it.body(made.body, nullptr) >= 0,
+         "domains");
+  expect(pnpbs_domain_add_offset(inset, made.body, -INFINITY, -0.45 * it.d, nullptr, nullptr, 0,
+                                 1) == PNPBS_OK,
+         "inset");
+  expect(pnpbs_placement_create(in, inset, &made.placement) == PNPBS_OK, "placement");
+  pnpbs_placement_set_int64(made.placement, "steps", 60);
+  pnpbs_placement_set_spacing_constant(made.placement, it.d);
+  expect(pnpbs_placement_run(made.placement) >= 0, "run");
+  pnpbs_domain_destroy(&inset);
+  return made;
+}
+
+void destroy(PlacedInBody& made) {
+  pnpbs_placement_destroy(&made.placement);
+  pnpbs_domain_destroy(&made.body);
+}
+
+void check_body_case(const BodyCase& it) {
+  const int before = failures;
+  pnpbs_context serial;
+  expect(pnpbs_context_create_serial(&serial) == PNPBS_OK, "context of one rank");
+  PlacedInBody alone = placed_in_body(it, serial);
+  const Cells all = cells_of(alone.placement, it.dim, alone.body);
+  const Cells elements = cells_of(alone.placement, it.dim);
+  double sum = 0, measure = 0;
+  for (const auto& [id, cell] : all) {
+    const Cell& same = elements.at(id);
+    sum += cell.volume;
+    // Inner cells, faces and shares are those of the elements.
+    expect(cell.boundary == same.boundary && cell.faces.size() == same.faces.size(), "faces");
+    if (length(cell.boundary) == 0 && it.tolerance > 0)
+      expect(cell.volume == same.volume, "an inner cell");
+  }
+  expect(pnpbs_domain_measure(alone.body, &measure) == PNPBS_OK, "measure");
+  if (rank == 0)
+    std::printf("%s: %zu nodes, volume off by %.2g\n", it.name, all.size(), sum / measure - 1);
+  expect(std::abs(sum / measure - 1) < 1e-13, "volumes add up to that of the body");
+  if (it.tolerance > 0 && rank == 0)
+    expect(off_brute_force(all, it.dim).volume < it.tolerance, "volumes by brute force");
+  destroy(alone);
+  pnpbs_context_destroy(&serial);
+
+  PlacedInBody made = placed_in_body(it, context);
+  check_bits(cells_of(made.placement, it.dim, made.body), all);
+  // On one rank that does not name the body.
+  pnpbs_voronoi voronoi;
+  if (size > 1)
+    expect(pnpbs_voronoi_create_within(made.placement, rank == 1 ? nullptr : made.body, &voronoi) ==
+                   PNPBS_ERROR_ARGUMENT &&
+               !voronoi,
+           "no body on a rank");
+  destroy(made);
+  if (failures > before) std::printf("rank %d, %s: WRONG\n", rank, it.name);
+}
+
 // What fails on one rank fails on all.
 void check_errors() {
   pnpbs_placement placement;
@@ -383,6 +478,7 @@ void check_errors() {
 int main(int argc, char** argv) {
   begin_ranks(&argc, &argv);
   for (const Case& it : kCases) check_case(it);
+  for (const BodyCase& it : kBodyCases) check_body_case(it);
   check_errors();
   return end_ranks();
 }
