@@ -62,6 +62,10 @@ def spacing_callback(f: ArrayFunction, context: Context) -> Any:
     return _at_points("pnpbs_spacing_fn", "spacing", f, context)
 
 
+def no_spacing() -> Any:
+    return CALLBACKS["pnpbs_spacing_fn"]()
+
+
 def level_set_callback(f: ArrayFunction, context: Context) -> Any:
     return _at_points("pnpbs_level_set_fn", "level set", f, context)
 

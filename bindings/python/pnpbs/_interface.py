@@ -89,6 +89,8 @@ pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing
     double tolerance, double smallest, int64_t *vertices, int64_t *curves);
 pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char *path,
     const char *field, double tolerance, double smallest, int64_t *vertices, int64_t *curves);
+pnpbs_status pnpbs_domain_add_offset(pnpbs_domain domain, pnpbs_domain body, double low,
+    double high, pnpbs_spacing_fn spacing, void *user, double resolution, int32_t tag);
 pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
 pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
 pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
@@ -222,6 +224,8 @@ pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entr
     int32_t *shared, int64_t *offsets, int32_t *ranks);
 pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
 pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
+pnpbs_status pnpbs_voronoi_create_within(pnpbs_placement placement, pnpbs_domain body,
+    pnpbs_voronoi *voronoi);
 pnpbs_status pnpbs_voronoi_destroy(pnpbs_voronoi *voronoi);
 pnpbs_status pnpbs_voronoi_sizes(pnpbs_voronoi voronoi, int32_t *dim, int64_t *nodes,
     int64_t *faces);

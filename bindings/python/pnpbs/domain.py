@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from . import _interface
 from ._arrays import as_indices, as_point, as_points, as_tags
-from ._callbacks import curve_callback, level_set_callback, spacing_callback
+from ._callbacks import curve_callback, level_set_callback, no_spacing, spacing_callback
 from ._interface import library
 from ._summaries import summary
 from ._types import ArrayFunction, Doubles, Int32s, Path, Role
@@ -39,6 +39,13 @@ def _role_number(role: str) -> int:
     if role not in _ROLES:
         raise ValueError(f"role is {role!r}; 'boundary' or 'inner' was expected")
     return _ROLES[role]
+
+
+def _as_function(d: Union[float, ArrayFunction]) -> ArrayFunction:
+    if callable(d):
+        return d
+    value = float(d)
+    return lambda x: np.full(len(x), value)
 
 
 class Domain(Handle):
@@ -190,6 +197,25 @@ class Domain(Handle):
         self._callbacks.append(callback)
         return self
 
+    def add_offset(self, body: Domain, low: float, high: float,
+                   d: Union[None, float, ArrayFunction] = None, resolution: float = 0.0,
+                   tag: int = 1) -> Domain:
+        """Adds the body between two distances from the boundary of another: points whose signed
+        distance to it, negative inside, lies between `low` and `high` times d. So particles that
+        stand for d^dim of matter each are placed half a spacing inside the wall: with `low` =
+        -math.inf and `high` = -0.42 in the plane or -0.46 in space, and with a spacing for the nodes
+        of 1.076 d or 1.147 d, their number is the body's measure over d^dim, nearly; and so are
+        layers of wall particles outside, from 0.46 to n + 0.46. `d` is a number or a function as in
+        `Placement.set_spacing`, which is evaluated in the body's bounding box, and as far around it
+        as the new body reaches, and a little farther; with None, `low` and `high` are lengths. The
+        boundary is found as that of a level set (`add_level_set`) with this resolution, 0 for half
+        of the least d at the body's boundary; what is thinner is lost. Must be called identically
+        on all ranks."""
+        callback = no_spacing() if d is None else spacing_callback(_as_function(d), self.context)
+        self._call("add_offset", body._live(), low, high, callback, None, resolution, tag)
+        self._callbacks.append(callback)
+        return self
+
     def set_corner_angle(self, corner_angle: float) -> Domain:
         """Sets the corner angle of the graphs of a domain in the plane (`add_pslg`, `read_poly`,
         `parse_poly`), both those already added and later ones. Corners are vertices where the
@@ -210,9 +236,8 @@ class Domain(Handle):
         curves meet or end, where tags change or a vertex has its own, and at fixed nodes. Returns
         the numbers of removed vertices, including those of the curves, and of removed curves. Must
         be called identically on all ranks."""
-        given = d if callable(d) else lambda x: np.full(len(x), float(d))
         vertices, curves = ctypes.c_int64(), ctypes.c_int64()
-        self._call("simplify", spacing_callback(given, self.context), None, tolerance, smallest,
+        self._call("simplify", spacing_callback(_as_function(d), self.context), None, tolerance, smallest,
                    ctypes.byref(vertices), ctypes.byref(curves))
         return LeftOut(vertices.value, curves.value)
 
