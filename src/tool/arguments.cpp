@@ -3,13 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 
 #include "tool/argument_rules.hpp"
+#include "tool/argument_values.hpp"
 #include "tool/help.hpp"
 #include "tool/library.hpp"
 #include "tool/names.hpp"
-#include "tool/numbers.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -22,38 +21,6 @@ struct Questions {
 void add_repeatable(CLI::App& app, const std::string& name, std::vector<std::string>& values,
                     const std::string& help) {
   app.add_option(name, values, help)->allow_extra_args(false)->take_all();
-}
-
-void take_angle(const std::string& option, const std::string& text, std::optional<double>& angle) {
-  const auto numbers = numbers_between_commas(text);
-  if (!numbers || numbers->size() != 1 || numbers->front() < 0 || numbers->front() > 180)
-    refuse(option + ": expected degrees from 0 to 180, found '" + text + "'");
-  angle = numbers->front();
-}
-
-void take_simplify(const std::string& text, Arguments& arguments) {
-  const auto numbers = numbers_between_commas(text);
-  const auto is_bad = [](double number) { return !(number >= 0); };
-  if (!numbers || numbers->empty() || numbers->size() > 2 || std::ranges::any_of(*numbers, is_bad))
-    refuse(
-        "--simplify: expected TOLERANCE or TOLERANCE,EXTENT, both in d and not negative, found '" +
-        text + "'");
-  arguments.simplify = numbers->front();
-  arguments.smallest = numbers->size() == 2 ? numbers->back() : 0;
-}
-
-void take_bound(const std::string& option, const std::string& text, std::optional<double>& bound) {
-  const auto numbers = numbers_between_commas(text);
-  if (!numbers || numbers->size() != 1 || !(numbers->front() > 0))
-    refuse(option + ": expected a number greater than 0, found '" + text + "'");
-  bound = numbers->front();
-}
-
-// An option of the library, but one that is a number of nodes: 1e6 will do.
-void take_nodes(const std::string& text, Arguments& arguments) {
-  std::optional<double> nodes;
-  take_bound("--nodes", text, nodes);
-  arguments.options.emplace_back("wanted_nodes", text);
 }
 
 void add_spacing_bounds(CLI::App& app, Arguments& arguments) {
@@ -165,17 +132,6 @@ void add_geo(CLI::App& app, Arguments& arguments) {
       ->group(group);
 }
 
-void take_name(const std::string& text, Arguments& arguments) {
-  const std::size_t equals = text.find('=');
-  const std::string name = equals == std::string::npos ? "" : text.substr(equals + 1);
-  std::int32_t tag = 0;
-  const char* end = text.data() + std::min(equals, text.size());
-  const auto read = std::from_chars(text.data(), end, tag);
-  if (name.empty() || read.ec != std::errc() || read.ptr != end || tag == 0)
-    refuse("--name: expected TAG=NAME with a tag other than 0, found '" + text + "'");
-  arguments.names.emplace_back(tag, name);
-}
-
 void add_groups(CLI::App& app, Arguments& arguments, std::vector<std::string>& names) {
   add_repeatable(app, "--inner", arguments.inner,
                  "in space: nodes follow the triangles of this group, which lie\ninside and bound "
@@ -191,16 +147,7 @@ void add_groups(CLI::App& app, Arguments& arguments, std::vector<std::string>& n
 void add_repair(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::vector<std::string>>(
          "--repair",
-         [&arguments](const std::vector<std::string>& text) {
-           arguments.repair_if_needed = text == std::vector<std::string>{"auto"};
-           if (arguments.repair_if_needed) return;
-           arguments.repair = 0;
-           if (text.empty() || text[0].empty()) return;
-           const auto numbers = numbers_between_commas(text[0]);
-           if (!numbers || numbers->size() != 1 || !((*numbers)[0] > 0))
-             refuse("--repair: expected a positive resolution or auto, found '" + text[0] + "'");
-           arguments.repair = (*numbers)[0];
-         },
+         [&arguments](const std::vector<std::string>& text) { take_repair(text, arguments); },
          "in space: the body that the triangles enclose, even if they are\n"
          "open, crossing or inconsistently oriented, to this resolution;\n"
          "default: 1/64 of the longest side; auto: only if the body\n"
@@ -215,18 +162,6 @@ void add_surfaces_only(CLI::App& app, Arguments& arguments) {
                "in space: place nodes and triangles only on the surfaces, which\n"
                "may be open")
       ->group("What to fill");
-}
-
-void take_colour(const std::string& name, Arguments& arguments) {
-  const std::vector<std::string> names = picture::element_colour_names();
-  const auto colour = picture::element_colour_called(name);
-  if (!colour) {
-    std::string known;
-    for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-    refuse("--color: unknown value '" + name + "'" + did_you_mean(name, names) +
-           " (known: " + known + ")");
-  }
-  arguments.colour = *colour;
 }
 
 void add_output(CLI::App& app, Arguments& arguments) {
@@ -338,16 +273,6 @@ void refuse_unknown(const CLI::App& app) {
     if (!word.starts_with('-')) refuse("unexpected argument '" + word + "'");
     const std::string name = word.substr(0, word.find('='));
     refuse("unknown option " + name + did_you_mean(name, names));
-  }
-}
-
-void take_settings(const std::vector<std::string>& settings, Arguments& arguments) {
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      refuse("--set: expected KEY=VALUE, found '" + setting + "'");
-    }
-    arguments.options.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
   }
 }
 
