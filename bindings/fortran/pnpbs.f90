@@ -3191,11 +3191,12 @@ contains
   end subroutine
 
   !> Adds a field of the caller to files written from now on: beside id, tag and spacing in .vtu,
-  !> .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as $NodeData. Other formats omit it. The values are
-  !> copied. They belong to the current nodes: once these have moved or changed their ranks, writing
-  !> is PNPBS_ERROR_STATE until clear_output_fields. When files are written, all ranks must have
-  !> added the same fields in the same order. Local. Errors: PNPBS_ERROR_ARGUMENT for a name that is
-  !> taken, more than 9 components, or too few values; PNPBS_ERROR_STATE without nodes.
+  !> .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as $NodeData, and in .csv as a column "name", or
+  !> "name:0", "name:1" and so on. Other formats omit it. The values are copied. They belong to the
+  !> current nodes: once these have moved or changed their ranks, writing is PNPBS_ERROR_STATE until
+  !> clear_output_fields. When files are written, all ranks must have added the same fields in the
+  !> same order. Local. Errors: PNPBS_ERROR_ARGUMENT for a name that is taken, more than 9
+  !> components, or too few values; PNPBS_ERROR_STATE without nodes.
   !>   name    1 to 63 letters, digits, '_' and '-'; none of id, tag, spacing, quality and
   !>           vtkGhostType; trailing blanks are ignored
   !>   values  (n), or (components, n): of this rank's nodes at least; entries after them, for its

@@ -1377,12 +1377,12 @@ PNPBS_API pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, in
 
 /** Adds a field of the caller, with `components` numbers at each node, to files written from now
  *  on: beside id, tag and spacing in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as
- *  $NodeData. Other formats omit it. The values are copied. They belong to the current nodes: once
- *  these have moved or changed their ranks, writing is PNPBS_ERROR_STATE until
- *  pnpbs_placement_clear_output_fields. When files are written, all ranks must have added the same
- *  fields in the same order, or it is PNPBS_ERROR_ARGUMENT. Local. Errors: PNPBS_ERROR_ARGUMENT for
- *  a name that is taken, fewer than 1 or more than 9 components, or too few values;
- *  PNPBS_ERROR_STATE without nodes.
+ *  $NodeData, and in .csv as a column "name", or "name:0", "name:1" and so on. Other formats omit
+ *  it. The values are copied. They belong to the current nodes: once these have moved or changed
+ *  their ranks, writing is PNPBS_ERROR_STATE until pnpbs_placement_clear_output_fields. When files
+ *  are written, all ranks must have added the same fields in the same order, or it is
+ *  PNPBS_ERROR_ARGUMENT. Local. Errors: PNPBS_ERROR_ARGUMENT for a name that is taken, fewer than 1
+ *  or more than 9 components, or too few values; PNPBS_ERROR_STATE without nodes.
  *  @param[in] name        1 to 63 letters, digits, '_' and '-'; none of id, tag, spacing, quality
  *                         and vtkGhostType
  *  @param[in] n           entries of the array: at least this rank's nodes; entries after them, for

@@ -4,9 +4,59 @@
 
 namespace pnpbs::io {
 
+namespace {
+
+// One of the caller's fields: its values at the nodes in this rank's parts of all windows. So no
+// window of nodes waits for one of a field.
+struct FieldColumns {
+  std::size_t components;
+  std::vector<double> values;
+};
+
+std::vector<FieldColumns> field_columns(const NodeSource& nodes) {
+  std::vector<FieldColumns> all;
+  for (std::size_t k = 0; k < nodes.contents().field_count(); ++k) {
+    const OutputField& field = (*nodes.contents().fields)[k];
+    FieldColumns& columns = all.emplace_back();
+    columns.components = static_cast<std::size_t>(field.components);
+    nodes.for_field(k, [&](const FieldRows& rows) {
+      columns.values.insert(columns.values.end(), rows.values.begin(), rows.values.end());
+    });
+  }
+  return all;
+}
+
+// Names of fields have no colon, so no two columns have the same name.
+std::string field_names(const OutputField& field) {
+  if (field.components == 1) return "," + field.name;
+  std::string names;
+  for (std::int64_t c = 0; c < field.components; ++c)
+    names += "," + field.name + ":" + std::to_string(c);
+  return names;
+}
+
+std::string column_names(const Contents& all) {
+  std::string names = all.dimension == 2 ? "id,x,y,tag,spacing" : "id,x,y,z,tag,spacing";
+  for (std::size_t k = 0; k < all.field_count(); ++k) names += field_names((*all.fields)[k]);
+  return names + "\n";
+}
+
+// place: of the node, in this rank's parts of all windows.
+void write_fields(const std::vector<FieldColumns>& fields, std::size_t place, Sink& sink) {
+  for (const FieldColumns& field : fields)
+    for (std::size_t c = 0; c < field.components; ++c) {
+      sink.text(",");
+      sink.number(field.values[field.components * place + c]);
+    }
+}
+
+}  // namespace
+
 void write_csv(const NodeSource& nodes, SharedFile& file) {
   const auto dimension = static_cast<std::size_t>(nodes.contents().dimension);
-  file.append_text(dimension == 2 ? "id,x,y,tag,spacing\n" : "id,x,y,z,tag,spacing\n");
+  const std::vector<FieldColumns> fields = field_columns(nodes);
+  std::size_t before = 0;  // nodes of windows that have been
+  file.append_text(column_names(nodes.contents()));
   nodes.for_nodes([&](const NodeRows& rows) {
     file.append([&](Sink& sink) {
       for (std::size_t i = 0; i < rows.ids.size(); ++i) {
@@ -19,9 +69,11 @@ void write_csv(const NodeSource& nodes, SharedFile& file) {
         sink.number(rows.tags[i]);
         sink.text(",");
         sink.number(rows.spacing[i]);
+        write_fields(fields, before + i, sink);
         sink.text("\n");
       }
     });
+    before += rows.ids.size();
   });
 }
 

@@ -264,6 +264,17 @@ class OutputFields(VolumeTest):
             numpy.testing.assert_array_equal(found, values, field)
         return mesh.points
 
+    def check_csv(self, points):
+        table = read_csv(self.folder / "a.csv")
+        names = ["id", "x", "y", "z", "tag", "spacing"]
+        for field, values in self.expected(points).items():
+            columns = [field] if values.ndim == 1 else [
+                f"{field}:{c}" for c in range(values.shape[1])]
+            names += columns
+            found = numpy.stack([table[column] for column in columns], 1).squeeze()
+            numpy.testing.assert_array_equal(found, values, field)
+        self.assertEqual(list(table), names)
+
     def test_all_formats(self):
         names = ["a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.csv"]
         by_hdf5 = ["a.vtkhdf", "a.xdmf"] if HAVE_HDF5 else []
@@ -278,6 +289,7 @@ class OutputFields(VolumeTest):
         for name in ("a.msh", "a.msh2"):
             order = numpy.array([by_number[tuple(x)] for x in self.check_meshio(name)])
             self.check_msh(name, points, order)
+        self.check_csv(points)
         facets = self.grid("a_facets.vtu").GetPointData()
         self.assertFalse(any(facets.HasArray(name) for name in self.COMPONENTS))
         if not MPIEXEC:

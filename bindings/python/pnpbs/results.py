@@ -306,11 +306,12 @@ class Results(PlacementHandle):
 
     def add_output_field(self: _Self, name: str, values: ArrayLike) -> _Self:
         """Adds a field of the caller to files written from now on: beside `id`, `tag` and `spacing`
-        in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `$NodeData`. `values` are (n,) or
-        (n, ...) numbers, up to 9 at each node, those of this rank's nodes in the order of `nodes`;
-        entries after them, for its ghosts, are ignored. They are copied, and belong to the current
-        nodes: once these have moved, `write` raises until `clear_output_fields`. All ranks add the
-        same fields in the same order. A name has 1 to 63 letters, digits, "_" and "-". Local."""
+        in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `$NodeData`, and in .csv as a column
+        `name`, or `name:0`, `name:1` and so on. `values` are (n,) or (n, ...) numbers, up to 9 at
+        each node, those of this rank's nodes in the order of `nodes`; entries after them, for its
+        ghosts, are ignored. They are copied, and belong to the current nodes: once these have
+        moved, `write` raises until `clear_output_fields`. All ranks add the same fields in the same
+        order. A name has 1 to 63 letters, digits, "_" and "-". Local."""
         field = np.atleast_1d(np.ascontiguousarray(values, np.float64))
         components = int(np.prod(field.shape[1:], dtype=np.int64))
         self._call("add_output_field", name.encode(), len(field), components, field)

@@ -390,11 +390,12 @@ end
     add_output_field(placement, name, values) -> Placement
 
 Adds a field of the caller to files written from now on: beside `id`, `tag` and `spacing` in .vtu,
-.pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `\$NodeData`. `values` is a vector with an entry for
-each node of this rank, or an array with that last index, with up to 9 components; entries after
-them, for its ghosts, are ignored. The values are copied. They belong to the current nodes: once
-these have moved, writing fails until [`clear_output_fields`](@ref). All ranks add the same fields
-in the same order. A name has 1 to 63 letters, digits, `_` and `-`. Local.
+.pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `\$NodeData`, and in .csv as a column `name`, or
+`name:0`, `name:1` and so on. `values` is a vector with an entry for each node of this rank, or an
+array with that last index, with up to 9 components; entries after them, for its ghosts, are
+ignored. The values are copied. They belong to the current nodes: once these have moved, writing
+fails until [`clear_output_fields`](@ref). All ranks add the same fields in the same order. A name
+has 1 to 63 letters, digits, `_` and `-`. Local.
 """
 function add_output_field(placement::Placement, name::AbstractString,
                           values::AbstractArray{<:Real})
