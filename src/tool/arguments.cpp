@@ -180,6 +180,11 @@ void add_output(CLI::App& app, Arguments& arguments) {
                "no triangles or tetrahedra in formats where they are optional\n"
                "(.vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2)")
       ->group(group);
+  app.add_flag("--volumes", arguments.volumes,
+               "the volume of each node's Voronoi cell (areas in the plane and on\n"
+               "surfaces), as the field volume in .vtu, .pvtu, .vtkhdf, .xdmf,\n"
+               ".msh, .msh2 and .csv; figures in the report and the summary")
+      ->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
   app.add_option_function<std::string>(
          "--color", [&arguments](const std::string& name) { take_colour(name, arguments); },

@@ -41,6 +41,7 @@ struct Arguments {
   bool bubbles = false;
   bool check = false;  // the results
   bool nodes_only = false;
+  bool volumes = false;  // of nodes
   bool dry_run = false;
   bool quiet = false;
   bool progress = false;

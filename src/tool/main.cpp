@@ -19,6 +19,7 @@
 #include "tool/file_format.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/library.hpp"
+#include "tool/node_volumes.hpp"
 #include "tool/outputs.hpp"
 #include "tool/progress.hpp"
 #include "tool/ranks.hpp"
@@ -248,6 +249,13 @@ bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) 
   return true;
 }
 
+// If the user wants volumes: see node_volumes.hpp.
+std::optional<VolumeFigures> add_wanted_volumes(const Work& work, pnpbs_placement placement) {
+  if (!work.arguments.volumes) return std::nullopt;
+  const int dimension = work.arguments.surfaces_only ? 2 : work.wishes.source->dimension();
+  return add_volumes(placement, dimension, work.context, work.ranks);
+}
+
 ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status status) {
   auto& [arguments, ranks, wishes, context, domain, look, body] = work;
   Outputs& outputs = *wishes.outputs;
@@ -255,19 +263,20 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   Statistics statistics(placement);
   if (outputs.has_pictures()) outputs.write_pictures({placement, domain, context, ranks, look});
   if (body) body->area = boundary_area(placement, context, ranks);
+  const std::optional<VolumeFigures> volumes = add_wanted_volumes(work, placement);
   const std::vector<std::string> of_grids =
       wishes.spacing->warnings(placement, domain, context, ranks);
   if (work.talks()) warn(of_grids);
   const std::vector<std::string> warnings = for_report(geo, context, placement, of_grids);
   if (geo) outputs.write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
-  outputs.write_report(report_text(arguments, geo, statistics, groups, warnings));
+  outputs.write_report(report_text(arguments, geo, statistics, volumes, groups, warnings));
   give_up_if_any_is_interrupted(ranks);
   outputs.write_nodes(placement, context);
   statistics.renew_memory(placement);  // files take some, too
-  outputs.replace_report(report_text(arguments, geo, statistics, groups, warnings));
+  outputs.replace_report(report_text(arguments, geo, statistics, volumes, groups, warnings));
   if (work.talks() && !outputs.use_standard_output())
-    std::cout << summary_text(statistics, body, outputs.files());
+    std::cout << summary_text(statistics, body, volumes, outputs.files());
   return geo && leave_out_shapes(warnings) ? ExitCode::input_left_out : exit_code_of_run(status);
 }
 

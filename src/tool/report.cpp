@@ -69,10 +69,16 @@ Json groups_of(const std::vector<GroupName>& groups) {
   return list;
 }
 
+Json figures_of(const VolumeFigures& volumes) {
+  return {{"total", volumes.total},
+          {"ratio", {{"mean", volumes.mean}, {"min", volumes.min}, {"max", volumes.max}}}};
+}
+
 }  // namespace
 
 std::string report_text(const Arguments& arguments, const GeoFile* geo,
-                        const Statistics& statistics, const std::vector<GroupName>& groups,
+                        const Statistics& statistics, const std::optional<VolumeFigures>& volumes,
+                        const std::vector<GroupName>& groups,
                         const std::vector<std::string>& warnings) {
   Json report;
   report["domain"] = arguments.domain;
@@ -92,6 +98,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   for (const auto& [name, value] : statistics.all())
     insert(report, name, std::visit(AsJson(), value));
   report["edge"]["bands"] = bands_of(statistics);
+  if (volumes) report["volumes"] = figures_of(*volumes);
   report["warnings"] = warnings;
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -2,19 +2,22 @@
 // The report: what was asked, and the results, as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tool/arguments.hpp"
 #include "tool/geo_file.hpp"
 #include "tool/library.hpp"
+#include "tool/node_volumes.hpp"
 #include "tool/statistics.hpp"
 
 namespace pnpbs::tool {
 
 // `geo` is nullptr for domains from other files.
 std::string report_text(const Arguments& arguments, const GeoFile* geo,
-                        const Statistics& statistics, const std::vector<GroupName>& groups,
+                        const Statistics& statistics, const std::optional<VolumeFigures>& volumes,
+                        const std::vector<GroupName>& groups,
                         const std::vector<std::string>& warnings);
 
 }  // namespace pnpbs::tool

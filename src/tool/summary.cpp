@@ -66,6 +66,16 @@ std::string edge_line(const Statistics& statistics) {
   return line + "\n";
 }
 
+std::string volume_line(const std::optional<VolumeFigures>& volumes) {
+  if (!volumes) return "";
+  std::string line = "volumes  " + measure(volumes->total) + " in all";
+  const std::string unit = volumes->dimension == 2 ? " d^2" : " d^3";
+  if (std::isfinite(volumes->mean))  // there are nodes
+    line += "; of a node " + short_number(volumes->mean, 3) + unit + " in the mean, " +
+            short_number(volumes->min, 3) + " to " + short_number(volumes->max, 3) + unit;
+  return line + "\n";
+}
+
 // The library says what ended the run in a word or two.
 std::string in_words(const std::string& reason) {
   if (reason == "rest") return "the bubbles rest";
@@ -119,10 +129,11 @@ std::string estimate_text(const RunEstimate& run) {
 }
 
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
+                         const std::optional<VolumeFigures>& volumes,
                          const std::vector<std::string>& files) {
   return body_line(body) + nodes_line(statistics) + spacing_line(statistics) +
          edge_line(statistics) + quality_line(statistics, body && body->volume > 0) +
-         stop_line(statistics) + memory_line(statistics) + files_line(files);
+         volume_line(volumes) + stop_line(statistics) + memory_line(statistics) + files_line(files);
 }
 
 }  // namespace pnpbs::tool

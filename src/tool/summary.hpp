@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tool/body_figures.hpp"
+#include "tool/node_volumes.hpp"
 #include "tool/statistics.hpp"
 
 namespace pnpbs::tool {
@@ -24,6 +25,7 @@ struct RunEstimate {
 std::string estimate_text(const RunEstimate& run);
 
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
+                         const std::optional<VolumeFigures>& volumes,
                          const std::vector<std::string>& files);
 
 }  // namespace pnpbs::tool

@@ -156,6 +156,25 @@ class SameFiles(RanksTest):
                 self.assertEqual((self.folder / name).read_bytes(), content)
         self.assertIn("misses the body", self.refuse_ranks(2, *ask[:-1], "z=3"))
 
+    # With the finest spacing there are more nodes than the ranks write at a time, with the coarsest
+    # one some ranks have none.
+    def test_volumes(self):
+        names = ("a.vtu", "a.msh", "a.csv")
+        outputs = [word for name in names for word in ("-o", name)]
+        for domain in ((self.square, "0.003 + 0.01*x"), (self.square, "0.5"),
+                       ("ball(0,0,0, 1)", "0.3"), ("ball(0,0,0, 1)", "0.3", "--surfaces-only")):
+            ask = ("--domain", domain[0], "--spacing", *domain[1:], "--volumes", *outputs,
+                   "--report", "a.json")
+            self.run_command(*ask)
+            expected = {name: (self.folder / name).read_bytes() for name in names}
+            figures = json.loads((self.folder / "a.json").read_text())["volumes"]
+            for ranks in (2, 3):
+                self.run_ranks(ranks, *ask)
+                for name, content in expected.items():
+                    self.assertEqual((self.folder / name).read_bytes(), content, (domain, ranks))
+                again = json.loads((self.folder / "a.json").read_text())
+                self.assertEqual((again["volumes"], again["ranks"]), (figures, ranks))
+
     def test_standard_streams(self):
         out, _ = self.run_command("--domain", LAKE, "--spacing", "6", "-o", "-", "--format", "vtu")
         again, _ = self.run_ranks(3, "--domain", "-", "--spacing", "6", "-o", "-", "--format",

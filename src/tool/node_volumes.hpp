@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each node stands for: the volumes of Voronoi cells, for files and in figures.
+#pragma once
+
+#include "tool/library.hpp"
+#include "tool/ranks.hpp"
+
+namespace pnpbs::tool {
+
+struct VolumeFigures {
+  int dimension;  // of the elements: volumes are areas if it is 2
+  double total;   // of all nodes
+  // Over nodes, of a node's volume over d^dimension, with d at the node. Not finite without nodes.
+  double mean, min, max;
+};
+
+// Makes the cells, and adds their volumes as the field "volume" to what files of the placement
+// will have. Returns the figures on the first rank, which are the same for any number of ranks;
+// zeros on the others. Collective. Throws Failure.
+VolumeFigures add_volumes(pnpbs_placement placement, int dimension, pnpbs_context context,
+                          const Ranks& ranks);
+
+}  // namespace pnpbs::tool
