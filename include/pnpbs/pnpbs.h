@@ -483,25 +483,26 @@ PNPBS_API pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const 
                                                      int64_t *curves);
 
 /** Adds the body between two distances from the boundary of another: points whose signed distance
- * to it, negative inside, lies between low and high times d. So particles that stand for d^dim of
- *  matter each are placed half a spacing inside the wall: with low = -infinity and high = -0.42 in
- *  the plane or -0.46 in space, and with a spacing for the nodes of 1.076 d or 1.147 d, their
- * number is the body's measure over d^dim, nearly; and so are layers of wall particles outside,
- * from 0.46 to n + 0.46. Its boundary is found as that of a level set (pnpbs_domain_add_level_set),
- * in the plane by curves through points about a resolution apart, with corners where it turns by
- * more than 20 degrees within it. What is thinner is lost. The body is checked first, and is not
- *  needed afterwards. In space the callback is called later, too, as that of a level set is, so it
- *  and `user` must outlive the placements made on the domain. Local; must be called identically on
- *  all ranks. Errors: PNPBS_ERROR_DOMAIN as in pnpbs_domain_check, or if nothing is left between
- *  these distances; PNPBS_ERROR_SPACING for a d that is zero, negative or not finite.
+ *  to it, negative inside, lies between low and high times d. So particles that stand for d^dim
+ *  of matter each are placed half a spacing inside the wall: with low = -infinity and high =
+ *  -0.42 in the plane or -0.46 in space, and with a spacing for the nodes of 1.076 d or 1.147 d,
+ *  their number is the body's measure over d^dim, nearly; and so are layers of wall particles
+ *  outside, from 0.46 to n + 0.46. Its boundary is found as that of a level set
+ *  (pnpbs_domain_add_level_set), in the plane by curves through points about a resolution apart,
+ *  with corners where it turns by more than 20 degrees within it. What is thinner is lost. The
+ *  body is checked first, and is not needed afterwards. In space the callback is called later,
+ *  too, as that of a level set is, so it and `user` must outlive the placements made on the
+ *  domain. Local; must be called identically on all ranks. Errors: PNPBS_ERROR_DOMAIN as in
+ *  pnpbs_domain_check, or if nothing is left between these distances; PNPBS_ERROR_SPACING for a d
+ *  that is zero, negative or not finite.
  *  @param[in] body        on the same context and with the same dimension; must have an inside
  *  @param[in] low         less than high; -infinity for all that is deeper
  *  @param[in] high        finite
  *  @param[in] spacing     d, which may be evaluated in the body's bounding box, and as far around
  *                         it as the new body reaches, and a little farther; NULL: 1 everywhere, so
  *                         that low and high are lengths
- *  @param[in] resolution  > 0, or 0 for half of the least d at the body's boundary, or of the
- * lesser of |low| and |high| if there is no callback
+ *  @param[in] resolution  > 0, or 0 for an eighth (in space half) of the least d at the body's
+ *                         boundary, or of the lesser of |low| and |high| if there is no callback
  *  @param[in] tag         of the new boundary, nonzero */
 PNPBS_API pnpbs_status pnpbs_domain_add_offset(pnpbs_domain domain, pnpbs_domain body, double low,
                                                double high, pnpbs_spacing_fn spacing, void *user,
@@ -1271,12 +1272,13 @@ PNPBS_API pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
 PNPBS_API pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
 
 /** Makes the same cells within a body that is larger than the elements, as of particles placed in
- *  what pnpbs_domain_add_offset makes of it. Cells at the boundary of the elements have the volume
- *  that is seen from the node, up to the body's boundary and halfway to its neighbours, times one
- *  factor, so that all volumes add up to the body's measure. Inner cells, and all faces and shares
- *  of the boundary, are those of pnpbs_voronoi_create. Collective. Errors: PNPBS_ERROR_STATE
- * without nodes, PNPBS_ERROR_DOMAIN as in pnpbs_domain_check, if a node is not strictly inside of
- * the body, or if the factor is not between 0.8 and 1.25: then the nodes do not fill the body.
+ *  what pnpbs_domain_add_offset makes of it. Cells at the boundary of the elements have the
+ *  volume that is seen from the node, up to the body's boundary and halfway to its neighbours,
+ *  times one factor, so that all volumes add up to the body's measure. Inner cells, and all faces
+ *  and shares of the boundary, are those of pnpbs_voronoi_create. Collective. Errors:
+ *  PNPBS_ERROR_STATE without nodes, PNPBS_ERROR_DOMAIN as in pnpbs_domain_check, if a node is not
+ *  strictly inside of the body, or if the factor is not between 0.8 and 1.25: then the nodes do
+ *  not fill the body.
  *  @param[in] placement  whose nodes have the cells; not on surfaces alone
  *  @param[in] body       with the placement's dimension, on the same context
  *  @param[out] voronoi   the handle */

@@ -23,8 +23,11 @@ namespace {
 using given_values::reject;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr double kFineness = 0.5;  // the resolution, unless given, in units of the least d
-constexpr double kRoom = 2;        // beyond the body, in units of the resolution
+// The resolution, unless given, in units of the least d. In space nodes are put where f = 0; in the
+// plane they lie on chords.
+template <int Dim>
+constexpr double kFineness = Dim == 2 ? 0.125 : 0.5;
+constexpr double kRoom = 2;  // beyond the body, in units of the resolution
 
 template <int Dim>
 void require_limits(const Offset<Dim>& offset) {
@@ -36,7 +39,7 @@ void require_limits(const Offset<Dim>& offset) {
     reject("high is " + number_text(high) + ", expected a finite number");
   if (!(offset.resolution >= 0 && std::isfinite(offset.resolution)))
     reject("resolution is " + number_text(offset.resolution) +
-           ", expected a positive number, or 0 for half of the least spacing");
+           ", expected a positive number, or 0 for one that suits the least spacing");
   given_values::require_tag("tag", offset.tag);
 }
 
@@ -72,7 +75,7 @@ class OffsetFunction {
       for (const double limit : {std::fabs(offset_.low), std::fabs(offset_.high)})
         if (limit > 0) least = std::min(least, limit);
     }
-    return kFineness * least;
+    return kFineness<Dim> * least;
   }
 
   // In which the body lies, with some room about it.

@@ -16,7 +16,7 @@ struct Offset {
   // -infinity.
   double low, high;
   std::optional<LocalSpacingEvaluator<Dim>> spacing;  // d; none: distances as they are
-  double resolution;                                  // of level sets; 0: half of the least d
+  double resolution;                                  // of level sets; 0: by the least d
   std::int32_t tag;
 };
 

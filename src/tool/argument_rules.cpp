@@ -12,6 +12,24 @@ namespace pnpbs::tool {
 
 void refuse(const std::string& what) { throw BadInput(what + "\nTry 'pnpbs --help'."); }
 
+namespace {
+
+void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
+  if (!arguments.at_centres) return;
+  if (arguments.spacing == "auto" || spacing_file(arguments.spacing))
+    refuse("--nodes-at centers needs d as a formula or on a grid: --spacing, --spacing-grid");
+  if (multiplied)
+    refuse(
+        "--nodes-at centers goes by d as given, and --nodes multiplies that: particles are as many "
+        "as d^2, or d^3 in space, goes into the domain");
+  if (arguments.surfaces_only)
+    refuse("--nodes-at centers is for what is inside, and --surfaces-only leaves that empty");
+  if (arguments.repair_if_needed)
+    refuse("--nodes-at centers needs to know the body: name the resolution of --repair");
+}
+
+}  // namespace
+
 void require_arguments_that_fit(const Arguments& arguments) {
   if (arguments.domain.empty()) refuse("--domain is missing");
   const std::size_t grids = arguments.spacing_grids.size();
@@ -40,6 +58,7 @@ void require_arguments_that_fit(const Arguments& arguments) {
     refuse(
         "--simplify goes by d as given, and --nodes multiplies that: find d by --nodes with "
         "--dry-run, and give it to --spacing");
+  require_centres_that_fit(arguments, multiplied);
   const auto colour = arguments.colour.value_or(picture::ElementColour::none);
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");

@@ -42,6 +42,12 @@ void take_nodes(const std::string& text, Arguments& arguments) {
   arguments.options.emplace_back("wanted_nodes", text);
 }
 
+void take_places(const std::string& text, Arguments& arguments) {
+  arguments.at_centres = text == "centers" || text == "centres";
+  if (!arguments.at_centres && text != "boundary")
+    refuse("--nodes-at: unknown value '" + text + "' (known: boundary, centers)");
+}
+
 void take_name(const std::string& text, Arguments& arguments) {
   const std::size_t equals = text.find('=');
   const std::string name = equals == std::string::npos ? "" : text.substr(equals + 1);

@@ -17,6 +17,7 @@ void take_bound(const std::string& option, const std::string& text, std::optiona
 
 void take_simplify(const std::string& text, Arguments& arguments);
 void take_nodes(const std::string& text, Arguments& arguments);
+void take_places(const std::string& text, Arguments& arguments);
 void take_name(const std::string& text, Arguments& arguments);
 void take_repair(const std::vector<std::string>& text, Arguments& arguments);
 void take_colour(const std::string& name, Arguments& arguments);

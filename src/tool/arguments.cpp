@@ -132,6 +132,17 @@ void add_geo(CLI::App& app, Arguments& arguments) {
       ->group(group);
 }
 
+void add_nodes_at(CLI::App& app, Arguments& arguments) {
+  app.add_option_function<std::string>(
+         "--nodes-at", [&arguments](const std::string& text) { take_places(text, arguments); },
+         "boundary, the default: nodes lie on the boundary, and elements fill\n"
+         "the domain; or centers: as particles, half a spacing inside, each\n"
+         "of which stands for d^2 of the domain, or d^3 in space; they are\n"
+         "written without elements and with --volumes")
+      ->type_name("PLACE")
+      ->group("What to fill");
+}
+
 void add_groups(CLI::App& app, Arguments& arguments, std::vector<std::string>& names) {
   add_repeatable(app, "--inner", arguments.inner,
                  "in space: nodes follow the triangles of this group, which lie\ninside and bound "
@@ -304,6 +315,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   add_geo(app, arguments);
   add_repair(app, arguments);
   add_surfaces_only(app, arguments);
+  add_nodes_at(app, arguments);
   add_groups(app, arguments, names);
   add_output(app, arguments);
   add_library_options(app, arguments, settings);

@@ -41,7 +41,8 @@ struct Arguments {
   bool bubbles = false;
   bool check = false;  // the results
   bool nodes_only = false;
-  bool volumes = false;  // of nodes
+  bool at_centres = false;  // nodes, of what they stand for
+  bool volumes = false;     // of nodes
   bool dry_run = false;
   bool quiet = false;
   bool progress = false;

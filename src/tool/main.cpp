@@ -12,6 +12,7 @@
 #include "tool/argument_rules.hpp"
 #include "tool/arguments.hpp"
 #include "tool/body_figures.hpp"
+#include "tool/centred_nodes.hpp"
 #include "tool/checkpoints.hpp"
 #include "tool/cut.hpp"
 #include "tool/domain.hpp"
@@ -196,9 +197,10 @@ struct Work {
   const Ranks& ranks;
   Wishes wishes;
   Context context;
-  Domain domain;
+  Domain domain, inset;  // the latter with nodes at centres
   PictureLook look;
   std::optional<BodyFigures> body;
+  pnpbs_domain filled() const { return arguments.at_centres ? inset : domain; }  // by the nodes
   bool talks() const { return ranks.is_first() && !arguments.quiet; }
 };
 
@@ -206,6 +208,16 @@ void measure_body(Work& work) {
   if (work.wishes.source->dimension() < 3) return;
   work.ranks.agreed(
       [&] { work.body = body_figures(work.domain, !work.arguments.surfaces_only, work.context); });
+}
+
+// The nodes are to lie in what is left of the domain about half a spacing inside.
+void centre_nodes(Work& work) {
+  const int dimension = work.wishes.source->dimension();
+  work.ranks.agreed([&] {
+    check(pnpbs_domain_create(work.context, dimension, work.inset.out()), work.context);
+    work.wishes.spacing->centre_nodes(work.inset, work.domain, centred_nodes(dimension),
+                                      work.context);
+  });
 }
 
 void read_domain(Work& work) {
@@ -226,10 +238,11 @@ void read_domain(Work& work) {
     work.look = look_of(arguments, source.dimension(), work.domain, work.context);
   });
   measure_body(work);
+  if (arguments.at_centres) centre_nodes(work);
 }
 
 void create(Work& work, Placement& placement) {
-  check(pnpbs_placement_create(work.context, work.domain, placement.out()), work.context);
+  check(pnpbs_placement_create(work.context, work.filled(), placement.out()), work.context);
   work.wishes.spacing->give_to(placement, work.domain, work.context, work.ranks);
 }
 
@@ -251,18 +264,23 @@ bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) 
 
 // If the user wants volumes: see node_volumes.hpp.
 std::optional<VolumeFigures> add_wanted_volumes(const Work& work, pnpbs_placement placement) {
-  if (!work.arguments.volumes) return std::nullopt;
-  const int dimension = work.arguments.surfaces_only ? 2 : work.wishes.source->dimension();
-  return add_volumes(placement, dimension, work.context, work.ranks);
+  const Arguments& arguments = work.arguments;
+  if (!arguments.volumes && !arguments.at_centres) return std::nullopt;
+  VolumesWanted wanted{arguments.surfaces_only ? 2 : work.wishes.source->dimension()};
+  if (arguments.at_centres) {
+    wanted.body = work.domain;
+    wanted.bubbles = centred_nodes(wanted.dimension).bubbles;
+  }
+  return add_volumes(placement, wanted, work.context, work.ranks);
 }
 
 ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status status) {
-  auto& [arguments, ranks, wishes, context, domain, look, body] = work;
+  auto& [arguments, ranks, wishes, context, domain, inset, look, body] = work;
   Outputs& outputs = *wishes.outputs;
   const GeoFile* geo = wishes.source->geo();
   Statistics statistics(placement);
   if (outputs.has_pictures()) outputs.write_pictures({placement, domain, context, ranks, look});
-  if (body) body->area = boundary_area(placement, context, ranks);
+  if (body && !arguments.at_centres) body->area = boundary_area(placement, context, ranks);
   const std::optional<VolumeFigures> volumes = add_wanted_volumes(work, placement);
   const std::vector<std::string> of_grids =
       wishes.spacing->warnings(placement, domain, context, ranks);
@@ -277,11 +295,13 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   outputs.replace_report(report_text(arguments, geo, statistics, volumes, groups, warnings));
   if (work.talks() && !outputs.use_standard_output())
     std::cout << summary_text(statistics, body, volumes, outputs.files());
+  // Nobody gets the elements of nodes at centres.
+  if (arguments.at_centres && status == PNPBS_NOT_CONFORMING) status = PNPBS_OK;
   return geo && leave_out_shapes(warnings) ? ExitCode::input_left_out : exit_code_of_run(status);
 }
 
 ExitCode run(const Arguments& arguments, const Ranks& ranks) {
-  Work work{arguments, ranks, {arguments, ranks}, {}, {}, {}, {}};
+  Work work{arguments, ranks, {arguments, ranks}, {}, {}, {}, {}, {}};
   read_domain(work);
   defer_interrupts(!arguments.checkpoint.empty());
   Placement given, repaired;

@@ -54,17 +54,19 @@ std::vector<double> volumes_of(pnpbs_voronoi cells, pnpbs_context context) {
 
 }  // namespace
 
-VolumeFigures add_volumes(pnpbs_placement placement, int dimension, pnpbs_context context,
-                          const Ranks& ranks) {
+VolumeFigures add_volumes(pnpbs_placement placement, const VolumesWanted& wanted,
+                          pnpbs_context context, const Ranks& ranks) {
   Voronoi cells;
-  check(pnpbs_voronoi_create(placement, cells.out()), context);
+  check(wanted.body ? pnpbs_voronoi_create_within(placement, wanted.body, cells.out())
+                    : pnpbs_voronoi_create(placement, cells.out()),
+        context);
   Figures own;
   ranks.agreed([&] {
     const std::vector<double> volumes = volumes_of(cells, context);
     const std::vector<double> spacing = spacing_at_nodes(placement, volumes.size(), context);
     for (std::size_t i = 0; i < volumes.size(); ++i) {
-      const double d = spacing[i];
-      own.add(volumes[i], volumes[i] / (dimension == 2 ? d * d : d * d * d));
+      const double d = spacing[i] / wanted.bubbles;
+      own.add(volumes[i], volumes[i] / (wanted.dimension == 2 ? d * d : d * d * d));
     }
     check(pnpbs_placement_add_output_field(
               placement, "volume", static_cast<std::int64_t>(volumes.size()), 1, volumes.data()),
@@ -73,8 +75,8 @@ VolumeFigures add_volumes(pnpbs_placement placement, int dimension, pnpbs_contex
   Figures all;
   for (const Figures& of_rank : ranks.gather(std::vector<Figures>{own})) all.add(of_rank);
   if (!ranks.is_first()) return {};
-  return {dimension, all.volumes.value(), all.ratios.value() / static_cast<double>(all.nodes),
-          all.min, all.max};
+  return {wanted.dimension, all.volumes.value(),
+          all.ratios.value() / static_cast<double>(all.nodes), all.min, all.max};
 }
 
 }  // namespace pnpbs::tool

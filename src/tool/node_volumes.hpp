@@ -14,10 +14,17 @@ struct VolumeFigures {
   double mean, min, max;
 };
 
+// Which cells, and what they are measured by.
+struct VolumesWanted {
+  int dimension;                // of the elements
+  pnpbs_domain body = nullptr;  // that the nodes stand for, if it is larger than the elements
+  double bubbles = 1;           // their spacing, over d
+};
+
 // Makes the cells, and adds their volumes as the field "volume" to what files of the placement
 // will have. Returns the figures on the first rank, which are the same for any number of ranks;
 // zeros on the others. Collective. Throws Failure.
-VolumeFigures add_volumes(pnpbs_placement placement, int dimension, pnpbs_context context,
-                          const Ranks& ranks);
+VolumeFigures add_volumes(pnpbs_placement placement, const VolumesWanted& wanted,
+                          pnpbs_context context, const Ranks& ranks);
 
 }  // namespace pnpbs::tool

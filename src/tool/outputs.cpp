@@ -61,7 +61,7 @@ std::string file_of_spacing(const Arguments& arguments) {
 }  // namespace
 
 Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
-    : ranks_(ranks), elements_(!arguments.nodes_only) {
+    : ranks_(ranks), elements_(!arguments.nodes_only && !arguments.at_centres) {
   const FileFormat* otherwise = format_called(arguments.format);
   for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
   if (!arguments.report.empty()) add(arguments.report, nullptr);

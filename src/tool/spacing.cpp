@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "spacing/beside_domain.hpp"
 
@@ -91,10 +92,32 @@ void Spacing::simplify(pnpbs_domain domain, pnpbs_context context, double tolera
     return;
   }
   if (expression_) expression_->ask_shape_of(domain, context);
-  void* const user = grid() ? const_cast<Grid*>(grid()) : expression_->as_user();
-  check(pnpbs_domain_simplify(domain, grid() ? call_grid : call_expression, user, tolerance,
-                              smallest, nullptr, nullptr),
+  const Multiplied d = callback();
+  check(pnpbs_domain_simplify(domain, d.d, d.user, tolerance, smallest, nullptr, nullptr), context);
+}
+
+Spacing::Multiplied Spacing::callback() const {
+  if (grid()) return {call_grid, const_cast<Grid*>(grid()), 1};
+  return {call_expression, expression_->as_user(), 1};
+}
+
+std::int32_t Spacing::call_multiplied(std::int64_t n, std::int32_t dim, const double* coordinates,
+                                      double* d, void* user) {
+  const Multiplied& it = *static_cast<const Multiplied*>(user);
+  const std::int32_t status = it.d(n, dim, coordinates, d, it.user);
+  for (std::int64_t i = 0; i < n; ++i) d[i] *= it.factor;
+  return status;
+}
+
+void Spacing::centre_nodes(pnpbs_domain inset, pnpbs_domain body, const CentredNodes& nodes,
+                           pnpbs_context context) {
+  if (expression_) expression_->ask_shape_of(body, context);
+  bubbles_ = callback();
+  constexpr std::int32_t tag = 1;
+  check(pnpbs_domain_add_offset(inset, body, -std::numeric_limits<double>::infinity(), -nodes.depth,
+                                bubbles_->d, bubbles_->user, 0, tag),
         context);
+  bubbles_->factor = nodes.bubbles;
 }
 
 void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
@@ -111,11 +134,16 @@ void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_cont
     return;
   }
   if (expression_) ranks.agreed([&] { expression_->ask_shape_of(domain, context); });
-  if (grid()) {
-    check(set_grid(placement), context);
-  } else if (expression_->is_constant()) {
+  const bool is_constant = expression_ && expression_->is_constant();
+  if (is_constant) {
     constexpr double anywhere[3] = {0, 0, 0};
-    check(pnpbs_placement_set_spacing_constant(placement, expression_->at(anywhere)), context);
+    const double factor = bubbles_ ? bubbles_->factor : 1;
+    check(pnpbs_placement_set_spacing_constant(placement, factor * expression_->at(anywhere)),
+          context);
+  } else if (bubbles_) {
+    check(pnpbs_placement_set_spacing_callback(placement, call_multiplied, &*bubbles_), context);
+  } else if (grid()) {
+    check(set_grid(placement), context);
   } else {
     check(pnpbs_placement_set_spacing_callback(placement, call_expression, expression_->as_user()),
           context);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tool/arguments.hpp"
+#include "tool/centred_nodes.hpp"
 #include "tool/expression.hpp"
 #include "tool/geo_file.hpp"
 #include "tool/library.hpp"
@@ -28,6 +29,12 @@ class Spacing {
   // Leaves out of a domain in the plane what is finer than d. Local. Throws Failure.
   void simplify(pnpbs_domain domain, pnpbs_context context, double tolerance, double smallest);
 
+  // Nodes at the centres of what they stand for: see centred_nodes.hpp. Adds to an empty domain
+  // what is left of the body some way inside, and makes the bubbles larger than d. This object must
+  // outlive both. Local. Throws Failure.
+  void centre_nodes(pnpbs_domain inset, pnpbs_domain body, const CentredNodes& nodes,
+                    pnpbs_context context);
+
   // This object must outlive the placement, and the domain, whose shape a formula may ask for.
   // Collective. Throws Failure.
   void give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
@@ -38,7 +45,17 @@ class Spacing {
                                     pnpbs_context context, const Ranks& ranks) const;
 
  private:
-  const Grid* grid() const;  // that the library takes as it is, or nullptr
+  // d times a factor, as a callback.
+  struct Multiplied {
+    pnpbs_spacing_fn d;
+    void* user;
+    double factor;
+  };
+  static std::int32_t call_multiplied(std::int64_t n, std::int32_t dim, const double* coordinates,
+                                      double* d, void* user);
+
+  Multiplied callback() const;  // not of a file, and not auto
+  const Grid* grid() const;     // that the library takes as it is, or nullptr
   pnpbs_status set_grid(pnpbs_placement placement) const;
 
   int dimension_;
@@ -46,6 +63,7 @@ class Spacing {
   std::vector<std::unique_ptr<NamedGrid>> grids_;
   std::unique_ptr<Expression> expression_;  // neither this nor a grid nor a file: auto
   std::optional<SpacingFile> file_;
+  std::optional<Multiplied> bubbles_;  // if their spacing is not d
 };
 
 }  // namespace pnpbs::tool

@@ -208,9 +208,9 @@ class Domain(Handle):
         layers of wall particles outside, from 0.46 to n + 0.46. `d` is a number or a function as in
         `Placement.set_spacing`, which is evaluated in the body's bounding box, and as far around it
         as the new body reaches, and a little farther; with None, `low` and `high` are lengths. The
-        boundary is found as that of a level set (`add_level_set`) with this resolution, 0 for half
-        of the least d at the body's boundary; what is thinner is lost. Must be called identically
-        on all ranks."""
+        boundary is found as that of a level set (`add_level_set`) with this resolution, 0 for an
+        eighth (in space half) of the least d at the body's boundary; what is thinner is lost. Must
+        be called identically on all ranks."""
         callback = no_spacing() if d is None else spacing_callback(_as_function(d), self.context)
         self._call("add_offset", body._live(), low, high, callback, None, resolution, tag)
         self._callbacks.append(callback)
