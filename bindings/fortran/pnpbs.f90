@@ -103,6 +103,7 @@ module pnpbs
     procedure :: set_corner_angle => domain_set_corner_angle
     procedure :: simplify => domain_simplify
     procedure :: simplify_by_file => domain_simplify_by_file
+    procedure :: add_offset => domain_add_offset
     procedure :: check => domain_check
     procedure :: bounds => domain_bounds
     procedure :: measure => domain_measure
@@ -1093,6 +1094,62 @@ contains
     if (present(vertices)) vertices = left_out(1)
     if (present(curves)) curves = left_out(2)
   end subroutine
+
+  !> Adds the body between two distances from the boundary of another: points whose signed distance
+  !> to it, negative inside, lies between low and high times d. So particles that stand for d**dim
+  !> of matter each are placed half a spacing inside the wall: with low = -huge(low) and high =
+  !> -0.42 in the plane or -0.46 in space, and with a spacing for the nodes of 1.076 d or 1.147 d,
+  !> their number is the body's measure over d**dim, nearly; and so are layers of wall particles
+  !> outside, from 0.46 to n + 0.46. Its boundary is found as that of a level set (add_level_set),
+  !> in the plane by curves through points about a resolution apart, with corners where it turns by
+  !> more than 20 degrees within it. What is thinner is lost. The body is checked first, and is not
+  !> needed afterwards. In space the callback is called later, too, as that of a level set is, so it
+  !> and user must outlive the placements made on the domain. Local; must be called identically on
+  !> all ranks. Errors: PNPBS_ERROR_DOMAIN as in domain%check, or if nothing is left between these
+  !> distances; PNPBS_ERROR_SPACING for a d that is zero, negative or not finite.
+  !>   body        on the same context and with the same dimension; must have an inside
+  !>   low         less than high; -huge(low) or less, which includes minus infinity, is passed on
+  !>               as minus infinity: all that is deeper
+  !>   high        finite
+  !>   spacing     optional: d, which may be evaluated in the body's bounding box, and as far around
+  !>               it as the new body reaches, and a little farther; default: 1 everywhere, so that
+  !>               low and high are lengths
+  !>   resolution  optional: > 0; default: half of the least d at the body's boundary, or of the
+  !>               lesser of |low| and |high| without a callback
+  !>   tag         optional: nonzero, of the new boundary; default: 1
+  !>   user        optional: passed to the callback; default: null
+  subroutine domain_add_offset(self, body, low, high, spacing, resolution, tag, user, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    type(pnpbs_domain), intent(in) :: body
+    real(c_double), intent(in) :: low, high
+    procedure(pnpbs_spacing_fn), optional :: spacing
+    real(c_double), intent(in), optional :: resolution
+    integer(c_int32_t), intent(in), optional :: tag
+    type(c_ptr), intent(in), optional :: user
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_funptr) :: address
+    real(c_double) :: fineness
+    address = c_null_funptr
+    if (present(spacing)) address = c_funloc(spacing)
+    fineness = 0
+    if (present(resolution)) fineness = resolution
+    call conclude('domain%add_offset', &
+                  c_domain_add_offset(self%c, body%c, lower_limit(low), high, address, &
+                                      pointer_or_null(user), fineness, tag_or_one(tag)), stat, &
+                  errmsg)
+  end subroutine
+
+  ! Minus infinity, for which Fortran has no literal, for the numbers that stand for it. This is a
+  ! function of its own because a procedure that uses the module saves and restores the
+  ! floating-point status, which must not happen around callbacks.
+  function lower_limit(low)
+    use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_value
+    real(c_double), intent(in) :: low
+    real(c_double) :: lower_limit
+    lower_limit = low
+    if (low <= -huge(low)) lower_limit = ieee_value(low, ieee_negative_inf)
+  end function
 
   !> Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces
   !> that do not close, hole points outside or on one, fixed nodes outside or too close. Placements
@@ -3008,15 +3065,30 @@ contains
   !> corners of all elements that touch it, so a node sees none through a gap that has no elements.
   !> The volumes add up to that of the elements to rounding. Cells are functions of the nodes alone:
   !> any number of ranks and threads gives the same bits. They are a copy: nodes may move
-  !> afterwards, and the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without
-  !> nodes.
-  !>   placement  whose nodes have the cells
-  subroutine voronoi_create(self, placement, stat, errmsg)
+  !> afterwards, and the placement may be destroyed.
+  !>
+  !> With a body that is larger than the elements, as of particles placed in what domain%add_offset
+  !> makes of it, cells at the boundary of the elements have the volume that is seen from the node,
+  !> up to the body's boundary and halfway to its neighbours, times one factor, so that all volumes
+  !> add up to the body's measure. Inner cells, and all faces and shares of the boundary, are the
+  !> same as without. Collective. Errors: PNPBS_ERROR_STATE without nodes; with a body,
+  !> PNPBS_ERROR_DOMAIN as in domain%check, if a node is not strictly inside of it, or if the factor
+  !> is not between 0.8 and 1.25: then the nodes do not fill the body.
+  !>   placement  whose nodes have the cells; with a body, not on surfaces alone
+  !>   body       optional: with the placement's dimension, on the same context
+  subroutine voronoi_create(self, placement, body, stat, errmsg)
     class(pnpbs_voronoi), intent(inout) :: self
     type(pnpbs_placement), intent(in) :: placement
+    type(pnpbs_domain), intent(in), optional :: body
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude('voronoi%create', c_voronoi_create(placement%c, self%c), stat, errmsg)
+    integer(c_int) :: status
+    if (present(body)) then
+      status = c_voronoi_create_within(placement%c, body%c, self%c)
+    else
+      status = c_voronoi_create(placement%c, self%c)
+    end if
+    call conclude('voronoi%create', status, stat, errmsg)
   end subroutine
 
   !> Destroys the cells; does nothing if there are none. Local.

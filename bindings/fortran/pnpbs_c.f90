@@ -554,6 +554,19 @@ module pnpbs_c
       integer(c_int) :: c_domain_simplify_by_file
     end function
 
+    function c_domain_add_offset(domain, body, low, high, spacing, user, resolution, tag) bind(C, &
+      name="pnpbs_domain_add_offset")
+      import
+      implicit none
+      type(c_ptr), value :: domain, body
+      real(c_double), value :: low, high
+      type(c_funptr), value :: spacing ! pnpbs_spacing_fn
+      type(c_ptr), value :: user ! void *
+      real(c_double), value :: resolution
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_offset
+    end function
+
     function c_domain_check(domain) bind(C, name="pnpbs_domain_check")
       import
       implicit none
@@ -1342,6 +1355,15 @@ module pnpbs_c
       type(c_ptr), value :: placement
       type(c_ptr), intent(out) :: voronoi
       integer(c_int) :: c_voronoi_create
+    end function
+
+    function c_voronoi_create_within(placement, body, voronoi) bind(C, &
+      name="pnpbs_voronoi_create_within")
+      import
+      implicit none
+      type(c_ptr), value :: placement, body
+      type(c_ptr), intent(out) :: voronoi
+      integer(c_int) :: c_voronoi_create_within
     end function
 
     function c_voronoi_destroy(voronoi) bind(C, name="pnpbs_voronoi_destroy")

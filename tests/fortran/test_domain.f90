@@ -22,6 +22,7 @@ program test_domain
   call about_graphs_with_tags
   call about_graphs
   call about_graphs_finer_than_d
+  call about_offsets
   call about_files
   call about_wrong_arguments
   call context%destroy
@@ -226,6 +227,70 @@ contains
     call expect(vertices > 20 .and. curves == 1, 'straight sides, and the small hole')
     call expect(abs(area(domain) - 1) < 1d-14, 'without its hole')
     call domain%destroy
+  end subroutine
+
+  subroutine about_offsets
+    use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_value
+    type(pnpbs_domain) :: square, inset, box
+    type(cone), target :: even, graded
+    real(c_double), parameter :: left = 0.042d0 / 0.979d0, right = 0.958d0 / 1.021d0
+    real(c_double) :: deep
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: coarse, fine
+    deep = -huge(deep)
+    call square%create(context)
+    call square%add_polyline(PNPBS_BOUNDARY, .true., &
+                             reshape([0d0, 0d0, 1d0, 0d0, 1d0, 1d0, 0d0, 1d0], [2, 4]))
+    even%finest = 0.1d0
+    even%growth = 0
+    call inset%create(context)
+    call inset%add_offset(square, deep, -0.42d0, sideways_spacing, tag=7, user=c_loc(even))
+    call expect(abs(area(inset) - (1 - 2 * 0.042d0)**2) < 1d-9, 'area of an inset')
+    call inset%segment_count(coarse)
+    allocate (tags(coarse))
+    call inset%get_segments(tags=tags)
+    call expect(all(tags == 7), 'tags of an inset')
+    call inset%destroy
+    call inset%create(context)
+    call inset%add_offset(square, ieee_value(deep, ieee_negative_inf), -0.042d0)
+    call expect(abs(area(inset) - (1 - 2 * 0.042d0)**2) < 1d-9, 'area of an inset by lengths')
+    call inset%destroy
+    ! Between four straight lines.
+    graded%finest = 0.1d0
+    graded%growth = 0.05d0
+    call inset%create(context)
+    call inset%add_offset(square, deep, -0.42d0, sideways_spacing, user=c_loc(graded))
+    call expect(abs(area(inset) - 0.916d0 * (right - left) + 0.021d0 * (right**2 - left**2)) &
+                < 1d-9, 'area of a graded inset')
+    call inset%destroy
+    ! More points on the way round the outer corners.
+    call inset%create(context)
+    call inset%add_offset(square, 0d0, 0.042d0, resolution=0.05d0)
+    call inset%segment_count(coarse)
+    call inset%destroy
+    call inset%create(context)
+    call inset%add_offset(square, 0d0, 0.042d0, resolution=0.01d0)
+    call inset%segment_count(fine)
+    call expect(fine > 2 * coarse, 'a finer resolution')
+    call inset%destroy
+
+    call inset%create(context)
+    call inset%add_offset(square, deep, -0.042d0, tag=0, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'tag')
+    call inset%add_offset(square, deep, -0.6d0, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_DOMAIN, errmsg, 'from -infinity to -0.6')
+    even%answer = 6
+    call inset%add_offset(square, deep, -0.42d0, sideways_spacing, user=c_loc(even), stat=stat, &
+                          errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CALLBACK, errmsg, '6')
+    call box%create(context, 3)
+    call box%add_offset(square, deep, -0.042d0, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'body has two dimensions')
+    call box%destroy
+    call square%destroy
+    call inset%add_offset(square, deep, -0.042d0, stat=stat, errmsg=errmsg)
+    call expect(stat < 0, 'a dead body')
+    call inset%destroy
   end subroutine
 
   subroutine about_files

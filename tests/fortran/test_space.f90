@@ -21,6 +21,7 @@ program test_space
   call about_surfaces
   call about_groups
   call about_level_sets
+  call about_offsets
   call about_a_box
   call about_a_ball_in_a_box
   call about_spacings
@@ -159,6 +160,39 @@ contains
                 'nodes lie on the surface of a level set')
     call placement%destroy
     call domain%destroy
+  end subroutine
+
+  !> The callback is called after the procedure, too, and without the domains.
+  subroutine about_offsets
+    type(pnpbs_domain) :: box, inset
+    type(pnpbs_placement) :: placement
+    type(cone), target :: even
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: nodes, before
+    even%finest = 0.25d0
+    even%growth = 0
+    call box%create(context, 3)
+    call box%add_box(zero, one)
+    call inset%create(context, 3)
+    call inset%add_offset(box, -huge(1d0), -0.46d0, sideways_spacing, tag=6, user=c_loc(even))
+    call expect(abs(volume(inset) - 0.77d0**3) < 1d-3, 'volume of an inset')
+    call placement%create(context, inset)
+    call placement%set('steps', 20)
+    call placement%set_spacing_constant(0.25d0 * 1.147d0)
+    call box%destroy
+    call inset%destroy
+    before = even%calls
+    call placement%run(stat)
+    call expect(stat >= 0, 'run in an inset')
+    call expect(even%calls > before, 'the spacing of an inset is called')
+    call placement%count(nodes)
+    allocate (x(3, nodes), tags(nodes))
+    call placement%get_nodes(x, tags=tags)
+    call expect(count(tags == 6) > 20, 'nodes on the surface of an inset')
+    call expect(maxval(abs(maxval(abs(x - 0.5d0), dim=1) - 0.385d0), mask=tags == 6) < 1d-12, &
+                'nodes lie on the surface of an inset')
+    call placement%destroy
   end subroutine
 
   !> A placement in a domain, run, with everything as C has it.

@@ -49,6 +49,21 @@ contains
     c%calls = c%calls + 1
   end function
 
+  !> d = finest + growth x, in the plane and in space.
+  function sideways_spacing(n, dim, xyz, d, user) bind(C)
+    integer(c_int64_t), value :: n
+    integer(c_int32_t), value :: dim
+    real(c_double), intent(in) :: xyz(dim, n)
+    real(c_double), intent(out) :: d(n)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: sideways_spacing
+    type(cone), pointer :: c
+    call c_f_pointer(user, c)
+    d = c%finest + c%growth * xyz(1, :)
+    c%calls = c%calls + 1
+    sideways_spacing = c%answer
+  end function
+
   function constant_spacing(n, dim, xyz, d, user) bind(C)
     integer(c_int64_t), value :: n
     integer(c_int32_t), value :: dim
