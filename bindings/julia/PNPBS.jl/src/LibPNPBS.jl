@@ -243,6 +243,12 @@ pnpbs_domain_simplify_by_file(domain, path, field, tolerance, smallest, vertices
         domain::pnpbs_domain, path::Cstring, field::Cstring, tolerance::Cdouble, smallest::Cdouble,
         vertices::Ptr{Int64}, curves::Ptr{Int64})::pnpbs_status
 
+pnpbs_domain_add_offset(domain, body, low, high, spacing, user, resolution, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_offset))(
+        domain::pnpbs_domain, body::pnpbs_domain, low::Cdouble, high::Cdouble,
+        spacing::pnpbs_spacing_fn, user::Ptr{Cvoid}, resolution::Cdouble,
+        tag::Int32)::pnpbs_status
+
 pnpbs_domain_check(domain) =
     @ccall $(symbol(:pnpbs_domain_check))(domain::pnpbs_domain)::pnpbs_status
 
@@ -601,6 +607,11 @@ pnpbs_mesh_write(mesh, prefix) =
 pnpbs_voronoi_create(placement, voronoi) =
     @ccall $(symbol(:pnpbs_voronoi_create))(
         placement::pnpbs_placement, voronoi::Ptr{pnpbs_voronoi})::pnpbs_status
+
+pnpbs_voronoi_create_within(placement, body, voronoi) =
+    @ccall $(symbol(:pnpbs_voronoi_create_within))(
+        placement::pnpbs_placement, body::pnpbs_domain,
+        voronoi::Ptr{pnpbs_voronoi})::pnpbs_status
 
 pnpbs_voronoi_destroy(voronoi) =
     @ccall $(symbol(:pnpbs_voronoi_destroy))(voronoi::Ptr{pnpbs_voronoi})::pnpbs_status

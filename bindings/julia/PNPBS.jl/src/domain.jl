@@ -388,8 +388,10 @@ function simplify!(d, domain::Domain; tolerance::Real = 0.25, smallest::Real = 0
     check(domain.context, code)
     return (vertices = vertices[], curves = curves[])
 end
-simplify!(d::Real, domain::Domain; options...) =
-    simplify!(x -> fill(Float64(d), size(x, 2)), domain; options...)
+simplify!(d::Real, domain::Domain; options...) = simplify!(evenly(d), domain; options...)
+
+# A number as a spacing function.
+evenly(d::Real) = x -> fill(Float64(d), size(x, 2))
 
 """
     simplify_by_file!(domain, path; field = "", tolerance = 0.25, smallest = 0) -> (vertices, curves)
@@ -404,6 +406,48 @@ function simplify_by_file!(domain::Domain, path::AbstractString; field::Abstract
           LibPNPBS.pnpbs_domain_simplify_by_file(live(domain), path, field, tolerance, smallest,
                                                  vertices, curves))
     return (vertices = vertices[], curves = curves[])
+end
+
+"""
+    add_offset!(d, domain, body, low, high; resolution = 0, tag = 1, per_point = false)
+    add_offset!(domain, body, low, high; resolution = 0, tag = 1)
+
+Adds the body between two distances from the boundary of another domain: points whose signed
+distance to it, negative inside, lies between `low` and `high` times d; without `d` they are
+lengths. So particles that stand for d^dim of matter each are placed half a spacing inside the wall:
+with `low = -Inf` and `high = -0.42` in the plane or `-0.46` in space, and with a spacing for the
+nodes of 1.076 d or 1.147 d, their number is the body's measure over d^dim, nearly; and so are
+layers of wall particles outside, from 0.46 to n + 0.46. `d` is a number or a function as in
+[`set_spacing!`](@ref), which is evaluated in the body's bounding box, and as far around it as the
+new body reaches, and a little farther. The boundary, with the `tag`, is found as that of a level
+set ([`add_level_set!`](@ref)) with this resolution, 0 for half of the least d at the body's
+boundary, without `d` of the lesser of `abs(low)` and `abs(high)`; what is thinner is lost. Must be
+called identically on all ranks.
+
+    add_offset!(x -> 0.1 .+ 0.05 .* x[1, :], inset, body, -Inf, -0.42)
+    add_offset!(0.1, walls, body, 0.46, 3.46)
+"""
+function add_offset!(d, domain::Domain, body::Domain, low::Real, high::Real; resolution::Real = 0,
+                     tag::Integer = 1, per_point::Bool = false)
+    callback = Callback(for_batches(d, "spacing", per_point), domain.context)
+    GC.@preserve callback begin
+        code = LibPNPBS.pnpbs_domain_add_offset(live(domain), live(body), low, high,
+                                                spacing_pointer[], user_pointer(callback),
+                                                resolution, tag)
+    end
+    check(domain.context, code)
+    push!(domain.callbacks, callback)
+    return domain
+end
+add_offset!(d::Real, domain::Domain, body::Domain, low::Real, high::Real; options...) =
+    add_offset!(evenly(d), domain, body, low, high; options...)
+
+function add_offset!(domain::Domain, body::Domain, low::Real, high::Real; resolution::Real = 0,
+                     tag::Integer = 1)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_offset(live(domain), live(body), low, high, C_NULL, C_NULL,
+                                           resolution, tag))
+    return domain
 end
 
 """

@@ -94,6 +94,36 @@ end
     end
 end
 
+@testset "offsets of bodies" begin
+    Context() do context
+        body = square_domain(context)
+        offset(low, high) = add_offset!(Domain(context), body, low, high)
+        offset(d, low, high; options...) =
+            add_offset!(d, Domain(context), body, low, high; options...)
+        inset = offset(0.1, -Inf, -0.42; tag = 7)
+        @test measure(inset) ≈ (1 - 2 * 0.042)^2 rtol = 0 atol = 1e-9
+        @test Set(outline(inset).tags) == Set(7)
+        @test measure(offset(-Inf, -0.042)) ≈ measure(inset) rtol = 0 atol = 1e-9
+        # More points on the way round the outer corners.
+        finer(resolution) = length(outline(offset(0.1, 0, 0.42; resolution = resolution)).tags)
+        @test finer(0.01) > 2 * finer(0.05)
+        # Between four straight lines.
+        left, right = 0.042 / 0.979, 0.958 / 1.021
+        area = 0.916(right - left) - 0.021(right^2 - left^2)
+        graded_inset = offset(x -> 0.1 .+ 0.05 .* x[1, :], -Inf, -0.42)
+        @test measure(graded_inset) ≈ area rtol = 0 atol = 1e-9
+        @test measure(offset((x, y) -> 0.1 + 0.05x, -Inf, -0.42; per_point = true)) ==
+              measure(graded_inset)
+
+        @test fails(() -> offset(0.1, -Inf, -0.42; tag = 0), :error_argument, "tag")
+        @test fails(() -> offset(-Inf, -0.6), :error_domain)
+        @test fails(() -> offset(0.0, -Inf, -0.42), :error_spacing)
+        @test fails(() -> add_offset!(Domain(context; dim = 3), body, -Inf, -0.1), :error_argument,
+                    "body")
+        @test_throws DomainError offset(x -> throw(DomainError(1)), -Inf, -0.42)
+    end
+end
+
 @testset "graphs and .poly" begin
     Context() do context
         # A square with a square hole; the graph's indices count from 1.

@@ -186,6 +186,30 @@ end
     end
 end
 
+# The function stays, though the domain is closed and forgotten.
+@testset "offsets in space" begin
+    Context() do context
+        box = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
+        calls = Ref(0)
+        inset = Domain(context; dim = 3)
+        add_offset!(inset, box, -Inf, -0.46; tag = 6) do x
+            calls[] += 1
+            fill(0.25, size(x, 2))
+        end
+        @test measure(inset) ≈ 0.77^3 rtol = 1e-3
+        placement = set_spacing!(Placement(inset; steps = 20), 0.25 * 1.147)
+        close(inset)
+        close(box)
+        GC.gc()
+        before = calls[]
+        @test run!(placement) in (:ok, :not_converged, :spacing_missed)
+        @test calls[] > before
+        placed = nodes(placement)
+        on_surface = placed.points[:, placed.tags .== 6]
+        @test maximum(abs.(maximum(abs.(on_surface .- 0.5); dims = 1) .- 0.385)) < 1e-12
+    end
+end
+
 @testset "spacings in space" begin
     Context() do context
         domain = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
