@@ -2,6 +2,7 @@
 """The Python package in one process."""
 import contextlib
 import ctypes
+import gc
 import importlib.util
 import io
 import os
@@ -312,6 +313,55 @@ class Domains(Case):
         with self.assertRaises(ZeroDivisionError):
             domain.simplify(lambda x: 1 / 0)
 
+    def test_offsets(self):
+        body = pnpbs.Domain(self.context).add_polyline(SQUARE)
+
+        def offset(*arguments, **keywords):
+            return pnpbs.Domain(self.context).add_offset(body, *arguments, **keywords)
+
+        inset = offset(-np.inf, -0.42, 0.1, tag=7)
+        self.assertAlmostEqual(inset.measure(), (1 - 2 * 0.042)**2, 9)
+        self.assertEqual(set(inset.outline().tags), {7})
+        self.assertAlmostEqual(offset(-np.inf, -0.042).measure(), inset.measure(), 9)
+        # More points on the way round the outer corners.
+        coarse, fine = (len(offset(0, 0.42, 0.1, h).outline().tags) for h in (0.05, 0.01))
+        self.assertGreater(fine, 2 * coarse)
+        # Between four straight lines.
+        left, right = 0.042 / 0.979, 0.958 / 1.021
+        self.assertAlmostEqual(offset(-np.inf, -0.42, lambda x: 0.1 + 0.05 * x[:, 0]).measure(),
+                               0.916 * (right - left) - 0.021 * (right**2 - left**2), 9)
+        self.assertIn("tag", self.assert_status(Status.ERROR_ARGUMENT, offset, -np.inf, -0.42, 0.1,
+                                                tag=0))
+        self.assert_status(Status.ERROR_DOMAIN, offset, -np.inf, -0.6)
+        self.assert_status(Status.ERROR_SPACING, offset, -np.inf, -0.42, 0)
+        self.assertIn("body", self.assert_status(
+            Status.ERROR_ARGUMENT, pnpbs.Domain(self.context, dim=3).add_offset, body, -np.inf, -1))
+        with self.assertRaises(ZeroDivisionError):
+            offset(-np.inf, -0.42, lambda x: 1 / 0)
+
+    def test_offsets_in_space(self):
+        box = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
+        calls = []
+
+        def even(x):
+            calls.append(len(x))
+            return np.full(len(x), 0.25)
+
+        inset = pnpbs.Domain(self.context, dim=3).add_offset(box, -np.inf, -0.46, even, tag=6)
+        self.assertAlmostEqual(inset.measure(), 0.77**3, 3)
+        placement = pnpbs.Placement(inset, steps=20).set_spacing(0.25 * 1.147)
+        # The function stays, though the domain is closed and forgotten.
+        inset.close()
+        box.close()
+        del inset, even
+        gc.collect()
+        before = len(calls)
+        placement.run()
+        self.assertGreater(len(calls), before)
+        nodes = placement.nodes()
+        on_surface = np.abs(nodes.points[nodes.tags == 6] - 0.5).max(axis=1)
+        np.testing.assert_allclose(on_surface, 0.385, atol=1e-12)
+
     def test_wrong_arguments(self):
         domain = pnpbs.Domain(self.context)
         for wrong in ([1, 2, 3], [[1, 2, 3]], [["a", "b"]]):
@@ -449,6 +499,16 @@ class Meshes(Case):
             self.assertEqual(faces, {(j, i): area for (i, j), area in faces.items()})
             self.assertIn(f"{len(nodes.ids)} cells, {len(rows)} faces", repr(cells))
         self.assert_status(Status.ERROR_STATE, pnpbs.Placement(box).voronoi)
+
+    def test_voronoi_cells_within_a_body(self):
+        body = pnpbs.Domain(self.context).add_polyline(SQUARE)
+        inset = pnpbs.Domain(self.context).add_offset(body, -np.inf, -0.42, 0.1)
+        placement = self.placed(inset, 0.1076)
+        self.assertAlmostEqual(placement.voronoi().volumes.sum(), 0.916**2, 9)
+        self.assertAlmostEqual(placement.voronoi(body).volumes.sum(), 1, 12)
+        self.assert_status(Status.ERROR_DOMAIN, placement.voronoi, inset)
+        box = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
+        self.assertIn("body", self.assert_status(Status.ERROR_ARGUMENT, placement.voronoi, box))
 
     def test_for_other_packages_in_the_plane(self):
         domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=4)

@@ -43,6 +43,11 @@ def in_the_plane(context: pnpbs.Context) -> Tuple[pnpbs.Domain, pnpbs.Placement]
     assert names == {(1, 3): "rim"}
     low, high = domain.bounds()
     assert isinstance(low + high, np.ndarray) and domain.measure() > 3
+    inset = pnpbs.Domain(context).add_offset(domain, -math.inf, -0.42, spacing, 0.05)
+    particles = pnpbs.Placement(inset).set_spacing(lambda x: 1.076 * spacing(x))
+    particles.run()
+    volumes: Doubles = particles.voronoi(domain).volumes
+    assert math.isclose(volumes.sum(), domain.measure()) and len(particles.voronoi().volumes)
     watch = Watch()
     placement = pnpbs.Placement(domain, steps=30, method="paper")
     outcome: pnpbs.Status = placement.set_spacing(spacing).set_monitor(watch).run(progress=False)
@@ -87,6 +92,10 @@ def in_space(context: pnpbs.Context) -> None:
     with pnpbs.Domain(context, dim=3) as body:
         body.add_level_set(outside_ball, (-2, -2, -2), [2, 2, 2], 0.2).add_hole(np.zeros(3))
         body.set_role(7, "inner")
+    with pnpbs.Domain(context, dim=3).add_box((0, 0, 0), (1, 1, 1)) as box:
+        inset = pnpbs.Domain(context, dim=3).add_offset(box, -math.inf, -0.46, 0.4)
+        walls = pnpbs.Domain(context, dim=3).add_offset(box, 0.1, 0.6, tag=2)
+        assert inset.measure() < 1 < walls.measure()
     option: pnpbs.OptionRow = pnpbs.option_table()[0]
     assert option.name and sum(pnpbs.library_version()) > 0
 
@@ -102,6 +111,8 @@ def mistakes(context: pnpbs.Context, domain: pnpbs.Domain, placement: pnpbs.Plac
     number: str = placement.node_count  # type: ignore[assignment]
     placement.run(progress="bar")  # type: ignore[arg-type]
     placement.mesh().dim = 3  # type: ignore[misc]
+    domain.add_offset(0.1, 0, 1)  # type: ignore[arg-type]
+    placement.voronoi(placement)  # type: ignore[arg-type]
     pnpbs.Status.FINE  # type: ignore[attr-defined]
 
 
