@@ -86,6 +86,12 @@ class Changes(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "rebalance: no procedure of the Fortran module"):
             self.found()
 
+    def test_function_of_an_optional_argument_without_fortran(self):
+        self.change(FORTRAN, "c_voronoi_create_within(placement%c, body%c, self%c)",
+                    "c_voronoi_create(placement%c, self%c)")
+        with self.assertRaisesRegex(ValueError, "create_within: no procedure of the Fortran module"):
+            self.found()
+
     def test_function_without_julia(self):
         self.change(JULIA + "LibPNPBS.jl", "pnpbs_domain_measure(domain, measure) =", "measured() =")
         with self.assertRaisesRegex(ValueError, "measure: not in the Julia package"):
