@@ -1114,8 +1114,8 @@ contains
   !>   spacing     optional: d, which may be evaluated in the body's bounding box, and as far around
   !>               it as the new body reaches, and a little farther; default: 1 everywhere, so that
   !>               low and high are lengths
-  !>   resolution  optional: > 0; default: half of the least d at the body's boundary, or of the
-  !>               lesser of |low| and |high| without a callback
+  !>   resolution  optional: > 0; default: an eighth (in space half) of the least d at the body's
+  !>               boundary, or of the lesser of |low| and |high| without a callback
   !>   tag         optional: nonzero, of the new boundary; default: 1
   !>   user        optional: passed to the callback; default: null
   subroutine domain_add_offset(self, body, low, high, spacing, resolution, tag, user, stat, errmsg)

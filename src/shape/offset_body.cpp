@@ -68,13 +68,12 @@ class OffsetFunction {
 
   double resolution() const {
     if (offset_.resolution > 0) return offset_.resolution;
-    const std::vector<double> d = spacing_at_corners();
-    double least = *std::ranges::min_element(d);
-    if (!offset_.spacing) {
-      least = kNoLimit;
-      for (const double limit : {std::fabs(offset_.low), std::fabs(offset_.high)})
-        if (limit > 0) least = std::min(least, limit);
-    }
+    if (offset_.spacing) return kFineness<Dim> * std::ranges::min(spacing_at_corners());
+    double least = kNoLimit;
+    for (const double limit : {std::fabs(offset_.low), std::fabs(offset_.high)})
+      if (limit > 0) least = std::min(least, limit);
+    if (least == kNoLimit)
+      reject("resolution is 0, and there is no length to find one by: expected a positive number");
     return kFineness<Dim> * least;
   }
 

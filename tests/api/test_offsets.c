@@ -242,6 +242,7 @@ START_TEST(bad_input) {
   REFUSED(ARGUMENT, "low is nan", "", to, body, NAN, -1, constant, &d, 0, 1);
   REFUSED(ARGUMENT, "high is inf", "finite", to, body, 0, INFINITY, constant, &d, 0, 1);
   REFUSED(ARGUMENT, "resolution is -1", "0 for", to, body, -1, 1, constant, &d, -1, 1);
+  REFUSED(ARGUMENT, "resolution is 0", "positive", to, body, -INFINITY, 0, NULL, NULL, 0, 1);
   REFUSED(ARGUMENT, "tag", "0", to, body, -1, 1, constant, &d, 0, 0);
   REFUSED(ARGUMENT, "body", "NULL", to, NULL, -1, 1, constant, &d, 0, 1);
   REFUSED(ARGUMENT, "body has three dimensions", "two", to, box, -1, 1, constant, &d, 0, 1);

@@ -420,9 +420,9 @@ nodes of 1.076 d or 1.147 d, their number is the body's measure over d^dim, near
 layers of wall particles outside, from 0.46 to n + 0.46. `d` is a number or a function as in
 [`set_spacing!`](@ref), which is evaluated in the body's bounding box, and as far around it as the
 new body reaches, and a little farther. The boundary, with the `tag`, is found as that of a level
-set ([`add_level_set!`](@ref)) with this resolution, 0 for half of the least d at the body's
-boundary, without `d` of the lesser of `abs(low)` and `abs(high)`; what is thinner is lost. Must be
-called identically on all ranks.
+set ([`add_level_set!`](@ref)) with this resolution, 0 for an eighth (in space half) of the least
+d at the body's boundary, without `d` of the lesser of `abs(low)` and `abs(high)`; what is thinner is
+lost. Must be called identically on all ranks.
 
     add_offset!(x -> 0.1 .+ 0.05 .* x[1, :], inset, body, -Inf, -0.42)
     add_offset!(0.1, walls, body, 0.46, 3.46)
