@@ -10,6 +10,7 @@
 
 #include "implicit/level_set_lattice.hpp"
 #include "implicit/level_set_zeros.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
@@ -19,7 +20,6 @@ constexpr double kCosCorner = 0.93969262078590838;  // 20 degrees: by less, curv
 // In units of the resolution.
 constexpr double kOnePoint = 1e-6;         // vertices so near each other are one
 constexpr double kCornerTolerance = 1e-5;  // of f at a corner, as a distance
-constexpr double kCornerReach = 2;         // of a corner from its neighbours on the curve
 
 Point<2> flat(const Point<3>& x) { return {x[0], x[1]}; }
 Point<3> raised(const Point<2>& x, double z) { return {x[0], x[1], z}; }
@@ -46,31 +46,25 @@ std::array<LatticePlace, 4> corners_of_square(const LatticePlace& at) {
 // A piece of the curve within a square, from side to side, the region on its left.
 struct Piece {
   std::uint64_t from, to;
+  Box<2> square;
 };
 
-// Pieces of the squares that the curve goes through.
-std::vector<Piece> pieces_in_squares(const LevelSet& set, const LevelSetLattice& lattice) {
+// Pieces of the squares that the curve goes through. Where it does so twice, each piece goes around
+// a corner in the region, which so ends before the middle of the square.
+std::vector<Piece> pieces_in_squares(const LevelSetLattice& lattice) {
   std::vector<Piece> pieces;
   for (const LatticePlace& square : lattice.crossed()) {
     const auto corners = corners_of_square(square);
     std::array<bool, 4> in;
     for (std::size_t k = 0; k < 4; ++k) in[k] = lattice.value(corners[k]) < 0;
-    std::vector<std::size_t> leaving, entering;  // sides on which the way around does so
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (in[k] && !in[(k + 1) % 4]) leaving.push_back(k);
-      if (!in[k] && in[(k + 1) % 4]) entering.push_back(k);
-    }
-    // Where there are two of each: does the region go through the middle, or end before it?
-    bool joined = false;
-    if (leaving.size() == 2) {
-      const Point<3> a = lattice.position(corners[0]), b = lattice.position(corners[2]);
-      joined = set.values(std::vector{middle_of<3>(a, b)})[0] < 0;
-    }
-    for (const std::size_t side : leaving) {
-      std::size_t end = entering[0];
-      if (leaving.size() == 2) end = joined ? (side + 1) % 4 : (side + 3) % 4;
-      pieces.push_back({side_between(corners[side], corners[(side + 1) % 4]),
-                        side_between(corners[end], corners[(end + 1) % 4])});
+    const auto side = [&](std::size_t k) { return side_between(corners[k], corners[(k + 1) % 4]); };
+    for (std::size_t leaving = 0; leaving < 4; ++leaving) {
+      if (!in[leaving] || in[(leaving + 1) % 4]) continue;
+      std::size_t entering = (leaving + 3) % 4;  // back around all corners that are in
+      while (in[entering]) entering = (entering + 3) % 4;
+      pieces.push_back({side(leaving),
+                        side(entering),
+                        {flat(lattice.position(corners[0])), flat(lattice.position(corners[2]))}});
     }
   }
   return pieces;
@@ -86,12 +80,6 @@ struct Tangent {
 };
 
 double product(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
-
-// Does the curve come from the tangent's point to x? It has the region, where f < 0, on its left.
-bool leads_to(const Tangent& tangent, const Point<2>& x) {
-  const Point<2>& g = tangent.gradient;
-  return g[0] * (x[1] - tangent.at[1]) - g[1] * (x[0] - tangent.at[0]) >= 0;
-}
 
 bool turns(const Tangent& a, const Tangent& b) {
   const double both = std::sqrt(product(a.gradient, a.gradient) * product(b.gradient, b.gradient));
@@ -110,6 +98,7 @@ std::optional<Point<2>> crossing(const Tangent& a, const Tangent& b) {
 struct CornerSearch {
   std::size_t piece;
   std::array<Point<2>, 2> from;  // the points
+  Box<2> square;                 // that they are in, and the corner, lest pieces cross
   Point<2> x{};                  // the corner, as far as it is known
 };
 
@@ -144,7 +133,7 @@ class CurveCorners {
     for (std::size_t k = 0; k < open_.size(); ++k) {
       const Tangent a = tangent(slopes[2 * k]), b = tangent(slopes[2 * k + 1]);
       const std::optional<Point<2>> x = turns(a, b) ? crossing(a, b) : std::nullopt;
-      if (!x || !is_near(*x, open_[k]) || !leads_to(a, *x) || leads_to(b, *x)) continue;
+      if (!x || !in_closed_box(open_[k].square, *x)) continue;
       turning.push_back(open_[k]);
       turning.back().x = *x;
     }
@@ -157,11 +146,6 @@ class CurveCorners {
 
   static Tangent tangent(const LevelSetSlope& slope) {
     return {flat(slope.x), slope.f, flat(slope.gradient)};
-  }
-
-  bool is_near(const Point<2>& x, const CornerSearch& search) const {
-    const double reach = kCornerReach * set_.resolution();
-    return distance<2>(x, search.from[0]) <= reach && distance<2>(x, search.from[1]) <= reach;
   }
 
   const LevelSet& set_;
@@ -184,7 +168,8 @@ class CurveWalk {
     }
     for (const Point<3>& zero : zeros_on(set, segments)) x_.push_back(flat(zero));
     std::vector<CornerSearch> searches;
-    for (std::size_t p = 0; p < pieces_.size(); ++p) searches.push_back({p, {x_[p], x_[next(p)]}});
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      searches.push_back({p, {x_[p], x_[next(p)]}, pieces_[p].square});
     corners_ = CurveCorners(set, std::move(searches)).run(pieces_.size());
   }
 
@@ -259,7 +244,7 @@ class CurveWalk {
 
 std::vector<LevelCurve> level_curves(const LevelSet& set) {
   const LevelSetLattice lattice(set);
-  return CurveWalk(set, pieces_in_squares(set, lattice), lattice).run();
+  return CurveWalk(set, pieces_in_squares(lattice), lattice).run();
 }
 
 }  // namespace pnpbs

@@ -97,6 +97,56 @@ START_TEST(corners_are_kept) {
 }
 END_TEST
 
+static int has_vertex(pnpbs_domain domain, double x, double y) {
+  double segments[2000][4];
+  int64_t count, k;
+  MUST(pnpbs_domain_get_segments(domain, 2000, &count, segments[0], NULL));
+  for (k = 0; k < count; ++k)
+    if (hypot(segments[k][0] - x, segments[k][1] - y) < 1e-6) return 1;
+  return 0;
+}
+
+/* Where an arc ends, too: of half a disc. */
+START_TEST(corners_of_curves_are_kept) {
+  const double centre[2] = {0, 0}, chord[4] = {-1, 0, 1, 0}, h = 0.15;
+  const double corner = sqrt((1 - h) * (1 - h) - h * h);
+  pnpbs_domain body, inset;
+  pnpbs_context context;
+  MUST(pnpbs_context_create_serial(&context));
+  MUST(pnpbs_domain_create(context, 2, &body));
+  MUST(pnpbs_domain_create(context, 2, &inset));
+  MUST(pnpbs_domain_add_arc(body, PNPBS_BOUNDARY, centre, 1, 0, PI, 1));
+  MUST(pnpbs_domain_add_polyline(body, PNPBS_BOUNDARY, 0, 2, chord, NULL, 0));
+  MUST(pnpbs_domain_add_offset(inset, body, -INFINITY, -h, NULL, NULL, 0.1, 7));
+  ck_assert(has_vertex(inset, corner, h) && has_vertex(inset, -corner, h));
+  MUST(pnpbs_domain_destroy(&body));
+  MUST(pnpbs_domain_destroy(&inset));
+  MUST(pnpbs_context_destroy(&context));
+}
+END_TEST
+
+/* Many bays become ponds of their own, some no wider than the resolution. */
+START_TEST(insets_of_a_lake) {
+  pnpbs_domain lake;
+  pnpbs_context context;
+  double depth, before;
+  MUST(pnpbs_context_create_serial(&context));
+  MUST(pnpbs_domain_create(context, 2, &lake));
+  MUST(pnpbs_domain_read_poly(lake, DATA "/lake_victoria.poly"));
+  before = measure_of(lake);
+  for (depth = 0.5; depth < 4; depth *= 1.3) {
+    pnpbs_domain inset;
+    MUST(pnpbs_domain_create(context, 2, &inset));
+    MUST(pnpbs_domain_add_offset(inset, lake, -INFINITY, -depth, NULL, NULL, 1, 1));
+    ck_assert_double_lt(measure_of(inset), before);
+    before = measure_of(inset);
+    MUST(pnpbs_domain_destroy(&inset));
+  }
+  MUST(pnpbs_domain_destroy(&lake));
+  MUST(pnpbs_context_destroy(&context));
+}
+END_TEST
+
 /* With a d that grows, the boundary is where the distance is so much of d there. */
 START_TEST(depth_follows_the_spacing) {
   cone grows = {0.02, 0.1, 0, 0};
@@ -299,6 +349,8 @@ int main(void) {
   TCase* bad = tcase_create("bad");
   tcase_add_loop_test(good, areas_by_steiner, 0, COUNT_OF(plane_bodies));
   tcase_add_test(good, corners_are_kept);
+  tcase_add_test(good, corners_of_curves_are_kept);
+  tcase_add_test(good, insets_of_a_lake);
   tcase_add_test(good, depth_follows_the_spacing);
   tcase_add_test(good, volumes_by_steiner);
   tcase_add_loop_test(good, particles_stand_for_the_body, 0, 2);
