@@ -421,6 +421,17 @@ PNPBS_API pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertic
  *  @param[in] point  [dim] */
 PNPBS_API pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double *point);
 
+/** Gives a tag to the region around a point, up to the next curves or surfaces of either role:
+ *  elements that lie in it have this tag (pnpbs_mesh_get_elements,
+ *  pnpbs_placement_get_element_tags), and so they have in files. So inner curves and surfaces
+ * divide a domain into materials. Elements of regions without a point have the tag 0. Local. Errors
+ * of pnpbs_domain_check: PNPBS_ERROR_DOMAIN if the point lies outside the domain, on a curve or
+ *  surface, or in a region with another tag.
+ *  @param[in] point  [dim]
+ *  @param[in] tag    nonzero */
+PNPBS_API pnpbs_status pnpbs_domain_add_region(pnpbs_domain domain, const double *point,
+                                               int32_t tag);
+
 /** Adds fixed nodes, which keep their exact coordinates. Local.
  *  @param[in] coordinates  [n][dim], inside the domain or on a vertex of its curves or surfaces
  *  @param[in] tags         [n], nonzero, or NULL for 1 */
@@ -965,6 +976,15 @@ PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, 
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                                       int64_t *count, int64_t *tetrahedra);
 
+/** Copies the tags of elements: of the regions that they lie in (pnpbs_domain_add_region), 0 where
+ *  that has none. They come in the order of pnpbs_placement_get_triangles, or in space
+ *  _get_tetrahedra. Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_ARGUMENT on surfaces
+ * alone.
+ *  @param[out] count  number of elements; with capacity 0 and NULL array it only counts
+ *  @param[out] tags   [elements] */
+PNPBS_API pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t capacity,
+                                                        int64_t *count, int32_t *tags);
+
 /** Copies every element with a corner among this rank's nodes, whichever rank it belongs to:
  *  triangles in the plane, tetrahedra in space, triangles on surfaces alone. With these a rank
  *  assembles the rows of its nodes without communication. An element whose corners have several
@@ -1189,7 +1209,8 @@ PNPBS_API pnpbs_status pnpbs_mesh_get_nodes(pnpbs_mesh mesh, int64_t capacity, d
  *  @param[out] nodes    [elements][corners] local indices of the nodes at the corners
  *  @param[out] numbers  [elements]
  *  @param[out] owners   [elements] the rank that owns it
- *  @param[out] tags     [elements] on surfaces alone the tag of the surface; 0 elsewhere */
+ *  @param[out] tags     [elements] of the region that it lies in (pnpbs_domain_add_region), 0 if
+ * that has none; on surfaces alone of the surface */
 PNPBS_API pnpbs_status pnpbs_mesh_get_elements(pnpbs_mesh mesh, int64_t capacity, int32_t *nodes,
                                                int64_t *numbers, int32_t *owners, int32_t *tags);
 

@@ -209,7 +209,17 @@ pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double* point) {
     if (object.plane)
       object.plane->add_hole(point_from(point));
     else
-      object.volume->add_hole({point[0], point[1], point[2]});
+      object.volume->add_hole(space_point_from(point));
+  });
+}
+
+pnpbs_status pnpbs_domain_add_region(pnpbs_domain domain, const double* point, int32_t tag) {
+  return change_domain(domain, [&](DomainObject& object) {
+    require_pointer(point, "point");
+    if (object.plane)
+      object.plane->add_region(point_from(point), tag);
+    else
+      object.volume->add_region(space_point_from(point), tag);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/placement_calls.hpp"
+#include "placement/element_regions.hpp"
 #include "placement/node_normal.hpp"
 #include "placement/result_check.hpp"
 
@@ -244,6 +245,32 @@ pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t ca
 pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                             int64_t* count, int64_t* tetrahedra) {
   return get_elements<3>(placement, capacity, count, tetrahedra);
+}
+
+pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t capacity,
+                                              int64_t* count, int32_t* tags) {
+  return collective_results(placement, [&](NodalResults& results) {
+    require_pointer(count, "count");
+    if (results.surfaces_alone())
+      throw Error(ErrorKind::argument,
+                  "argument placement has surfaces alone: their tags come with "
+                  "pnpbs_placement_get_boundary_triangles");
+    results.prepare_stars();
+    const auto copy = [&]<int Dim>(const Results<Dim>& in) {
+      *count = 0;
+      in.for_elements([&](const auto&) { ++*count; });
+      if (capacity == 0 && !tags) return;
+      require_capacity(capacity, *count);
+      ElementRegions<Dim> region_of(in);
+      std::int32_t* next = tags;
+      if (tags) in.for_elements([&](const auto& places) { *next++ = region_of(places); });
+    };
+    if (results.dimension() == 2)
+      copy(require_dimension<2>(results));
+    else
+      copy(require_dimension<3>(results));
+    return PNPBS_OK;
+  });
 }
 
 pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64_t capacity,

@@ -22,7 +22,15 @@ void DomainBase<Dim>::add_fixed_nodes(std::int64_t n, const double* coordinates,
 template <int Dim>
 void DomainBase<Dim>::add_hole(const Point<Dim>& point) {
   require_point<Dim>("point", point);
-  holes_.push_back({point, "hole " + std::to_string(holes_given_++)});
+  region_points_.push_back({point, "hole " + std::to_string(holes_given_++)});
+  checked_ = false;
+}
+
+template <int Dim>
+void DomainBase<Dim>::add_region(const Point<Dim>& point, std::int32_t tag) {
+  require_point<Dim>("point", point);
+  require_tag("tag", tag);
+  region_points_.push_back({point, "region " + std::to_string(regions_given_++), tag});
   checked_ = false;
 }
 

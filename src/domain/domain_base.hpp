@@ -22,6 +22,8 @@ class DomainBase {
   void add_fixed_nodes(std::int64_t n, const double* coordinates, const std::int32_t* tags);
   // Takes out what lies around the point, up to the next curves or surfaces.
   void add_hole(const Point<Dim>& point);
+  // Gives a tag to the same.
+  void add_region(const Point<Dim>& point, std::int32_t tag);
   // To be told with those that check() finds.
   void add_warning(std::string warning) {
     given_warnings_.push_back(std::move(warning));
@@ -34,13 +36,13 @@ class DomainBase {
 
  protected:
   std::vector<FixedNode<Dim>> given_nodes_;
-  std::vector<Hole<Dim>> holes_;
+  std::vector<RegionPoint<Dim>> region_points_;
   std::vector<std::string> given_warnings_;
   bool checked_ = false;
 
  private:
   GroupNames names_;
-  std::int64_t holes_given_ = 0;  // one by one
+  std::int64_t holes_given_ = 0, regions_given_ = 0;  // one by one
 };
 
 }  // namespace pnpbs

@@ -16,11 +16,15 @@ struct FixedNode {
   std::string name;  // for messages: "fixed node 3"
 };
 
-// A point whose surroundings are taken out.
+// A point that stands for the region around it, up to the next curves or surfaces: which is taken
+// out, or gets a tag.
 template <int Dim>
-struct Hole {
+struct RegionPoint {
   Point<Dim> point;
-  std::string name;  // for messages: "hole 0"
+  std::string name;      // for messages: "hole 0", "region 2"
+  std::int32_t tag = 0;  // 0 of holes
+
+  bool is_hole() const { return tag == 0; }
 };
 
 }  // namespace pnpbs

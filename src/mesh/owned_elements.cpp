@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "placement/element_regions.hpp"
 #include "placement/incident_elements.hpp"
 
 namespace pnpbs {
@@ -22,10 +23,12 @@ namespace {
 // Calls visit(places, tag), the place of the least id first.
 template <std::size_t Corners, int Dim, class Visit>
 void for_elements_and_tags(const Results<Dim>& results, const Visit& visit) {
-  if constexpr (Corners == Dim + 1)
-    results.for_elements([&](const auto& places) { visit(places, 0); });
-  else
+  if constexpr (Corners == Dim + 1) {
+    ElementRegions<Dim> region_of(results);
+    results.for_elements([&](const auto& places) { visit(places, region_of(places)); });
+  } else {
     results.for_boundary_facets(visit);
+  }
 }
 
 }  // namespace

@@ -80,10 +80,12 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_simplify, (handle, cone_spacing, &a_cone, 0.25, 2.0, NULL, NULL))          \
   X(domain_simplify_by_file, (handle, "/nowhere/d.csv", NULL, 0.25, 2.0, NULL, NULL)) \
   X(domain_add_level_set, (handle, volume_ring_at, NULL, xyz, xyz + 3, 0.5, 1))       \
+  X(domain_add_offset, (handle, handle, -1, 1, NULL, NULL, 0.5, 1))                   \
   X(domain_add_arc, (handle, PNPBS_BOUNDARY, xy, 1.0, 0.0, 2 * PI, 1))                \
   X(domain_add_curve, (handle, PNPBS_BOUNDARY, circle, NULL, 0.0, 2 * PI, 1))         \
   X(domain_add_pslg, (handle, 4, xy, NULL, 4, ends, NULL, 0, NULL))                   \
   X(domain_add_hole, (handle, xy))                                                    \
+  X(domain_add_region, (handle, xy, 1))                                               \
   X(domain_add_fixed_nodes, (handle, 1, xy, NULL))                                    \
   X(domain_read_poly, (handle, PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly")) \
   X(domain_parse_poly, (handle, "0 2 0 0\n0 0\n0\n", 14, "text"))                     \
@@ -127,6 +129,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_get_stars, (handle, 1, out.integers + 1, out.integers + 3, out.bytes + 32))         \
   X(placement_get_triangles, (handle, 1, out.integers + 1, out.integers + 2))                     \
   X(placement_get_boundary_edges, (handle, 1, out.integers + 1, out.integers + 2, out.small + 8)) \
+  X(placement_get_element_tags, (handle, 1, out.integers + 1, out.small + 8))                     \
   X(placement_get_tetrahedra, (handle, 1, out.integers + 1, out.integers + 2))                    \
   X(placement_get_boundary_triangles,                                                             \
     (handle, 1, out.integers + 1, out.integers + 2, out.small + 8))                               \

@@ -29,7 +29,7 @@ class Conflicts {
     };
     for (const SweepConflict& conflict : swept_.sweep.conflicts) add(text_of(conflict));
     for (const VertexPair& pair : swept_.sweep.coincident)
-      if (!is_hole(pair[0])) add(text_of(pair));
+      if (!is_region_point(pair[0])) add(text_of(pair));
     if (!texts.empty() && texts.size() < max)
       for_crossings([&](std::int32_t edge, std::int32_t other) {
         add(text_of_meeting(edge, other));
@@ -48,25 +48,27 @@ class Conflicts {
   }
   const Point<2>& point(std::int32_t vertex) const { return swept_.points[vertex]; }
 
-  bool is_hole(std::int32_t point) const {
+  bool is_region_point(std::int32_t point) const {
     return static_cast<std::size_t>(point) >= swept_.graph.vertices.size();
   }
-  std::string text_of_hole_on(std::int32_t point, const std::string& name) const {
-    const Hole<2>& hole =
-        swept_.holes[static_cast<std::size_t>(point) - swept_.graph.vertices.size()];
-    return hole.name + " at " + point_text(hole.point) + " lies on " + name +
+  std::string text_of_region_point_on(std::int32_t point, const std::string& name) const {
+    const RegionPoint<2>& it =
+        swept_.region_points[static_cast<std::size_t>(point) - swept_.graph.vertices.size()];
+    return it.name + " at " + point_text(it.point) + " lies on " + name +
            ": move it into the region it stands for";
   }
 
   std::string text_of(const SweepConflict& conflict) const {
     if (conflict.other >= 0) return text_of_meeting(conflict.edge, conflict.other);
-    if (is_hole(conflict.vertex)) return text_of_hole_on(conflict.vertex, edge_name(conflict.edge));
+    if (is_region_point(conflict.vertex))
+      return text_of_region_point_on(conflict.vertex, edge_name(conflict.edge));
     return name_of(conflict.vertex) + " " + point_text(point(conflict.vertex)) + " lies on " +
            edge_name(conflict.edge);
   }
 
   std::string text_of(const VertexPair& coincident) const {
-    if (is_hole(coincident[1])) return text_of_hole_on(coincident[1], name_of(coincident[0]));
+    if (is_region_point(coincident[1]))
+      return text_of_region_point_on(coincident[1], name_of(coincident[0]));
     return name_of(coincident[0]) + " and " + name_of(coincident[1]) + " touch at " +
            point_text(point(coincident[0]));
   }

@@ -10,10 +10,10 @@
 
 namespace pnpbs {
 
-// The graph of a domain, its points (vertices, then holes), and what their sweep has found.
+// The graph of a domain, its points (vertices, then region points), and what their sweep has found.
 struct SweptGraph {
   const std::vector<CurveSource>& sources;
-  const std::vector<Hole<2>>& holes;
+  const std::vector<RegionPoint<2>>& region_points;
   const std::vector<FixedNode<2>>& fixed_nodes;
   const DomainGraph& graph;
   const std::vector<Point<2>>& points;

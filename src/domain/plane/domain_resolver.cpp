@@ -12,6 +12,7 @@
 #include "domain/plane/domain_graph.hpp"
 #include "domain/plane/sampling.hpp"
 #include "domain/plane/smooth_contacts.hpp"
+#include "domain/region_points.hpp"
 #include "geometry/even_odd.hpp"
 #include "geometry/plane/faces.hpp"
 #include "geometry/plane/plane_sweep.hpp"
@@ -25,15 +26,26 @@ using Kind = CurveSource::Kind;
 // Chords of smooth curves in conflict are halved this often before the conflict is believed.
 constexpr int kRefinements = 8;
 
+// By chords: nodes keep farther off the true curves than these do.
+std::shared_ptr<const RegionIndex<2>> regions_of(const std::vector<BoundaryCurve>& curves) {
+  std::vector<RegionFacet<2>> facets;
+  for (const BoundaryCurve& curve : curves)
+    for (std::size_t p = 0; p + 1 < curve.points.size(); ++p)
+      facets.push_back({{curve.points[p], curve.points[p + 1]},
+                        {curve.left_inside, curve.right_inside},
+                        {curve.left_region, curve.right_region}});
+  return std::make_shared<const RegionIndex<2>>(std::move(facets));
+}
+
 class Resolver {
  public:
-  Resolver(std::vector<CurveSource>& sources, const std::vector<Hole<2>>& holes,
+  Resolver(std::vector<CurveSource>& sources, const std::vector<RegionPoint<2>>& region_points,
            const std::vector<FixedNode<2>>& fixed_nodes)
-      : sources_(sources), holes_(holes), fixed_nodes_(fixed_nodes) {}
+      : sources_(sources), region_points_(region_points), fixed_nodes_(fixed_nodes) {}
 
   ResolvedDomain run() {
     make_graph();
-    reject_conflicts({sources_, holes_, fixed_nodes_, graph_, points_, sweep_});
+    reject_conflicts({sources_, region_points_, fixed_nodes_, graph_, points_, sweep_});
     const bool graph_rule = std::any_of(sources_.begin(), sources_.end(), [](const auto& source) {
       return source.kind == Kind::graph;
     });
@@ -44,7 +56,9 @@ class Resolver {
     } else {
       find_inside_of_boundary();
     }
-    remove_holes();
+    const auto face_of = [this](std::size_t k) { return face_of_point(k); };
+    remove_holes(region_points_, face_of, inside_, result_.warnings);
+    region_tags_ = tags_of_parts(region_points_, face_of, inside_);
     number_inner_faces();
     keep_edges();
     place_lone_vertices();
@@ -53,6 +67,7 @@ class Resolver {
     const Extent extent = extent_of(result_.curves);
     result_.bounds = extent.bounds;
     result_.area = extent.area;
+    if (!region_tags_.empty()) result_.regions = regions_of(result_.curves);
     return std::move(result_);
   }
 
@@ -71,7 +86,7 @@ class Resolver {
       graph_ = join_sources(sources_, fixed_nodes_, size);
       points_.clear();
       for (const GraphVertex& vertex : graph_.vertices) points_.push_back(vertex.position);
-      for (const Hole<2>& hole : holes_) points_.push_back(hole.point);
+      for (const RegionPoint<2>& point : region_points_) points_.push_back(point.point);
       sweep_ = sweep_plane(points_, graph_.ends);
       if (round == kRefinements) break;
       if (!refine_conflicting_chords(sources_, graph_, sweep_.conflicts)) break;
@@ -135,28 +150,9 @@ class Resolver {
     inside_ = inside_by_parity(faces_.count, contacts);
   }
 
-  void remove_holes() {
-    std::vector<std::int32_t> hole_in(faces_.count, -1);
-    for (std::size_t h = 0; h < holes_.size(); ++h) {
-      const auto point = static_cast<std::int32_t>(graph_.vertices.size() + h);
-      const std::int32_t face = face_around(point);
-      if (!inside_[face]) {
-        reject_domain(holes_[h].name + " at " + point_text(holes_[h].point) +
-                      " lies outside the domain");
-      }
-      if (hole_in[face] < 0) {
-        hole_in[face] = static_cast<std::int32_t>(h);
-      } else {
-        result_.warnings.push_back(holes_[h].name + " at " + point_text(holes_[h].point) +
-                                   " lies in the same region as " + holes_[hole_in[face]].name);
-      }
-    }
-    for (std::int32_t face = 0; face < faces_.count; ++face) {
-      if (hole_in[face] >= 0) inside_[face] = 0;
-    }
-    if (std::find(inside_.begin(), inside_.end(), 1) == inside_.end()) {
-      reject_domain("the holes leave nothing of the domain");
-    }
+  // In which the k-th region point lies.
+  std::int32_t face_of_point(std::size_t k) const {
+    return face_around(static_cast<std::int32_t>(graph_.vertices.size() + k));
   }
 
   void number_inner_faces() {
@@ -266,6 +262,10 @@ class Resolver {
     curve.tag = source.segment_tag(graph_.edges[first].segment);
     curve.left_face = inner_face_[face_on_left(first)];
     curve.right_face = inner_face_[face_on_right(first)];
+    if (!region_tags_.empty()) {
+      curve.left_region = region_tags_[face_on_left(first)];
+      curve.right_region = region_tags_[face_on_right(first)];
+    }
     curve.left_inside = curve.left_face > 0;
     curve.right_inside = curve.right_face > 0;
     curve.name = source.segments_name(graph_.edges[first].segment, graph_.edges[last].segment);
@@ -294,24 +294,26 @@ class Resolver {
   }
 
   std::vector<CurveSource>& sources_;
-  const std::vector<Hole<2>>& holes_;
+  const std::vector<RegionPoint<2>>& region_points_;
   const std::vector<FixedNode<2>>& fixed_nodes_;
   DomainGraph graph_;
-  std::vector<Point<2>> points_;  // vertices of the graph, then holes
+  std::vector<Point<2>> points_;  // vertices of the graph, then region points
   SweepResult sweep_;
   Faces faces_;
-  std::vector<char> inside_;              // of each face
-  std::vector<std::int32_t> inner_face_;  // of each face: its number among the inner ones, or 0
-  std::vector<char> kept_;                // of each edge: is it part of the domain?
+  std::vector<char> inside_;               // of each face
+  std::vector<std::int32_t> inner_face_;   // of each face: its number among the inner ones, or 0
+  std::vector<std::int32_t> region_tags_;  // of each face; empty if there are none
+  std::vector<char> kept_;                 // of each edge: is it part of the domain?
   std::vector<std::int32_t> kept_degree_;
   ResolvedDomain result_;
 };
 
 }  // namespace
 
-ResolvedDomain resolve_domain(std::vector<CurveSource>& sources, const std::vector<Hole<2>>& holes,
+ResolvedDomain resolve_domain(std::vector<CurveSource>& sources,
+                              const std::vector<RegionPoint<2>>& region_points,
                               const std::vector<FixedNode<2>>& fixed_nodes) {
-  return Resolver(sources, holes, fixed_nodes).run();
+  return Resolver(sources, region_points, fixed_nodes).run();
 }
 
 }  // namespace pnpbs

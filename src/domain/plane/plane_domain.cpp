@@ -151,7 +151,7 @@ void PlaneDomain::add_pslg(std::int64_t vertices, const double* xy, const std::i
   const std::vector<Point<2>> points = read_points<2>("hole_points", holes, hole_points);
   add_source(std::move(graph));
   for (std::int64_t h = 0; h < holes; ++h) {
-    holes_.push_back(
+    region_points_.push_back(
         {points[static_cast<std::size_t>(h)], "hole " + std::to_string(first_number + h)});
   }
 }
@@ -166,10 +166,10 @@ LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const Sim
   require_not_negative("tolerance", rule.tolerance);
   require_not_negative("smallest", rule.smallest);
   std::vector<CurveSource> sources = sources_;
-  std::vector<Hole<2>> holes = holes_;
-  const LeftOut left_out = pnpbs::simplify(sources, holes, given_nodes_, spacing, rule);
+  std::vector<RegionPoint<2>> region_points = region_points_;
+  const LeftOut left_out = pnpbs::simplify(sources, region_points, given_nodes_, spacing, rule);
   sources_ = std::move(sources);
-  holes_ = std::move(holes);
+  region_points_ = std::move(region_points);
   if (left_out.vertices > 0)
     given_warnings_.push_back("simplified: " + std::to_string(left_out.vertices) +
                               " vertices were left out, of them those of " +
@@ -182,7 +182,7 @@ void PlaneDomain::check() {
   if (checked_) return;
   for (CurveSource& source : sources_)
     if (source.kind == CurveSource::Kind::graph) find_corners(source, corner_angle_);
-  resolved_ = resolve_domain(sources_, holes_, given_nodes_);
+  resolved_ = resolve_domain(sources_, region_points_, given_nodes_);
   resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),
                             given_warnings_.end());
   checked_ = true;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/types.hpp"
 #include "domain/domain_base.hpp"
 #include "domain/plane/curve_source.hpp"
+#include "domain/region_index.hpp"
 #include "domain/spacing_evaluator.hpp"
 
 namespace pnpbs {
@@ -29,6 +31,8 @@ struct BoundaryCurve {
   // inside into faces.)
   std::int32_t left_face = 0;
   std::int32_t right_face = 0;
+  std::int32_t left_region = 0;  // tags, 0 where there is none
+  std::int32_t right_region = 0;
 };
 
 struct Corner {
@@ -57,6 +61,7 @@ struct ResolvedDomain {
   std::vector<std::string> warnings;
   Box<2> bounds{};
   double area = 0;
+  std::shared_ptr<const RegionIndex<2>> regions;  // null if none has a tag
 };
 
 class PlaneDomain : public DomainBase<2> {
@@ -93,6 +98,8 @@ class PlaneDomain : public DomainBase<2> {
   // Holds all curves, true ones too.
   const Box<2>& bounds() const { return resolved_.bounds; }
   double area() const { return resolved_.area; }
+  // Of the tags of regions; null if none has one.
+  const RegionIndex<2>* regions() const { return resolved_.regions.get(); }
 
  private:
   void add_source(CurveSource source);

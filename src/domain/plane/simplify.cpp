@@ -34,10 +34,10 @@ struct Slot {
 
 class Simplifier {
  public:
-  Simplifier(std::vector<CurveSource>& sources, std::vector<Hole<2>>& holes,
+  Simplifier(std::vector<CurveSource>& sources, std::vector<RegionPoint<2>>& region_points,
              const std::vector<FixedNode<2>>& fixed_nodes, const SimplifyRule& rule)
       : sources_(sources),
-        holes_(holes),
+        region_points_(region_points),
         rule_(rule),
         graph_(join_sources(sources, fixed_nodes, domain_size(sources))) {}
 
@@ -95,8 +95,9 @@ class Simplifier {
       ++left_out_.curves;
       left_out_.vertices += static_cast<std::int64_t>(chains_[c].edges.size());
       for (const std::int32_t v : chains_[c].vertices) gone_[v] = 1;
-      std::erase_if(holes_,
-                    [&](const Hole<2>& hole) { return is_within(hole.point, chains_[c], graph_); });
+      std::erase_if(region_points_, [&](const RegionPoint<2>& it) {
+        return is_within(it.point, chains_[c], graph_);
+      });
     }
   }
 
@@ -129,7 +130,7 @@ class Simplifier {
 
   void leave_out_vertices(std::vector<Point<2>> positions) {
     make_slots();
-    for (const Hole<2>& hole : holes_) positions.push_back(hole.point);
+    for (const RegionPoint<2>& it : region_points_) positions.push_back(it.point);
     const PointTree points(positions);
     // What was in the way may have left, so all are asked again until none leaves.
     for (std::int64_t before = -1; before != left_out_.vertices;) {
@@ -299,7 +300,7 @@ class Simplifier {
   using Candidate = std::tuple<double, std::int64_t, std::int32_t>;  // cost, slot, its turn
 
   std::vector<CurveSource>& sources_;
-  std::vector<Hole<2>>& holes_;
+  std::vector<RegionPoint<2>>& region_points_;
   SimplifyRule rule_;
   DomainGraph graph_;
   std::vector<double> d_;  // of vertices, as the next two
@@ -316,10 +317,10 @@ class Simplifier {
 
 }  // namespace
 
-LeftOut simplify(std::vector<CurveSource>& sources, std::vector<Hole<2>>& holes,
+LeftOut simplify(std::vector<CurveSource>& sources, std::vector<RegionPoint<2>>& region_points,
                  const std::vector<FixedNode<2>>& fixed_nodes,
                  const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule) {
-  return Simplifier(sources, holes, fixed_nodes, rule).run(spacing);
+  return Simplifier(sources, region_points, fixed_nodes, rule).run(spacing);
 }
 
 }  // namespace pnpbs

@@ -10,12 +10,12 @@
 namespace pnpbs {
 
 // Straight segments of graphs and polylines; arcs and general curves stay. No vertex that stays,
-// fixed node or hole point comes to another side of a curve. Vertices stay where curves meet or
+// fixed node or region point comes to another side of a curve. Vertices stay where curves meet or
 // end, where tags change or a vertex has its own, at fixed nodes, and beside pieces as long as d. A
 // curve with one of these, or with another curve around which it goes that stays, is not left out,
-// nor is the one of the largest extent; hole points within those left out go with them. Throws
+// nor is the one of the largest extent; region points within those left out go with them. Throws
 // Error as the evaluator does, and for points that must not coincide.
-LeftOut simplify(std::vector<CurveSource>& sources, std::vector<Hole<2>>& holes,
+LeftOut simplify(std::vector<CurveSource>& sources, std::vector<RegionPoint<2>>& region_points,
                  const std::vector<FixedNode<2>>& fixed_nodes,
                  const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
 

@@ -238,7 +238,7 @@ void VolumeDomain::check() {
   std::unique_ptr<ResolvedVolume> resolved;
   try {
     resolved = resolve_volume(
-        {surfaces, repair_ ? no_roles : roles_, polylines_, holes_, given_nodes_, filled_});
+        {surfaces, repair_ ? no_roles : roles_, polylines_, region_points_, given_nodes_, filled_});
   } catch (const BrokenSurface& error) {
     if (repair_ || !filled_) throw;
     reject_domain(std::string(error.what()) +

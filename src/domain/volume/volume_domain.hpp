@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "domain/domain_base.hpp"
+#include "domain/region_index.hpp"
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
 #include "formats/surface_triangles.hpp"
@@ -68,6 +69,7 @@ struct ResolvedVolume {
   std::vector<std::string> warnings;
   RepairDistances repair;
   VolumeSummary summary;
+  std::unique_ptr<const RegionIndex<3>> regions;  // null if none has a tag
 };
 
 class VolumeDomain : public DomainBase<3> {
@@ -125,6 +127,8 @@ class VolumeDomain : public DomainBase<3> {
   const std::vector<FixedNode<3>>& fixed_nodes() const { return resolved_->fixed_nodes; }
   const std::vector<std::string>& warnings() const { return resolved_->warnings; }
   const RepairDistances& repair_distances() const { return resolved_->repair; }
+  // Of the tags of regions; null if none has one.
+  const RegionIndex<3>* regions() const { return resolved_->regions.get(); }
   const VolumeSummary& summary() const { return resolved_->summary; }
   const Box<3>& bounds() const { return resolved_->summary.bounds; }
   double volume() const { return resolved_->summary.volume; }

@@ -10,6 +10,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/domain_size.hpp"
+#include "domain/region_points.hpp"
 #include "domain/volume/mesh_creases.hpp"
 #include "domain/volume/resolved_features.hpp"
 #include "geometry/volume/surface_extent.hpp"
@@ -31,7 +32,7 @@ class Resolver {
   Resolver(const GivenVolume& given, ResolvedVolume& result)
       : surfaces_(given.surfaces),
         polylines_(given.polylines),
-        holes_(given.holes),
+        region_points_(given.region_points),
         fixed_nodes_(given.fixed_nodes),
         filled_(given.filled),
         result_(result) {}
@@ -62,7 +63,7 @@ class Resolver {
     regions_.emplace(surface_, edges, tree_);
     inside_ = inside_by_parity(surface_, *regions_);
     turn_outwards();
-    filled_ ? remove_holes() : reject_holes();
+    heed_region_points();
     make_mesh();
     find_features_of(surfaces_, result_);
   }
@@ -178,33 +179,24 @@ class Resolver {
     result_.warnings.push_back("inside out and turned around: " + list_text(names, 5));
   }
 
-  void remove_holes() {
-    std::vector<std::int32_t> hole_in(regions_->count(), -1);
-    for (std::size_t h = 0; h < holes_.size(); ++h) {
-      const std::string name = holes_[h].name + " at " + point_text(holes_[h].point);
-      const std::int32_t on = triangle_at(holes_[h].point);
-      if (on >= 0)
-        reject_domain(name + " lies on " + surface_.triangle_name(on) +
-                      ": move it into the region it stands for");
-      const std::int32_t region = regions_->around(holes_[h].point);
-      if (!inside_[region]) reject_domain(name + " lies outside the domain");
-      if (hole_in[region] < 0) {
-        hole_in[region] = static_cast<std::int32_t>(h);
-      } else {
-        result_.warnings.push_back(name + " lies in the same region as " +
-                                   holes_[hole_in[region]].name);
-      }
-    }
-    for (std::size_t region = 0; region < inside_.size(); ++region)
-      if (hole_in[region] >= 0) inside_[region] = 0;
-    if (std::find(inside_.begin(), inside_.end(), 1) == inside_.end())
-      reject_domain("the holes leave nothing of the domain");
+  // In which the k-th region point lies.
+  std::int32_t region_of_point(std::size_t k) const {
+    const RegionPoint<3>& it = region_points_[k];
+    const std::int32_t on = triangle_at(it.point);
+    if (on >= 0)
+      reject_domain(name_and_place<3>(it) + " lies on " + surface_.triangle_name(on) +
+                    ": move it into the region it stands for");
+    return regions_->around(it.point);
   }
 
-  void reject_holes() const {
-    if (!holes_.empty())
-      reject_domain(holes_[0].name + " at " + point_text(holes_[0].point) +
-                    ": a domain of surfaces alone has no inside to take holes out of");
+  void heed_region_points() {
+    if (!filled_ && !region_points_.empty())
+      reject_domain(name_and_place<3>(region_points_[0]) +
+                    ": a domain of surfaces alone has no inside, of which to take out or tag any");
+    if (!filled_) return;
+    const auto region_of = [this](std::size_t k) { return region_of_point(k); };
+    remove_holes(region_points_, region_of, inside_, result_.warnings);
+    region_tags_ = tags_of_parts(region_points_, region_of, inside_);
   }
 
   // The first triangle on which the point lies, as near as places are told apart, or -1.
@@ -250,6 +242,7 @@ class Resolver {
   void add_triangles() {
     std::vector<char> component_kept(regions_->components(), 0);
     std::vector<std::int64_t> left_out(surfaces_.size(), 0);
+    std::vector<RegionFacet<3>> regions;
     kept_.assign(triangle_count(), 0);
     for (std::int32_t t = 0; t < triangle_count(); ++t) {
       SurfaceTriangle& triangle = surface_.triangles[t];
@@ -262,17 +255,24 @@ class Resolver {
       if (front && !back) {
         triangle.turn_around();
         std::swap(front, back);
+        std::swap(front_[t], back_[t]);
       }
       kept_[t] = 1;
       component_kept[regions_->component(t)] = 1;
       BoundaryTriangle facet{{}, triangle.tag, front, back};
       for (int k = 0; k < 3; ++k) facet.nodes[k] = node_at(triangle.vertices[k], triangle.tag);
       result_.mesh.facets.push_back(facet);
+      if (!region_tags_.empty())
+        regions.push_back({corners_of(result_.mesh, facet),
+                           {front, back},
+                           {region_tags_[front_[t]], region_tags_[back_[t]]}});
       result_.approximate.push_back(surfaces_[triangle.source].approximates);
       if (!result_.level_sets.sets.empty())
         result_.level_sets.of.push_back(surfaces_[triangle.source].level_set ? triangle.source
                                                                              : -1);
     }
+    if (!region_tags_.empty())
+      result_.regions = std::make_unique<const RegionIndex<3>>(std::move(regions));
     triangles_kept_ = static_cast<std::int64_t>(result_.mesh.facets.size());
     result_.summary.components = std::count(component_kept.begin(), component_kept.end(), 1);
     std::vector<std::string> names;
@@ -357,7 +357,7 @@ class Resolver {
 
   const std::vector<SurfaceSource>& surfaces_;
   const std::vector<InnerPolyline>& polylines_;
-  const std::vector<Hole<3>>& holes_;
+  const std::vector<RegionPoint<3>>& region_points_;
   const std::vector<FixedNode<3>>& fixed_nodes_;
   bool filled_;
   Triangulation surface_;
@@ -369,6 +369,7 @@ class Resolver {
   std::optional<SurfaceRegions> regions_;
   std::vector<char> inside_;                // of each region
   std::vector<std::int32_t> front_, back_;  // the regions on both sides of each triangle
+  std::vector<std::int32_t> region_tags_;   // of each region; empty if none is given
   std::vector<char> kept_;                  // of each triangle: is it part of the domain?
   std::vector<char> on_surface_;            // of each vertex: is it one of a triangle?
   std::vector<std::int32_t> number_;        // of each vertex: its node of the mesh, or -1

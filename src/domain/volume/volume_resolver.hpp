@@ -15,7 +15,7 @@ struct GivenVolume {
   const std::vector<SurfaceSource>& surfaces;
   const std::map<std::int32_t, SurfaceRole>& roles;  // see VolumeDomain::set_role
   const std::vector<InnerPolyline>& polylines;
-  const std::vector<Hole<3>>& holes;
+  const std::vector<RegionPoint<3>>& region_points;
   const std::vector<FixedNode<3>>& fixed_nodes;
   bool filled;  // see VolumeDomain::set_filled
 };

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/region_index.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "base/index.hpp"
+#include "base/limits.hpp"
+#include "geometry/plane/edges.hpp"
+#include "geometry/volume/triangles.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+Point<2> normal_of(const FacetCorners<2>& edge) {
+  return {edge[0][1] - edge[1][1], edge[1][0] - edge[0][0]};
+}
+Point<3> normal_of(const FacetCorners<3>& triangle) { return area_normal(triangle); }
+
+// How far in the first direction x is from the plane of the facet.
+template <int Dim>
+double way_to(const FacetCorners<Dim>& facet, const Point<Dim>& x) {
+  const Point<Dim> normal = normal_of(facet);
+  Point<Dim> to;
+  for (std::size_t k = 0; k < Dim; ++k) to[k] = facet[0][k] - x[k];
+  return dot(normal, to) / normal[0];
+}
+
+// 0 where the first of its sides is, 1 where the other is.
+std::size_t side_of(const FacetCorners<2>& edge, const Point<2>& x) {
+  return orientation(edge[0], edge[1], x) > 0 ? 0 : 1;
+}
+std::size_t side_of(const FacetCorners<3>& triangle, const Point<3>& x) {
+  return orientation(triangle[0], triangle[1], triangle[2], x) > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+template <int Dim>
+RegionIndex<Dim>::RegionIndex(std::vector<RegionFacet<Dim>> facets) : facets_(std::move(facets)) {
+  std::vector<Box<Dim>> boxes;
+  Box<Dim> all = empty_box<Dim>();
+  for (const RegionFacet<Dim>& facet : facets_) {
+    Box<Dim> box = empty_box<Dim>();
+    for (const Point<Dim>& corner : facet.corners) include<Dim>(box, corner);
+    boxes.push_back(box);
+    all = joined(all, box);
+  }
+  beyond_ = all.high[0] + size_of(all);
+  tree_ = BoxTree<Dim>(std::move(boxes));
+}
+
+// The first facet on the way to one side tells it.
+template <int Dim>
+std::int32_t RegionIndex<Dim>::tag_at(const Point<Dim>& x) const {
+  Point<Dim> end = x;
+  end[0] = beyond_;
+  double nearest = kFar;
+  const RegionFacet<Dim>* first = nullptr;
+  tree_.for_meeting({x, end}, [&](std::int32_t f) {
+    const RegionFacet<Dim>& facet = facets_[index(f)];
+    if (!crosses(x, end, facet.corners)) return;
+    const double way = way_to<Dim>(facet.corners, x);
+    if (first && !(way < nearest || (way == nearest && &facet < first))) return;
+    nearest = way;
+    first = &facet;
+  });
+  if (!first) return tag_beside(x);
+  const std::size_t side = side_of(first->corners, x);
+  return first->inside[side] ? first->tags[side] : tag_beside(x);
+}
+
+template <int Dim>
+std::int32_t RegionIndex<Dim>::tag_beside(const Point<Dim>& x) const {
+  double nearest = kFar;
+  const RegionFacet<Dim>* best = nullptr;
+  tree_.for_near(
+      x, [&] { return nearest * nearest; },
+      [&](std::int32_t f) {
+        const RegionFacet<Dim>& facet = facets_[index(f)];
+        if (facet.inside[0] == facet.inside[1]) return;
+        const double gap = distance<Dim>(nearest_on(facet.corners, x), x);
+        if (best && !(gap < nearest || (gap == nearest && &facet < best))) return;
+        nearest = gap;
+        best = &facet;
+      });
+  return best ? best->tags[best->inside[0] ? 0 : 1] : 0;
+}
+
+template class RegionIndex<2>;
+template class RegionIndex<3>;
+
+}  // namespace pnpbs

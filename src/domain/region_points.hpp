@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What region points say of the parts into which curves, or surfaces in space, divide the domain.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/domain_error.hpp"
+#include "base/index.hpp"
+#include "base/point_text.hpp"
+#include "domain/given_points.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+std::string name_and_place(const RegionPoint<Dim>& point) {
+  return point.name + " at " + point_text(point.point);
+}
+
+// Takes the parts with holes out of those that are inside. part_of(k): where the k-th point lies.
+template <int Dim, class PartOf>
+void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& part_of,
+                  std::vector<char>& inside, std::vector<std::string>& warnings) {
+  std::vector<const RegionPoint<Dim>*> hole_in(inside.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!points[k].is_hole()) continue;
+    const std::size_t part = index(part_of(k));
+    if (!inside[part]) reject_domain(name_and_place<Dim>(points[k]) + " lies outside the domain");
+    if (hole_in[part])
+      warnings.push_back(name_and_place<Dim>(points[k]) + " lies in the same region as " +
+                         hole_in[part]->name);
+    else
+      hole_in[part] = &points[k];
+  }
+  for (std::size_t part = 0; part < inside.size(); ++part)
+    if (hole_in[part]) inside[part] = 0;
+  if (std::find(inside.begin(), inside.end(), 1) == inside.end())
+    reject_domain("the holes leave nothing of the domain");
+}
+
+// Of each part its tag, 0 where no point gives it one; empty if none does anywhere. `inside`:
+// without the holes.
+template <int Dim, class PartOf>
+std::vector<std::int32_t> tags_of_parts(const std::vector<RegionPoint<Dim>>& points,
+                                        const PartOf& part_of, const std::vector<char>& inside) {
+  std::vector<const RegionPoint<Dim>*> point_in(inside.size());
+  std::vector<std::int32_t> tags;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (points[k].is_hole()) continue;
+    tags.resize(inside.size());
+    const std::size_t part = index(part_of(k));
+    if (!inside[part]) reject_domain(name_and_place<Dim>(points[k]) + " lies outside the domain");
+    if (point_in[part] && point_in[part]->tag != points[k].tag)
+      reject_domain(name_and_place<Dim>(points[k]) + " has the tag " +
+                    std::to_string(points[k].tag) + ", but lies in the same region as " +
+                    name_and_place<Dim>(*point_in[part]) + " with the tag " +
+                    std::to_string(point_in[part]->tag));
+    point_in[part] = &points[k];
+    tags[part] = points[k].tag;
+  }
+  return tags;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Regions with tags: elements on either side of inner curves and surfaces, however coarse these are
+ * resolved, and bad input.
+ */
+#include "volume_support.h"
+
+/* ---------------------------------------------------------------- elements -------------- */
+
+typedef struct {
+  int64_t n;
+  int corners, dim;
+  double* x; /* [n][corners][dim] */
+  int32_t* tags;
+} elements;
+
+static elements elements_of(const job* it, int dim) {
+  elements e = {0, dim + 1, dim, NULL, NULL};
+  int64_t nodes, n, k, *rows;
+  double* x;
+  pnpbs_status (*get)(pnpbs_placement, int64_t, int64_t*, int64_t*) =
+      dim == 2 ? pnpbs_placement_get_triangles : pnpbs_placement_get_tetrahedra;
+  MUST(pnpbs_placement_count(it->placement, &nodes));
+  MUST(get(it->placement, 0, &e.n, NULL));
+  MUST(pnpbs_placement_get_element_tags(it->placement, 0, &n, NULL));
+  ck_assert_int_eq(n, e.n);
+  rows = malloc((size_t)(e.n * e.corners) * sizeof *rows);
+  x = malloc((size_t)(nodes * dim) * sizeof *x);
+  e.x = malloc((size_t)(e.n * e.corners * dim) * sizeof *e.x);
+  e.tags = malloc((size_t)e.n * sizeof *e.tags);
+  ck_assert(rows && x && e.x && e.tags);
+  MUST(get(it->placement, e.n, &e.n, rows));
+  MUST(pnpbs_placement_get_nodes(it->placement, nodes, x, NULL, NULL, NULL));
+  MUST(pnpbs_placement_get_element_tags(it->placement, e.n, &e.n, e.tags));
+  for (k = 0; k < e.n * e.corners; ++k)
+    memcpy(e.x + k * dim, x + rows[k] * dim, (size_t)dim * sizeof *x);
+  free(rows);
+  free(x);
+  return e;
+}
+
+static void elements_free(elements* e) {
+  free(e->x);
+  free(e->tags);
+}
+
+static double measure(const elements* e, int64_t k) {
+  const double* x = e->x + k * e->corners * e->dim;
+  double a[3] = {0, 0, 0}, b[3] = {0, 0, 0}, c[3] = {0, 0, 1};
+  int i;
+  for (i = 0; i < e->dim; ++i) {
+    a[i] = x[e->dim + i] - x[i];
+    b[i] = x[2 * e->dim + i] - x[i];
+    if (e->dim == 3) c[i] = x[9 + i] - x[i];
+  }
+  return ((a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] +
+          (a[0] * b[1] - a[1] * b[0]) * c[2]) /
+         (e->dim == 2 ? 2 : 6);
+}
+
+static double measure_with(const elements* e, int32_t tag) {
+  double sum = 0;
+  int64_t k;
+  for (k = 0; k < e->n; ++k)
+    if (e->tags[k] == tag) sum += measure(e, k);
+  return sum;
+}
+
+static void centre(const elements* e, int64_t k, double* x) {
+  int i, c;
+  for (i = 0; i < e->dim; ++i) {
+    x[i] = 0;
+    for (c = 0; c < e->corners; ++c) x[i] += e->x[(k * e->corners + c) * e->dim + i] / e->corners;
+  }
+}
+
+/* The same tags come with the distributed mesh, whatever its order. */
+static void check_mesh(const job* it, const elements* e, int32_t tag) {
+  pnpbs_mesh mesh;
+  int64_t n, k, with_tag = 0, expected = 0;
+  int32_t* tags;
+  MUST(pnpbs_mesh_create(it->placement, 0, &mesh));
+  MUST(pnpbs_mesh_sizes(mesh, NULL, NULL, NULL, NULL, &n, NULL, NULL));
+  ck_assert_int_eq(n, e->n);
+  tags = malloc((size_t)n * sizeof *tags);
+  ck_assert_ptr_nonnull(tags);
+  MUST(pnpbs_mesh_get_elements(mesh, n, NULL, NULL, NULL, tags));
+  for (k = 0; k < n; ++k) {
+    with_tag += tags[k] == tag;
+    expected += e->tags[k] == tag;
+  }
+  ck_assert_int_eq(with_tag, expected);
+  free(tags);
+  MUST(pnpbs_mesh_destroy(&mesh));
+}
+
+static job placed(job it, double d) {
+  job_place(&it);
+  MUST(pnpbs_placement_set(it.placement, "steps", "60"));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  return it;
+}
+
+/* ---------------------------------------------------------------- in the plane ---------- */
+
+/* Three strips, one of them without a tag, and a disc in the middle of all. */
+START_TEST(strips_and_a_disc) {
+  const double left[4] = {1, 0, 1, 1}, right[4] = {2, 0, 2, 1},
+               in[3][2] = {{0.1, 0.5}, {2.9, 0.9}, {1.5, 0.5}};
+  const double d = _i == 0 ? 0.03 : 0.3, r = 0.3;
+  job it = job_begin();
+  elements e;
+  int64_t k;
+  add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 3, 1, 1);
+  MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_INNER, 0, 2, left, NULL, 0));
+  MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_INNER, 0, 2, right, NULL, 0));
+  add_circle(it.domain, PNPBS_INNER, 1.5, 0.5, r, 4);
+  MUST(pnpbs_domain_add_region(it.domain, in[0], 30));
+  MUST(pnpbs_domain_add_region(it.domain, in[1], -70));
+  MUST(pnpbs_domain_add_region(it.domain, in[2], 5));
+  MUST(pnpbs_domain_add_region(it.domain, in[2], 5)); /* says nothing new */
+  it = placed(it, d);
+  e = elements_of(&it, 2);
+  ck_assert_double_eq_tol(measure_with(&e, 30), 1, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, -70), 1, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 0) + measure_with(&e, 5), 1, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 5), PI * r * r, 0.6 * d * d);
+  for (k = 0; k < e.n; ++k) {
+    double x[2], from;
+    centre(&e, k, x);
+    from = hypot(x[0] - 1.5, x[1] - 0.5);
+    ck_assert_int_eq(e.tags[k], x[0] < 1 ? 30 : x[0] > 2 ? -70 : from < r ? 5 : 0);
+  }
+  check_mesh(&it, &e, 5);
+  check_mesh(&it, &e, -70);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* A domain changed after the run: its elements keep the tags until they are made anew. */
+START_TEST(tags_stay_with_the_elements) {
+  const double in[2] = {0.5, 0.5};
+  job it = square_job(1);
+  elements e;
+  MUST(pnpbs_domain_add_region(it.domain, in, 3));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  e = elements_of(&it, 2);
+  ck_assert_double_eq_tol(measure_with(&e, 3), 1, 1e-12);
+  elements_free(&e);
+  MUST(pnpbs_domain_add_region(it.domain, in, 4));
+  e = elements_of(&it, 2);
+  ck_assert_double_eq_tol(measure_with(&e, 3), 1, 1e-12);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- in space -------------- */
+
+static void add_inner_ball(pnpbs_domain domain, const double* middle, double radius) {
+  MUST(pnpbs_domain_add_ball(domain, middle, radius, 9));
+  MUST(pnpbs_domain_set_role(domain, 9, PNPBS_INNER));
+}
+
+static void add_quad(int64_t* corners, int64_t* count, int64_t a, int64_t b, int64_t c, int64_t d) {
+  const int64_t quad[6] = {a, b, c, a, c, d};
+  memcpy(corners + 3 * *count, quad, sizeof quad);
+  *count += 2;
+}
+
+/* The box [0, 2] x [0, 1]^2, divided by a wall at x = 1. Vertex i + 3 j + 6 k is at (i, j, k). */
+static void add_divided_box(pnpbs_domain domain) {
+  double x[36];
+  int64_t corners[66], count = 0, v, i;
+  int32_t tags[22];
+  for (v = 0; v < 12; ++v) {
+    x[3 * v] = (double)(v % 3);
+    x[3 * v + 1] = (double)(v / 3 % 2);
+    x[3 * v + 2] = (double)(v / 6);
+  }
+  for (i = 0; i < 3; ++i) add_quad(corners, &count, i, i + 3, i + 9, i + 6);
+  for (i = 0; i < 2; ++i) {
+    add_quad(corners, &count, i, i + 1, i + 7, i + 6);
+    add_quad(corners, &count, i + 3, i + 4, i + 10, i + 9);
+    add_quad(corners, &count, i, i + 1, i + 4, i + 3);
+    add_quad(corners, &count, i + 6, i + 7, i + 10, i + 9);
+  }
+  for (i = 0; i < count; ++i) tags[i] = i == 2 || i == 3 ? 40 : 1;
+  MUST(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 12, x, count, corners, tags, 40));
+  MUST(pnpbs_domain_set_role(domain, 40, PNPBS_INNER));
+}
+
+/* A box that is divided by a wall and holds a ball in each half, one of which d hardly resolves. */
+START_TEST(box_with_wall_and_balls) {
+  const double middles[2][3] = {{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}}, outside[3] = {0.05, 0.05, 0.05};
+  const double radii[2] = {0.3, 0.15};
+  job it = {NULL, NULL, NULL};
+  elements e;
+  int64_t k;
+  int b;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  add_divided_box(it.domain);
+  for (b = 0; b < 2; ++b) {
+    add_inner_ball(it.domain, middles[b], radii[b]);
+    MUST(pnpbs_domain_add_region(it.domain, middles[b], 10 + b));
+  }
+  MUST(pnpbs_domain_add_region(it.domain, outside, 20));
+  it = placed(it, 0.13);
+  e = elements_of(&it, 3);
+  ck_assert_double_eq_tol(measure_with(&e, 20) + measure_with(&e, 10), 1, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 0) + measure_with(&e, 11), 1, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 10), 4 * PI / 3 * 0.027, 0.012);
+  ck_assert_double_eq_tol(measure_with(&e, 11), 4 * PI / 3 * 0.003375, 0.006);
+  for (k = 0; k < e.n; ++k) {
+    double x[3];
+    centre(&e, k, x);
+    ck_assert_int_eq(e.tags[k] == 20 || e.tags[k] == 10, x[0] < 1);
+    for (b = 0; b < 2; ++b) {
+      const double r = distance(x, middles[b]);
+      if (r < 0.6 * radii[b]) ck_assert_int_eq(e.tags[k], 10 + b);
+      if (r > radii[b]) ck_assert_int_ne(e.tags[k], 10 + b);
+    }
+  }
+  check_mesh(&it, &e, 10);
+  check_mesh(&it, &e, 0);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- bad ones -------------- */
+
+START_TEST(bad_input) {
+  const double hole[2] = {0.5, 0.5}, good[2] = {0.1, 0.1}, again[2] = {0.9, 0.1},
+               beyond[2] = {3, 3}, on[2] = {0, 0.5}, nowhere[2] = {NAN, 0};
+  int k;
+  const struct {
+    const double* point;
+    const char *first, *second;
+  } refused[] = {{hole, "region 0 at (0.5, 0.5) lies outside", ""},
+                 {beyond, "region 0 at (3, 3) lies outside", ""},
+                 {on, "region 0 at (0, 0.5) lies on", "move it into the region it stands for"}};
+  for (k = 0; k < COUNT_OF(refused); ++k) {
+    job it = job_begin();
+    add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 1, 1, 1);
+    add_rectangle(it.domain, PNPBS_INNER, 0.4, 0.4, 0.6, 0.6, 2);
+    MUST(pnpbs_domain_add_hole(it.domain, hole));
+    MUST(pnpbs_domain_add_region(it.domain, refused[k].point, 1));
+    MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), refused[k].first,
+              refused[k].second);
+    job_end(&it);
+  }
+  {
+    job it = job_begin();
+    add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 1, 1, 1);
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_region(it.domain, NULL, 1), "point", "NULL");
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_region(it.domain, good, 0), "tag", "0");
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_region(it.domain, nowhere, 1), "point[0]",
+              "nan");
+    MUST(pnpbs_domain_check(it.domain));
+    MUST(pnpbs_domain_add_region(it.domain, good, 1));
+    MUST(pnpbs_domain_add_region(it.domain, again, 2));
+    MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "region 1 at (0.9, 0.1)",
+              "region 0 at (0.1, 0.1) with the tag 1");
+    job_end(&it);
+  }
+}
+END_TEST
+
+START_TEST(surfaces_alone_have_none) {
+  const double middle[3] = {0, 0, 0};
+  int64_t count;
+  job it = body_job(volume_unit_box);
+  const double inside[3] = {0.5, 0.5, 0.5};
+  MUST(pnpbs_domain_add_region(it.domain, inside, 1));
+  MUST(pnpbs_domain_check(it.domain));
+  MUST(pnpbs_domain_set_filled(it.domain, 0));
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "region 0", "surfaces alone");
+  job_end(&it);
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_ball(it.domain, middle, 1, 1));
+  MUST(pnpbs_domain_set_filled(it.domain, 0));
+  it = placed(it, 0.4);
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_get_element_tags(it.placement, 0, &count, NULL),
+            "surfaces alone", "boundary_triangles");
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("regions");
+  TCase* good = tcase_create("good");
+  TCase* bad = tcase_create("bad");
+  tcase_add_loop_test(good, strips_and_a_disc, 0, 2);
+  tcase_add_test(good, tags_stay_with_the_elements);
+  tcase_add_test(good, box_with_wall_and_balls);
+  tcase_add_test(bad, bad_input);
+  tcase_add_test(bad, surfaces_alone_have_none);
+  tcase_set_timeout(good, 0);
+  tcase_set_timeout(bad, 0);
+  suite_add_tcase(suite, good);
+  suite_add_tcase(suite, bad);
+  return run_suite(suite);
+}
