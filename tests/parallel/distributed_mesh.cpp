@@ -20,6 +20,28 @@ Ids sorted(Ids ids) {
   return ids;
 }
 
+// ------------------------------------------------------------------ regions --------------------
+
+pnpbs_status plane_with_regions(pnpbs_domain domain, const char*) {
+  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, inside[] = {0.3, 0.3, 0.8, 0.4, 0.5, 0.8},
+               in_both[][2] = {{0.5, 0.5}, {0.1, 0.1}};
+  pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0);
+  pnpbs_domain_add_polyline(domain, PNPBS_INNER, 1, 3, inside, nullptr, 0);
+  pnpbs_domain_add_region(domain, in_both[0], 11);
+  return pnpbs_domain_add_region(domain, in_both[1], -4);
+}
+
+pnpbs_status two_boxes(pnpbs_domain domain, const char*) {
+  const double corners[4][3] = {{0, 0, 0}, {0.8, 1, 1}, {1.2, 0, 0}, {2, 1, 1}},
+               in[] = {1.5, 0.5, 0.5};
+  pnpbs_domain_add_box(domain, corners[0], corners[1], 1);
+  pnpbs_domain_add_box(domain, corners[2], corners[3], 2);
+  return pnpbs_domain_add_region(domain, in, 8);
+}
+
+const Case kRegionCases[] = {{"regions of a plane", 2, plane_with_regions, 0.05},
+                             {"two boxes", 3, two_boxes, 0.2}};
+
 // ------------------------------------------------------------------ by one rank ----------------
 
 struct Reference {
@@ -51,11 +73,13 @@ void for_rows(pnpbs_placement p, const Ids& ids, std::size_t width, const Getter
   }
 }
 pnpbs_status triangles(pnpbs_placement p, std::int64_t capacity, std::int64_t* n,
-                       std::int64_t* rows, std::int32_t*) {
+                       std::int64_t* rows, std::int32_t* tags) {
+  if (tags) pnpbs_placement_get_element_tags(p, capacity, n, tags);
   return pnpbs_placement_get_triangles(p, capacity, n, rows);
 }
 pnpbs_status tetrahedra(pnpbs_placement p, std::int64_t capacity, std::int64_t* n,
-                        std::int64_t* rows, std::int32_t*) {
+                        std::int64_t* rows, std::int32_t* tags) {
+  if (tags) pnpbs_placement_get_element_tags(p, capacity, n, tags);
   return pnpbs_placement_get_tetrahedra(p, capacity, n, rows);
 }
 
@@ -98,10 +122,8 @@ Reference reference_of(const Case& it) {
   if (it.dim == 2) {
     for_rows(p, ids, 3, triangles, add_element);
     for_rows(p, ids, 2, pnpbs_placement_get_boundary_edges, add_facet);
-    for (auto& [corners, tag] : all.elements) tag = 0;
   } else if (all.corners == 4) {
     for_rows(p, ids, 4, tetrahedra, add_element);
-    for (auto& [corners, tag] : all.elements) tag = 0;
     for_rows(p, ids, 3, pnpbs_placement_get_boundary_triangles, add_facet);
   } else {
     for_rows(p, ids, 3, pnpbs_placement_get_boundary_triangles, add_element);
@@ -382,6 +404,7 @@ void check_errors() {
 int main(int argc, char** argv) {
   begin_ranks(&argc, &argv);
   for (const Case& it : kCases) check_case(it);
+  for (const Case& it : kRegionCases) check_case(it);
   check_errors();
   return end_ranks();
 }
