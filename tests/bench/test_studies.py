@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The studies as they are run, with small node sets: the schedule study's page, what pnpbs-bench says
-of bodies, and what the grid of invariance says of runs that differ and of runs that fail.
-PNPBS_BENCH is the program pnpbs-bench; an mpirun is played."""
+of bodies, what the grid of invariance says of runs that differ and of runs that fail, and the study of
+particles. PNPBS_BENCH is the program pnpbs-bench, PNPBS_LIBRARY the library that Python can load, if
+there is one; an mpirun is played."""
 import json
+import math
 import os
 import re
 import subprocess
@@ -163,6 +165,51 @@ class Grid(InFolder):
         self.assertIn("**failed**: status 1: mpirun has detected an attempt to run as root. |",
                       done.stdout)
         self.assertNotIn("differs", done.stdout)
+
+
+@unittest.skipUnless("PNPBS_LIBRARY" in os.environ, "no library that Python can load")
+class Particles(unittest.TestCase):
+    def study(self, *words):
+        return run("particles_study.py", "--library", os.environ["PNPBS_LIBRARY"], *words)
+
+    def test_tables(self):
+        done = self.study("--cases", "square,eros", "--scale", 2)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = [[cell.strip() for cell in line.split("|")[1:-1]]
+                for line in done.stdout.splitlines() if line.startswith("| ")]
+        places = {row[0]: row for row in rows if len(row) == 10}
+        for name, below in (("square", 0.03), ("square, lattice", 0.001), ("eros", 0.1),
+                            ("eros, lattice", 0.01)):
+            self.assertAlmostEqual(float(places[name][3]), 1, delta=below)
+        for name in "square", "eros":
+            self.assertLess(abs(float(places[name][4])), 1e-12)
+            self.assertGreater(float(places[name][6]), 0.4)
+        sums = {tuple(row[:2]): row for row in rows if len(row) == 11}
+        # The endless lattice's, by hand: neighbours at 0, 1, sqrt(2), 2, sqrt(5), sqrt(8) within 3 d.
+        by_hand = 7 / (9 * math.pi) * sum(
+            count * (1 - r / 3) ** 4 * (1 + 4 * r / 3)
+            for count, r in ((1, 0), (4, 1), (4, 2 ** 0.5), (4, 2), (8, 5 ** 0.5), (4, 8 ** 0.5)))
+        self.assertAlmostEqual(float(sums["square lattice", "1.5"][3]), by_hand, 4)
+        self.assertAlmostEqual(float(sums["square", "1.5"][3]), by_hand, 2)
+        self.assertLess(float(sums["square", "2"][10]), 0.01)
+
+    def test_kernels(self):
+        sys.path.insert(0, str(HERE))
+        import numpy as np
+        import particles_study
+        s = (np.arange(10000) + 0.5) / 10000
+        for kernel in particles_study.KERNELS.values():
+            for dim, sphere in (2, 2 * math.pi), (3, 4 * math.pi):
+                integral = kernel.factors[dim] * np.mean(kernel.value(s) * sphere * s ** (dim - 1))
+                self.assertAlmostEqual(integral, 1, 6)
+            by_differences = (kernel.value(s + 1e-6) - kernel.value(s - 1e-6)) / 2e-6
+            np.testing.assert_allclose(kernel.slope(s), by_differences, atol=1e-6)
+
+    def test_bad_arguments(self):
+        for words, told in ((("--cases", "sphere"), "unknown case sphere"), (("--scale", 0), "--scale")):
+            done = self.study(*words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(told, done.stderr)
 
 
 if __name__ == "__main__":
