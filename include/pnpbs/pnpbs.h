@@ -498,7 +498,7 @@ PNPBS_API pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const 
  *  of matter each are placed half a spacing inside the wall: with low = -infinity and high =
  *  -0.42 in the plane or -0.46 in space, and with a spacing for the nodes of 1.076 d or 1.147 d,
  *  their number is the body's measure over d^dim, nearly; and so are layers of wall particles
- *  outside, from 0.46 to n + 0.46. Its boundary is found as that of a level set
+ *  outside, from 0.46 to n - 0.54 for n of them. Its boundary is found as that of a level set
  *  (pnpbs_domain_add_level_set), in the plane by curves through points about a resolution apart,
  *  with corners where it turns by more than 20 degrees within it. What is thinner is lost. The
  *  body is checked first, and is not needed afterwards. In space the callback is called later,

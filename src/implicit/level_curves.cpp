@@ -173,8 +173,8 @@ class CurveWalk {
     corners_ = CurveCorners(set, std::move(searches)).run(pieces_.size());
   }
 
-  std::vector<LevelCurve> run() {
-    std::vector<LevelCurve> curves;
+  std::vector<std::vector<LevelCurve>> run() {
+    std::vector<std::vector<LevelCurve>> loops;
     std::vector<char> seen(pieces_.size());
     for (std::size_t first = 0; first < pieces_.size(); ++first) {
       if (seen[first] != 0) continue;
@@ -185,9 +185,9 @@ class CurveWalk {
         if (corners_[p]) add({*corners_[p], true}, loop);
       }
       close(loop);
-      if (loop.size() >= 3) append(loop, curves);
+      if (loop.size() >= 3) loops.push_back(from_corner_to_corner(loop));
     }
-    return curves;
+    return loops;
   }
 
  private:
@@ -217,8 +217,8 @@ class CurveWalk {
     }
   }
 
-  // From corner to corner.
-  static void append(std::vector<Vertex>& loop, std::vector<LevelCurve>& curves) {
+  static std::vector<LevelCurve> from_corner_to_corner(std::vector<Vertex>& loop) {
+    std::vector<LevelCurve> curves;
     const auto corner = std::ranges::find(loop, true, &Vertex::corner);
     LevelCurve curve{corner == loop.end(), {}};
     if (!curve.closed) {
@@ -232,6 +232,7 @@ class CurveWalk {
       curve.points = {vertex.x};
     }
     if (curve.closed) curves.push_back(curve);
+    return curves;
   }
 
   std::vector<Piece> pieces_;  // by the side that they begin on
@@ -242,7 +243,7 @@ class CurveWalk {
 
 }  // namespace
 
-std::vector<LevelCurve> level_curves(const LevelSet& set) {
+std::vector<std::vector<LevelCurve>> level_curves(const LevelSet& set) {
   const LevelSetLattice lattice(set);
   return CurveWalk(set, pieces_in_squares(lattice), lattice).run();
 }

@@ -28,6 +28,9 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 template <int Dim>
 constexpr double kFineness = Dim == 2 ? 0.125 : 0.5;
 constexpr double kRoom = 2;  // beyond the body, in units of the resolution
+// Smaller loops in the plane hold no particle, or several that are too close together: in units of
+// d, and of the resolution.
+constexpr double kSmallestLoop = 0.5, kSmallestLoopOnLattice = 2;
 
 template <int Dim>
 void require_limits(const Offset<Dim>& offset) {
@@ -54,7 +57,9 @@ template <int Dim>
 class OffsetFunction {
  public:
   OffsetFunction(const Domain<Dim>& body, Offset<Dim> offset)
-      : distance_(std::make_shared<const SignedDistance<Dim>>(body)), offset_(std::move(offset)) {}
+      : distance_(std::make_shared<const SignedDistance<Dim>>(body)),
+        offset_(std::move(offset)),
+        resolution_(offset_.resolution > 0 ? offset_.resolution : suitable_resolution()) {}
 
   // Negative between the limits, and where they are not far nearly a distance.
   void operator()(std::int64_t n, const Point<Dim>* x, double* f) const {
@@ -66,20 +71,19 @@ class OffsetFunction {
     });
   }
 
-  double resolution() const {
-    if (offset_.resolution > 0) return offset_.resolution;
-    if (offset_.spacing) return kFineness<Dim> * std::ranges::min(spacing_at_corners());
-    double least = kNoLimit;
-    for (const double limit : {std::fabs(offset_.low), std::fabs(offset_.high)})
-      if (limit > 0) least = std::min(least, limit);
-    if (least == kNoLimit)
-      reject("resolution is 0, and there is no length to find one by: expected a positive number");
-    return kFineness<Dim> * least;
+  double resolution() const { return resolution_; }
+
+  // Is what lies in this box large enough?
+  bool is_worth_keeping(const Box<Dim>& box) const {
+    double smallest = kSmallestLoopOnLattice * resolution_;
+    const Point<Dim> middle = middle_of<Dim>(box.low, box.high);
+    if (offset_.spacing) smallest = std::max(smallest, kSmallestLoop * spacing_at(1, &middle)[0]);
+    return size_of(box) >= smallest;
   }
 
   // In which the body lies, with some room about it.
   Box<Dim> box() const {
-    const double room = kRoom * resolution();
+    const double room = kRoom * resolution_;
     if (offset_.high <= 0) return widened(distance_->bounds(), room);
     const std::vector<double> d = spacing_at_corners();
     const Box<Dim> near = widened(distance_->bounds(), offset_.high * *std::ranges::max_element(d));
@@ -94,6 +98,16 @@ class OffsetFunction {
   }
 
  private:
+  double suitable_resolution() const {
+    if (offset_.spacing) return kFineness<Dim> * std::ranges::min(spacing_at_corners());
+    double least = kNoLimit;
+    for (const double limit : {std::fabs(offset_.low), std::fabs(offset_.high)})
+      if (limit > 0) least = std::min(least, limit);
+    if (least == kNoLimit)
+      reject("resolution is 0, and there is no length to find one by: expected a positive number");
+    return kFineness<Dim> * least;
+  }
+
   std::vector<double> spacing_at(std::int64_t n, const Point<Dim>* x) const {
     std::vector<double> d(static_cast<std::size_t>(n), 1);
     if (offset_.spacing) (*offset_.spacing)(n, x, d.data());
@@ -110,7 +124,15 @@ class OffsetFunction {
 
   std::shared_ptr<const SignedDistance<Dim>> distance_;
   Offset<Dim> offset_;
+  double resolution_;
 };
+
+Box<2> box_of(const std::vector<LevelCurve>& loop) {
+  Box<2> box = empty_box<2>();
+  for (const LevelCurve& curve : loop)
+    for (const Point<2>& x : curve.points) include<2>(box, x);
+  return box;
+}
 
 }  // namespace
 
@@ -127,11 +149,14 @@ void add_offset(PlaneDomain& domain, const PlaneDomain& body, const Offset<2>& o
       },
       {{box.low[0], box.low[1], 0}, {box.high[0], box.high[1], 0}}, f.resolution());
   constexpr double kNoCorners = 180;  // but the ends of the curves
-  for (const LevelCurve& curve : level_curves(set)) {
-    const auto n = std::ssize(curve.points);
-    const std::vector<std::int32_t> tags(curve.points.size(), offset.tag);
-    domain.add_polyline(CurveRole::boundary, curve.closed, n, curve.points.data()->data(),
-                        tags.data(), kNoCorners);
+  for (const std::vector<LevelCurve>& loop : level_curves(set)) {
+    if (!f.is_worth_keeping(box_of(loop))) continue;
+    for (const LevelCurve& curve : loop) {
+      const auto n = std::ssize(curve.points);
+      const std::vector<std::int32_t> tags(curve.points.size(), offset.tag);
+      domain.add_polyline(CurveRole::boundary, curve.closed, n, curve.points.data()->data(),
+                          tags.data(), kNoCorners);
+    }
   }
 }
 

@@ -62,13 +62,24 @@ ExitCode exit_code_of_run(pnpbs_status status) {
   }
 }
 
+// The library's; but nobody gets the elements of nodes at centres.
+std::vector<std::string> warnings_for(const Arguments& arguments, pnpbs_context context,
+                                      pnpbs_placement placement) {
+  std::vector<std::string> warnings = warnings_of(context, placement);
+  if (arguments.at_centres)
+    std::erase_if(warnings, [](const std::string& warning) {
+      return warning.find("missing_faces") != std::string::npos;
+    });
+  return warnings;
+}
+
 // Notes on the file of geographers, the library's warnings, and those of grids.
-std::vector<std::string> for_report(const GeoFile* geo, pnpbs_context context,
-                                    pnpbs_placement placement,
+std::vector<std::string> for_report(const Arguments& arguments, const GeoFile* geo,
+                                    pnpbs_context context, pnpbs_placement placement,
                                     const std::vector<std::string>& of_grids) {
   std::vector<std::string> warnings;
   if (geo) warnings = geo->notes();
-  for (const auto& more : {warnings_of(context, placement), of_grids})
+  for (const auto& more : {warnings_for(arguments, context, placement), of_grids})
     warnings.insert(warnings.end(), more.begin(), more.end());
   return warnings;
 }
@@ -122,14 +133,14 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   else
     check(pnpbs_placement_read_checkpoint(placement, arguments.restart.c_str()), context);
   progress.clear();
-  const std::vector<std::string> warnings = warnings_of(context, placement);
+  const std::vector<std::string> warnings = warnings_for(arguments, context, placement);
   if (talk) warn(warnings);
   pnpbs_status status = PNPBS_OK;
   if (statistic(placement, "finished", context) == 0)
     status = check(pnpbs_placement_run(placement), context);
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
   progress.clear();
-  if (talk) warn(warnings_of(context, placement), warnings.size());
+  if (talk) warn(warnings_for(arguments, context, placement), warnings.size());
   if (ranks.any(interrupted())) throw Failure(ExitCode::interrupted, checkpoints.words_at_stop());
   checkpoints.write();
   if (arguments.check && check(pnpbs_placement_check(placement), context) == PNPBS_NOT_CONFORMING)
@@ -187,6 +198,9 @@ void set_options(pnpbs_context context, const Arguments& arguments) {
   // What is given behind --set is meant, a checkpoint's other value or not.
   if (!arguments.restart.empty())
     check(pnpbs_context_set(context, "restart_options", "changed"), context);
+  if (arguments.at_centres)  // elements do not matter: d stays as it is
+    for (const char* key : {"conforming_rounds", "min_angle"})
+      check(pnpbs_context_set(context, key, "0"), context);
   for (const auto& [key, value] : arguments.options)
     check(pnpbs_context_set(context, key.c_str(), value.c_str()), context);
 }
@@ -285,7 +299,8 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   const std::vector<std::string> of_grids =
       wishes.spacing->warnings(placement, domain, context, ranks);
   if (work.talks()) warn(of_grids);
-  const std::vector<std::string> warnings = for_report(geo, context, placement, of_grids);
+  const std::vector<std::string> warnings =
+      for_report(arguments, geo, context, placement, of_grids);
   if (geo) outputs.write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
   outputs.write_report(report_text(arguments, geo, statistics, volumes, groups, warnings));
@@ -295,7 +310,6 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   outputs.replace_report(report_text(arguments, geo, statistics, volumes, groups, warnings));
   if (work.talks() && !outputs.use_standard_output())
     std::cout << summary_text(statistics, body, volumes, outputs.files());
-  // Nobody gets the elements of nodes at centres.
   if (arguments.at_centres && status == PNPBS_NOT_CONFORMING) status = PNPBS_OK;
   return geo && leave_out_shapes(warnings) ? ExitCode::input_left_out : exit_code_of_run(status);
 }

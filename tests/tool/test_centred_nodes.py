@@ -7,7 +7,7 @@ import unittest
 
 import numpy
 
-from command import BAD_INPUT, FAILED, SQUARE_AREA, CommandTest
+from command import BAD_INPUT, DATA, SQUARE_AREA, CommandTest
 from readers import read_csv, read_with_vtk
 
 
@@ -48,6 +48,14 @@ class CentredNodes(CommandTest):
         self.assertAlmostEqual(numpy.min(gaps), 0.46 * d, delta=1e-6)
         self.assertRegex(out, r"(?m)^body     2 x 1 x 1, volume 2$")
         self.assertLess(abs(report["volumes"]["ratio"]["mean"] - 1), 0.03)
+
+    # Whose elements do not conform at this d: they do not matter.
+    def test_in_a_bracket(self):
+        for nodes_at, warned in (("centers", False), ("boundary", True)):
+            _, err = self.run_command("--domain", DATA / "bracket.stl", "--spacing", "6",
+                                      "--nodes-at", nodes_at, "-o", "a.csv", "--set",
+                                      "conforming_rounds=0")
+            self.assertEqual("missing_faces" in err.decode(), warned)
 
     def test_no_elements_are_written(self):
         self.place_at_centres("-o", "a.vtu", spacing="0.1")

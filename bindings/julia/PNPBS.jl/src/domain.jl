@@ -417,7 +417,7 @@ distance to it, negative inside, lies between `low` and `high` times d; without 
 lengths. So particles that stand for d^dim of matter each are placed half a spacing inside the wall:
 with `low = -Inf` and `high = -0.42` in the plane or `-0.46` in space, and with a spacing for the
 nodes of 1.076 d or 1.147 d, their number is the body's measure over d^dim, nearly; and so are
-layers of wall particles outside, from 0.46 to n + 0.46. `d` is a number or a function as in
+layers of wall particles outside, from 0.46 to n - 0.54 for n of them. `d` is a number or a function as in
 [`set_spacing!`](@ref), which is evaluated in the body's bounding box, and as far around it as the
 new body reaches, and a little farther. The boundary, with the `tag`, is found as that of a level
 set ([`add_level_set!`](@ref)) with this resolution, 0 for an eighth (in space half) of the least
