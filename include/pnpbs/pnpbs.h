@@ -422,10 +422,10 @@ PNPBS_API pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertic
 PNPBS_API pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double *point);
 
 /** Gives a tag to the region around a point, up to the next curves or surfaces of either role:
- *  elements that lie in it have this tag (pnpbs_mesh_get_elements,
- *  pnpbs_placement_get_element_tags), and so they have in files. So inner curves and surfaces
- * divide a domain into materials. Elements of regions without a point have the tag 0. Local. Errors
- * of pnpbs_domain_check: PNPBS_ERROR_DOMAIN if the point lies outside the domain, on a curve or
+ *  elements that lie in it have this tag (pnpbs_placement_get_element_tags,
+ *  pnpbs_mesh_get_elements), in files too. So inner curves and surfaces divide a domain into
+ *  materials. Elements of regions without a point have the tag 0. Local. Errors of
+ *  pnpbs_domain_check: PNPBS_ERROR_DOMAIN if the point lies outside the domain, on a curve or
  *  surface, or in a region with another tag.
  *  @param[in] point  [dim]
  *  @param[in] tag    nonzero */
@@ -976,12 +976,11 @@ PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, 
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                                       int64_t *count, int64_t *tetrahedra);
 
-/** Copies the tags of elements: of the regions that they lie in (pnpbs_domain_add_region), 0 where
- *  that has none. They come in the order of pnpbs_placement_get_triangles, or in space
- *  _get_tetrahedra. Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_ARGUMENT on surfaces
- * alone.
- *  @param[out] count  number of elements; with capacity 0 and NULL array it only counts
- *  @param[out] tags   [elements] */
+/** Copies the tag of each element: that of the region it lies in (pnpbs_domain_add_region), or 0 if
+ *  the region has none. The order is that of pnpbs_placement_get_triangles, in space that of
+ *  pnpbs_placement_get_tetrahedra. Collective. Call with capacity 0 to get the count. Errors:
+ *  PNPBS_ERROR_CAPACITY; PNPBS_ERROR_ARGUMENT on surfaces alone.
+ *  @param[out] tags  [count], or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t capacity,
                                                         int64_t *count, int32_t *tags);
 
@@ -1209,8 +1208,8 @@ PNPBS_API pnpbs_status pnpbs_mesh_get_nodes(pnpbs_mesh mesh, int64_t capacity, d
  *  @param[out] nodes    [elements][corners] local indices of the nodes at the corners
  *  @param[out] numbers  [elements]
  *  @param[out] owners   [elements] the rank that owns it
- *  @param[out] tags     [elements] of the region that it lies in (pnpbs_domain_add_region), 0 if
- * that has none; on surfaces alone of the surface */
+ *  @param[out] tags     [elements] of the region it lies in (pnpbs_domain_add_region), or 0 if
+ *                       the region has none; on surfaces alone of the surface */
 PNPBS_API pnpbs_status pnpbs_mesh_get_elements(pnpbs_mesh mesh, int64_t capacity, int32_t *nodes,
                                                int64_t *numbers, int32_t *owners, int32_t *tags);
 
