@@ -453,12 +453,40 @@ class Meshes(Case):
         with self.assertRaises(AttributeError):
             mesh.dim = 3
 
+    def divided_square(self):
+        domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=4)
+        domain.add_polyline([(0.5, 0), (0.5, 1)], role="inner", closed=False, tags=7)
+        return domain.add_region((0.2, 0.5), 3).add_region([0.8, 0.5], 7)
+
+    def test_regions(self):
+        domain = self.divided_square()
+        placement = self.placed(domain, 0.1)
+        mesh, points, corners = placement.mesh(), placement.nodes().points, placement.triangles()
+        sides = points[corners[:, 1:]] - points[corners[:, :1]]
+        for areas, x, tags in (
+                (np.linalg.det(sides) / 2, points[corners], placement.element_tags()),
+                (measures(mesh), mesh.coordinates[mesh.elements], mesh.element_tags)):
+            self.assertEqual(tags.dtype, np.int32)
+            np.testing.assert_array_equal(tags, np.where(x[:, :, 0].mean(axis=1) < 0.5, 3, 7))
+            for tag in 3, 7:
+                self.assertAlmostEqual(areas[tags == tag].sum(), 0.5, 12)
+        self.assertIn("tag", self.assert_status(Status.ERROR_ARGUMENT, domain.add_region,
+                                                (0.2, 0.5), 0))
+        with self.assertRaisesRegex(ValueError, "point"):
+            domain.add_region((0.2, 0.5, 0), 3)
+        domain.add_region((0.2, 0.9), 4)
+        self.assertIn("region 2 at (0.2, 0.9)",
+                      self.assert_status(Status.ERROR_DOMAIN, domain.check))
+
     def test_in_space(self):
         domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (2, 1, 1), tag=5)
         wall = [(1, 0.2, 0.2), (1, 0.8, 0.2), (1, 0.8, 0.8), (1, 0.2, 0.8)]
         domain.add_surface(wall, [(0, 1, 2), (0, 2, 3)], role="inner", tags=6)
-        mesh = self.placed(domain, 0.25).mesh()
+        placement = self.placed(domain.add_region((0.1, 0.1, 0.1), 4), 0.25)
+        mesh = placement.mesh()
         check_mesh(self, mesh, 0)
+        self.assertEqual(set(mesh.element_tags), {4})
+        self.assertEqual(placement.element_tags().tolist(), [4] * len(placement.tetrahedra()))
         self.assertEqual(mesh.elements.shape[1], 4)
         self.assertAlmostEqual(measures(mesh).sum(), 2, 12)
         self.assertIn(6, mesh.facet_tags)
@@ -476,6 +504,8 @@ class Meshes(Case):
         check_mesh(self, mesh, 0)
         self.assertEqual((mesh.dim, mesh.elements.shape[1], mesh.facets.shape), (3, 3, (0, 2)))
         self.assertEqual(set(mesh.element_tags), {5})
+        self.assertIn("surfaces alone", self.assert_status(Status.ERROR_ARGUMENT,
+                                                           placement.element_tags))
         placement.close()
         self.assertEqual(mesh.coordinates.shape, (mesh.all_nodes, 3))
 
@@ -531,6 +561,20 @@ class Meshes(Case):
         ends = there.p[:, there.facets[:, there.boundaries["tag_7"]]]
         np.testing.assert_allclose(ends[1] - 0.4, (ends[0] - 0.3) / 2, atol=1e-12)
 
+    def test_for_other_packages_with_regions(self):
+        mesh = self.placed(self.divided_square(), 0.1).mesh()
+        np.testing.assert_array_equal(mesh.to_meshio().cell_data_dict["tag"]["triangle"],
+                                      mesh.element_tags)
+        grid, there = mesh.to_pyvista(), mesh.to_skfem()
+        areas = grid.compute_cell_sizes()["Area"]
+        self.assertEqual((set(there.subdomains), set(there.boundaries)),
+                         ({"tag_3", "tag_7"}, {"tag_4", "tag_7"}))
+        middles = there.p[:, there.t].mean(axis=1)
+        for tag, is_left in (3, True), (7, False):
+            self.assertAlmostEqual(areas[grid["tag"] == tag].sum(), 0.5, 12)
+            np.testing.assert_array_equal(np.sort(there.subdomains[f"tag_{tag}"]),
+                                          np.flatnonzero((middles[0] < 0.5) == is_left))
+
     def test_for_other_packages_in_space(self):
         domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (2, 1, 1), tag=5)
         mesh = self.placed(domain, 0.25).mesh()
@@ -539,6 +583,7 @@ class Meshes(Case):
         self.assertEqual(set(mesh.to_meshio().cells_dict), {"tetra", "triangle"})
         there = mesh.to_skfem()
         self.assertEqual(there.t.shape, (4, mesh.owned_elements))
+        self.assertFalse(there.subdomains)
         np.testing.assert_array_equal(np.sort(there.boundaries["tag_5"]), there.boundary_facets())
 
     def test_for_other_packages_on_surfaces_alone(self):

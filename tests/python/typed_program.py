@@ -38,7 +38,7 @@ class Watch:
 
 def in_the_plane(context: pnpbs.Context) -> Tuple[pnpbs.Domain, pnpbs.Placement]:
     domain = pnpbs.Domain(context).add_curve(circle, 0, 2 * math.pi, tag=3).add_fixed_nodes([(0, 0)])
-    domain.set_tag_name(1, 3, "rim").check()
+    domain.set_tag_name(1, 3, "rim").add_region((0.5, 0), 5).check()
     names: Dict[Tuple[int, int], str] = domain.tag_names()
     assert names == {(1, 3): "rim"}
     low, high = domain.bounds()
@@ -65,8 +65,10 @@ def results(placement: pnpbs.Placement) -> None:
     some: List[NDArray[np.int64]] = lists[1:3]
     is_triangle: NDArray[np.bool_] = placement.stars().triangle[0]
     triangles: NDArray[np.int64] = placement.triangles()
+    regions: NDArray[np.int32] = placement.element_tags()
     assert len(points) == len(ids) == len(tags) == len(lists) == placement.node_count
     assert len(first) and len(some) == 2 and len(is_triangle) and len(triangles)
+    assert (regions == 5).all() and len(regions) == len(triangles)
     field = pnpbs.Transfer(placement, points[:, 0], order=2)
     x: Doubles = field.at_nodes(placement, conserve=True)
     assert math.isclose(placement.sum(x), placement.sum(points[:, 0]), abs_tol=1e-9)
@@ -112,6 +114,7 @@ def mistakes(context: pnpbs.Context, domain: pnpbs.Domain, placement: pnpbs.Plac
     placement.run(progress="bar")  # type: ignore[arg-type]
     placement.mesh().dim = 3  # type: ignore[misc]
     domain.add_offset(0.1, 0, 1)  # type: ignore[arg-type]
+    domain.add_region((0, 0), "steel")  # type: ignore[arg-type]
     placement.voronoi(placement)  # type: ignore[arg-type]
     pnpbs.Status.FINE  # type: ignore[attr-defined]
 

@@ -79,6 +79,7 @@ pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices,
     const int64_t *segment_ends, const int32_t *segment_tags, int64_t holes,
     const double *hole_points);
 pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double *point);
+pnpbs_status pnpbs_domain_add_region(pnpbs_domain domain, const double *point, int32_t tag);
 pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
     const double *coordinates, const int32_t *tags);
 pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
@@ -173,6 +174,8 @@ pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t ca
     int64_t *count, int64_t *triangles);
 pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
     int64_t *count, int64_t *tetrahedra);
+pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int32_t *tags);
 pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement placement, int64_t capacity,
     int64_t *count, int32_t *corners, int64_t *elements);
 pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, int64_t capacity,

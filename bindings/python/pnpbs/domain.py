@@ -305,6 +305,14 @@ class Domain(Handle):
         """Removes the region around a point from the domain, up to the next curves or surfaces."""
         return self._call("add_hole", as_point(point, self.dim, "point"))
 
+    def add_region(self, point: ArrayLike, tag: int) -> Domain:
+        """Gives a tag, not 0, to the region around a point, up to the next curves or surfaces:
+        elements that lie in it have this tag (`Placement.element_tags`, `Placement.mesh`), in files
+        too. So inner curves and surfaces divide a domain into materials. Elements of regions
+        without a point have the tag 0. `check` raises `Status.ERROR_DOMAIN` if the point lies
+        outside the domain, on a curve or surface, or in a region with another tag."""
+        return self._call("add_region", as_point(point, self.dim, "point"), tag)
+
     def add_fixed_nodes(self, coordinates: ArrayLike, tags: Optional[ArrayLike] = None) -> Domain:
         """Adds fixed nodes, which keep their exact coordinates, inside the domain or on a vertex of
         its curves or surfaces."""

@@ -26,7 +26,8 @@ class MeshArrays:
     - `numbers`, `ids`, `owners`, `tags`: of each node; tags as in `placement.nodes`.
     - `elements`: local indices of their corners, (elements, 3) or (elements, 4).
     - `element_numbers`, `element_owners`, `element_tags`: of each element; the tag is that of the
-      surface on surfaces alone, and 0 elsewhere.
+      region it lies in (`domain.add_region`), or 0 if the region has none; on surfaces alone, that
+      of the surface.
     - `connectivity`: numbers of the nodes at the corners, of the same shape as `elements`.
     - `facets`: local indices of the nodes of facets of these elements, (facets, 2) or (facets, 3):
       edges of triangles in the plane that are parts of the boundary or of inner curves, in the

@@ -20,8 +20,8 @@ class MeshConversions(MeshArrays):
 
     def to_meshio(self) -> Any:
         """Returns what this rank owns as a `meshio.Mesh`: elements as cells, and facets as cells of
-        one dimension less. Cells have the data `tag`, points `tag`, `id` and `number`. Nodes of
-        other ranks in these elements are among the points. Local."""
+        one dimension less. Cells have the data `tag`, of elements that of the region, points `tag`,
+        `id` and `number`. Nodes of other ranks in these elements are among the points. Local."""
         meshio = _package("meshio")
         names = {2: "line", 3: "triangle", 4: "tetra"}
         mine = self._owned_facets()
@@ -35,8 +35,8 @@ class MeshConversions(MeshArrays):
 
     def to_pyvista(self, facets: bool = False) -> Any:
         """Returns what this rank owns as a `pyvista.UnstructuredGrid`, of its elements or of its
-        facets. Cells have the data `tag`, points `tag`, `id` and `number`. Nodes of other ranks in
-        these elements are among the points. Local."""
+        facets. Cells have the data `tag`, of elements that of the region, points `tag`, `id` and
+        `number`. Nodes of other ranks in these elements are among the points. Local."""
         pyvista = _package("pyvista")
         types = {2: pyvista.CellType.LINE, 3: pyvista.CellType.TRIANGLE, 4: pyvista.CellType.TETRA}
         mine = self._owned_facets() if facets else slice(self.owned_elements)
@@ -50,8 +50,8 @@ class MeshConversions(MeshArrays):
 
     def to_skfem(self) -> Any:
         """Returns the mesh as scikit-fem's `MeshTri` or `MeshTet`, with one of its boundaries for
-        each tag of facets: `tag_7` for 7. scikit-fem has no ranks, so all nodes must be on this
-        one. Local."""
+        each tag of facets, and one of its subdomains for each tag of regions: `tag_7` for 7.
+        scikit-fem has no ranks, so all nodes must be on this one. Local."""
         skfem = _package("skfem")
         if self.owned_nodes != self.all_nodes:
             raise ValueError(f"this rank owns {self.owned_nodes} of {self.all_nodes} nodes; "
@@ -62,8 +62,11 @@ class MeshConversions(MeshArrays):
         mesh = kind(np.ascontiguousarray(self.coordinates.T),
                     np.ascontiguousarray(self.elements.T.astype(np.int64)))
         rows = _rows_of(np.sort(mesh.facets.T, axis=1), np.sort(self.facets, axis=1))
-        return mesh.with_boundaries({f"tag_{tag}": rows[self.facet_tags == tag]
+        mesh = mesh.with_boundaries({f"tag_{tag}": rows[self.facet_tags == tag]
                                      for tag in np.unique(self.facet_tags)})
+        regions = np.unique(self.element_tags[self.element_tags != 0])
+        return mesh.with_subdomains({f"tag_{tag}": np.flatnonzero(self.element_tags == tag)
+                                     for tag in regions})
 
     def to_dolfinx(self, comm: Any) -> Tuple[Any, Any]:
         """Returns the mesh for DOLFINx, and the tags of its facets (boundary and inner ones) as

@@ -205,6 +205,16 @@ class Results(PlacementHandle):
         rank that owns its node with the lowest id; other corners may be ghosts. Collective."""
         return self._elements("get_tetrahedra", 4)
 
+    def element_tags(self) -> Int32s:
+        """Returns the tag of each element: that of the region it lies in (`Domain.add_region`), or
+        0 if the region has none. The order is that of `triangles`, in space that of `tetrahedra`.
+        On surfaces alone it raises `Status.ERROR_ARGUMENT`. Collective."""
+        count = ctypes.c_int64()
+        self._call("get_element_tags", 0, ctypes.byref(count), None)
+        tags = np.zeros(count.value, np.int32)
+        self._call("get_element_tags", len(tags), ctypes.byref(count), tags)
+        return tags
+
     def incident_elements(self) -> Ids:
         """Returns every element with a corner among this rank's nodes, whichever rank it belongs
         to: triangles in the plane, (n, 3) local indices, tetrahedra in space, (n, 4), triangles on
