@@ -97,6 +97,7 @@ module pnpbs
     procedure :: set_filled => domain_set_filled
     procedure :: set_repair => domain_set_repair
     procedure :: add_hole => domain_add_hole
+    procedure :: add_region => domain_add_region
     procedure :: add_fixed_nodes => domain_add_fixed_nodes
     procedure :: read_poly => domain_read_poly
     procedure :: parse_poly => domain_parse_poly
@@ -187,6 +188,7 @@ module pnpbs
     procedure :: get_triangles => placement_get_triangles
     procedure :: tetrahedron_count => placement_tetrahedron_count
     procedure :: get_tetrahedra => placement_get_tetrahedra
+    procedure :: get_element_tags => placement_get_element_tags
     procedure :: incident_element_count => placement_incident_element_count
     procedure :: get_incident_elements => placement_get_incident_elements
     procedure :: boundary_triangle_count => placement_boundary_triangle_count
@@ -971,6 +973,29 @@ contains
     status = PNPBS_OK
     if (.not. given%is_wrong()) status = c_domain_add_hole(self%c, point)
     call conclude('domain%add_hole', status, stat, errmsg, given)
+  end subroutine
+
+  !> Gives a tag to the region around a point, up to the next curves or surfaces of either role:
+  !> elements that lie in it have this tag (placement%get_element_tags, mesh%get_elements), in files
+  !> too. So inner curves and surfaces divide a domain into materials. Elements of regions without a
+  !> point have the tag 0. Local. Errors of domain%check: PNPBS_ERROR_DOMAIN if the point lies
+  !> outside the domain, on a curve or surface, or in a region with another tag.
+  !>   point  (dim)
+  !>   tag    nonzero
+  subroutine domain_add_region(self, point, tag, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: point(:)
+    integer(c_int32_t), intent(in) :: tag
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    integer :: dim
+    dim = dimension_of(self, given)
+    call given%check_rows('point', size(point), dim)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_domain_add_region(self%c, point, tag)
+    call conclude('domain%add_region', status, stat, errmsg, given)
   end subroutine
 
   !> Adds fixed nodes, which keep their exact coordinates. Local.
@@ -2240,6 +2265,24 @@ contains
     end do
   end subroutine
 
+  !> Copies the tag of each element: that of the region it lies in (domain%add_region), or 0 if the
+  !> region has none. The order is that of get_triangles, in space that of get_tetrahedra.
+  !> Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_ARGUMENT on surfaces alone.
+  !>   tags  (count), as many as triangle_count or tetrahedron_count returns
+  subroutine placement_get_element_tags(self, tags, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(inout) :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_tags
+    integer(c_int64_t) :: room, count
+    integer(c_int) :: status
+    call given%place_int32('tags', tags, a_tags, room)
+    status = c_placement_get_element_tags(self%c, given%capacity(room), count, a_tags)
+    call conclude('placement%get_element_tags', status, stat, errmsg, given)
+  end subroutine
+
   !> Returns the number of elements that get_incident_elements returns. Collective.
   !>   corners  optional: of each, 3 or 4
   subroutine placement_incident_element_count(self, count, corners, stat, errmsg)
@@ -2851,7 +2894,8 @@ contains
   !>   nodes    (corners, elements) local indices of the nodes at the corners
   !>   numbers  (elements) from 0
   !>   owners   (elements) the rank that owns it
-  !>   tags     (elements) on surfaces alone the tag of the surface; 0 elsewhere
+  !>   tags     (elements) of the region it lies in (domain%add_region), or 0 if the region has
+  !>            none; on surfaces alone of the surface
   subroutine mesh_get_elements(self, nodes, numbers, owners, tags, stat, errmsg)
     class(pnpbs_mesh), intent(in) :: self
     integer(c_int32_t), intent(inout), optional :: nodes(:,:), owners(:), tags(:)

@@ -492,6 +492,15 @@ module pnpbs_c
       integer(c_int) :: c_domain_add_hole
     end function
 
+    function c_domain_add_region(domain, point, tag) bind(C, name="pnpbs_domain_add_region")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), intent(in) :: point(*)
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_region
+    end function
+
     function c_domain_add_fixed_nodes(domain, n, coordinates, tags) bind(C, &
       name="pnpbs_domain_add_fixed_nodes")
       import
@@ -1045,6 +1054,17 @@ module pnpbs_c
       integer(c_int64_t), intent(out) :: count
       type(c_ptr), value :: tetrahedra ! int64_t *
       integer(c_int) :: c_placement_get_tetrahedra
+    end function
+
+    function c_placement_get_element_tags(placement, capacity, count, tags) bind(C, &
+      name="pnpbs_placement_get_element_tags")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: tags ! int32_t *
+      integer(c_int) :: c_placement_get_element_tags
     end function
 
     function c_placement_get_incident_elements(placement, capacity, count, corners, elements) &

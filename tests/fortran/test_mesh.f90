@@ -13,6 +13,7 @@ program test_mesh
 
   call context%create_serial
   call about_the_plane
+  call about_regions
   call about_a_box
   call about_a_surface
   call about_wrong_arguments
@@ -43,12 +44,81 @@ contains
     call mesh%destroy
   end subroutine
 
+  !> The unit square, divided by a line into two regions with tags.
+  subroutine about_regions
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    type(pnpbs_mesh) :: mesh
+    integer(c_int64_t), allocatable :: triangles(:,:)
+    integer(c_int32_t), allocatable :: tags(:), corners(:,:)
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int64_t) :: nodes, elements
+    call square(context, domain, placement, 0.15d0)
+    call domain%add_polyline(PNPBS_INNER, .false., reshape([0.5d0, 0d0, 0.5d0, 1d0], [2, 2]))
+    call domain%add_region([0.2d0, 0.5d0], 3)
+    call domain%add_region([0.8d0, 0.5d0], 7)
+    call placement%set('steps', 20)
+    call placement%run
+    call placement%count(nodes)
+    call placement%triangle_count(elements)
+    allocate (x(2, nodes), triangles(3, elements), tags(elements + 1), corners(3, elements))
+    call placement%get_nodes(x)
+    call placement%get_triangles(triangles)
+    tags = -7
+    call placement%get_element_tags(tags)
+    call expect(tags(elements + 1) == -7, 'room for tags that is not needed')
+    call look_at_regions(x, triangles, tags(:elements))
+    call placement%get_element_tags(tags(:elements - 1), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call placement%get_element_tags(tags(::2), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'tags has gaps')
+
+    call mesh%create(placement)
+    call mesh%get_nodes(x)
+    call mesh%get_elements(corners, tags=tags)
+    call look_at_regions(x, int(corners, c_int64_t), tags(:elements))
+    call mesh%destroy
+    call placement%destroy
+
+    call domain%add_region([0.2d0, 0.5d0], 0, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'tag')
+    call domain%add_region([0.2d0, 0.5d0, 0d0], 3, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'point has an extent of 3 where 2')
+    call domain%add_region([0.2d0, 0.9d0], 4)
+    call domain%check(stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_DOMAIN, errmsg, 'region 2 at (0.2, 0.9)')
+    call domain%destroy
+  end subroutine
+
+  !> Triangles with the tag 3 fill the left half, those with the tag 7 the right one.
+  subroutine look_at_regions(x, corners, tags)
+    real(c_double), intent(in) :: x(:,:)
+    integer(c_int64_t), intent(in) :: corners(:,:)
+    integer(c_int32_t), intent(in) :: tags(:)
+    real(c_double) :: areas(2), a(2), b(2)
+    logical :: agree
+    integer :: t, side
+    areas = 0
+    agree = .true.
+    do t = 1, size(tags)
+      side = merge(1, 2, sum(x(1, corners(:, t))) < 1.5d0)
+      agree = agree .and. tags(t) == merge(3, 7, side == 1)
+      a = x(:, corners(2, t)) - x(:, corners(1, t))
+      b = x(:, corners(3, t)) - x(:, corners(1, t))
+      areas(merge(1, 2, tags(t) == 3)) = areas(merge(1, 2, tags(t) == 3)) &
+        + (a(1) * b(2) - a(2) * b(1)) / 2
+    end do
+    call expect(agree, 'tags of the regions on either side')
+    call expect(maxval(abs(areas - 0.5d0)) < 1d-12, 'areas of the regions')
+  end subroutine
+
   !> A box, and a wall inside.
   subroutine about_a_box
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
     type(pnpbs_mesh) :: mesh
     integer(c_int64_t) :: elements, facets
+    integer(c_int32_t), allocatable :: tags(:)
     real(c_double) :: wall(3, 4)
     wall = reshape([0.2d0, 0.2d0, 0.5d0, 0.8d0, 0.2d0, 0.5d0, 0.8d0, 0.8d0, 0.5d0, &
                     0.2d0, 0.8d0, 0.5d0], [3, 4])
@@ -70,14 +140,19 @@ contains
 
     call domain%add_surface(PNPBS_INNER, wall, &
                             reshape(int([1, 2, 3, 1, 3, 4], c_int64_t), [3, 2]), [9, 9])
+    call domain%add_region([0.9d0, 0.9d0, 0.9d0], 4)
     call placement%create(context, domain)
     call placement%set('steps', 20)
     call placement%set_spacing_constant(0.25d0)
     call placement%run
+    call placement%tetrahedron_count(elements)
+    allocate (tags(elements))
+    call placement%get_element_tags(tags)
+    call expect(all(tags == 4), 'tags of tetrahedra')
     call mesh%create(placement, 0)
     call placement%destroy
     call domain%destroy
-    call look_at_elements(mesh, 1d0, 0)
+    call look_at_elements(mesh, 1d0, 4)
     call look_at_facets(mesh, 1d0, inner_tag=9)
     call mesh%destroy
   end subroutine
@@ -89,6 +164,7 @@ contains
     type(pnpbs_mesh) :: mesh
     integer(c_int64_t) :: elements, facets
     integer(c_int32_t), allocatable :: two(:,:)
+    integer(c_int32_t) :: tags(1)
     call domain%create(context, 3)
     call domain%add_box(zero, one, 5)
     call domain%set_filled(.false.)
@@ -100,6 +176,8 @@ contains
     call mesh%create(placement)
     call look_at(placement, mesh, 3, 3, elements, 0_c_int64_t)
     call look_at_elements(mesh, 6d0, 5)
+    call placement%get_element_tags(tags, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'surfaces alone')
     call mesh%destroy
     call placement%destroy
     call domain%destroy
