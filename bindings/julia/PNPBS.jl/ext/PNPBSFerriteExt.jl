@@ -10,17 +10,17 @@ import PNPBS
 
 Returns the mesh as a grid of triangles or tetrahedra, whose cells and nodes have the indices that
 elements and nodes have in `mesh`. The facet set `"tag_7"` has the facets with tag 7 of the boundary
-and of inner curves or surfaces, an inner one as a facet of one of its two cells. On surfaces alone
-the cell set `"tag_7"` has the triangles of the surface. Ferrite has no ranks, so all nodes must be
-on this one. Local.
+and of inner curves or surfaces, an inner one as a facet of one of its two cells. The cell set
+`"tag_7"` has the elements with tag 7: those of a region, on surfaces alone those of the surface.
+Elements without a tag are in no cell set. Ferrite has no ranks, so all nodes must be on this one.
+Local.
 """
 function Ferrite.Grid(mesh::PNPBS.DistributedMesh)
     PNPBS.require_whole_mesh(mesh, "Ferrite")
     cell = size(mesh.elements, 1) == 3 ? Ferrite.Triangle : Ferrite.Tetrahedron
     cells = cell.(PNPBS.columns_as_tuples(Int, mesh.elements))
     nodes = Ferrite.Node.(PNPBS.columns_as_tuples(Float64, mesh.coordinates))
-    on_surfaces = size(mesh.elements, 1) == mesh.dim
-    cellsets = sets_by_tag(mesh.element_tags, on_surfaces ? eachindex(cells) : 1:0)
+    cellsets = sets_by_tag(mesh.element_tags, eachindex(cells))
     facetsets = sets_by_tag(mesh.facet_tags, facets_of_cells(mesh, cells))
     return Ferrite.Grid(cells, nodes; cellsets = cellsets, facetsets = facetsets)
 end
@@ -35,9 +35,11 @@ function facets_of_cells(mesh, cells)
     end
 end
 
+# Without what has the tag 0, which is none.
 function sets_by_tag(tags, members)
     sets = Dict{String,Vector{eltype(members)}}()
     for (tag, member) in zip(tags, members)
+        tag == 0 && continue
         push!(get!(Vector{eltype(members)}, sets, PNPBS.tag_label(tag)), member)
     end
     return sets

@@ -217,6 +217,10 @@ pnpbs_domain_add_hole(domain, point) =
     @ccall $(symbol(:pnpbs_domain_add_hole))(
         domain::pnpbs_domain, point::Ptr{Cdouble})::pnpbs_status
 
+pnpbs_domain_add_region(domain, point, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_region))(
+        domain::pnpbs_domain, point::Ptr{Cdouble}, tag::Int32)::pnpbs_status
+
 pnpbs_domain_add_fixed_nodes(domain, n, coordinates, tags) =
     @ccall $(symbol(:pnpbs_domain_add_fixed_nodes))(
         domain::pnpbs_domain, n::Int64, coordinates::Ptr{Cdouble}, tags::Ptr{Int32})::pnpbs_status
@@ -466,6 +470,11 @@ pnpbs_placement_get_tetrahedra(placement, capacity, count, tetrahedra) =
     @ccall $(symbol(:pnpbs_placement_get_tetrahedra))(
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
         tetrahedra::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_element_tags(placement, capacity, count, tags) =
+    @ccall $(symbol(:pnpbs_placement_get_element_tags))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
+        tags::Ptr{Int32})::pnpbs_status
 
 pnpbs_placement_get_incident_elements(placement, capacity, count, corners, elements) =
     @ccall $(symbol(:pnpbs_placement_get_incident_elements))(

@@ -28,7 +28,7 @@ using Base: disable_sigint, reenable_sigint
 export Context, Domain, Placement, CompressedRows, PNPBSError
 export set!, set_spacing!, set_spacing_from_shape!, set_monitor!, set_nodes!
 export set_spacing_mesh!, set_spacing_points!, set_spacing_file!
-export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_fixed_nodes!
+export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_region!, add_fixed_nodes!
 export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!
 export add_offset!
 export set_filled!, set_repair!
@@ -43,7 +43,7 @@ export add_from_ghosts!, incident_elements, incident_elements!
 export Transfer, at_nodes, at_points, linear_nodes
 export DistributedMesh, write_mesh, VoronoiCells
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
-export boundary_edges, boundary_triangles, check_results
+export element_tags, boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
 export add_output_field, clear_output_fields
 export write_checkpoint, read_checkpoint!

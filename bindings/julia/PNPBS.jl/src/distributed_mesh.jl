@@ -28,7 +28,8 @@ all ranks, contiguously by rank, as in [`numbering`](@ref); ids and ranks count 
 - `numbers`, `ids`, `owners`, `tags`: of each node; tags as in [`nodes`](@ref).
 - `elements`: local indices of their corners, `(3, elements)` or `(4, elements)`.
 - `element_numbers`, `element_owners`, `element_tags`: of each element; the tag is that of the
-  surface on surfaces alone, and 0 elsewhere.
+  region it lies in ([`add_region!`](@ref)), or 0 if the region has none; on surfaces alone, that of
+  the surface.
 - `connectivity`: numbers of the nodes at the corners, of the same size as `elements`.
 - `facets`: local indices of the nodes of facets of these elements, `(2, facets)` or `(3, facets)`:
   edges of triangles in the plane that are parts of the boundary or of inner curves, in the
@@ -55,7 +56,8 @@ For example, what a loop over the elements of this rank needs:
 
 A mesh that is on one rank goes to Ferrite.jl by `Ferrite.Grid(mesh)`, to Gridap.jl by
 `Gridap.Geometry.UnstructuredDiscreteModel(mesh)`, with a facet set or a tag of the name `"tag_7"`
-for the facets with tag 7. Julia 1.9 and later load these methods with the packages.
+for the facets with tag 7. In Ferrite the elements with tag 7 are the cell set of this name. Julia
+1.9 and later load these methods with the packages.
 """
 Base.@kwdef struct DistributedMesh
     dim::Int

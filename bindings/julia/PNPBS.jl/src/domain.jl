@@ -462,6 +462,22 @@ function add_hole!(domain::Domain, point)
 end
 
 """
+    add_region!(domain, point, tag)
+
+Gives a tag, not 0, to the region around a point, up to the next curves or surfaces: elements that
+lie in it have this tag ([`element_tags`](@ref), [`DistributedMesh`](@ref)), in files too. So inner
+curves and surfaces divide a domain into materials. Elements of regions without a point have the
+tag 0. [`check_domain`](@ref) throws `:error_domain` if the point lies outside the domain, on a
+curve or surface, or in a region with another tag.
+"""
+function add_region!(domain::Domain, point, tag::Integer)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_region(live(domain), as_point(point, ndims(domain), "point"),
+                                           tag))
+    return domain
+end
+
+"""
     add_fixed_nodes!(domain, coordinates; tags = nothing)
 
 Adds fixed nodes, which keep their exact coordinates, inside the domain or on a vertex of its curves

@@ -210,6 +210,23 @@ function elements!(placement, corners, get, rows)
 end
 
 """
+    element_tags(placement) -> Vector{Int32}
+
+Returns the tag of each element: that of the region it lies in ([`add_region!`](@ref)), or 0 if the
+region has none. The order is that of [`triangles`](@ref), in space that of [`tetrahedra`](@ref). On
+surfaces alone it throws `:error_argument`. Collective.
+"""
+function element_tags(placement::Placement)
+    count = Ref{Int64}(0)
+    get(n, tags) = check(placement, LibPNPBS.pnpbs_placement_get_element_tags(live(placement), n,
+                                                                              count, tags))
+    get(0, C_NULL)
+    tags = zeros(Int32, count[])
+    get(count[], tags)
+    return tags
+end
+
+"""
     boundary_edges(placement) -> (edges, tags)
 
 Returns the edges between consecutive nodes on boundary and inner curves of a placement in the

@@ -23,6 +23,15 @@ function square_with_a_line(context)
                          [0.3 0.7; 0.4 0.6]; role = :inner, closed = false, tags = 7)
 end
 
+# Three strips, of which the one in the middle has no tag.
+function square_with_regions(context)
+    square = add_polyline!(Domain(context), [0 1 1 0; 0 0 1 1]; tags = [3, 4, 4, 4])
+    for (x, tag) in ((0.3, 7), (0.6, 8))
+        add_polyline!(square, [x x; 0 1]; role = :inner, closed = false, tags = tag)
+    end
+    return add_region!(add_region!(square, (0.1, 0.5), 7), (0.9, 0.5), 20)
+end
+
 function box_with_a_wall(context)
     box = add_box!(Domain(context; dim = 3), (0, 0, 0), (2, 1, 1); tag = 5)
     return add_surface!(box, [1 1 1 1; 0.2 0.8 0.8 0.2; 0.2 0.2 0.8 0.8], [1 1; 2 3; 3 4];
@@ -61,6 +70,15 @@ end
         grid = check_grid_of_ferrite(mesh_of(surface_of_a_box(context), 0.3))
         @test sort(collect(grid.cellsets["tag_5"])) == eachindex(grid.cells)
         @test length(grid.cellsets) == 1
+        # A tag of a region may be one of a curve as well.
+        mesh_of_regions = mesh_of(square_with_regions(context), 0.1)
+        grid = check_grid_of_ferrite(mesh_of_regions)
+        @test Set(keys(grid.cellsets)) == Set(["tag_7", "tag_20"])
+        x = mesh_of_regions.coordinates[1, :]
+        within(low, high) = [k for (k, cell) in enumerate(grid.cells)
+                             if 3low < sum(x[collect(cell.nodes)]) < 3high]
+        @test sort(collect(grid.cellsets["tag_7"])) == within(0, 0.3)
+        @test sort(collect(grid.cellsets["tag_20"])) == within(0.6, 1)
         e = thrown(() -> Ferrite.Grid(lacking_a_node(mesh)))
         @test e isa ArgumentError && occursin("Ferrite takes meshes that are on one rank", e.msg)
     end

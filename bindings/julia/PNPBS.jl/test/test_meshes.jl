@@ -46,13 +46,41 @@ placed_with(domain, d) = (p = set_spacing!(Placement(domain; steps = 20), d); ru
     end
 end
 
+@testset "regions with tags" begin
+    Context() do context
+        domain = add_polyline!(square_domain(context), [0.5 0.5; 0 1]; role = :inner,
+                               closed = false)
+        @test add_region!(add_region!(domain, (0.2, 0.5), 3), [0.8, 0.5], 7) === domain
+        placement = placed_with(domain, 0.1)
+        x, corners, tags = nodes(placement).points, triangles(placement), element_tags(placement)
+        mesh = DistributedMesh(placement)
+        of_placement = [measure_of((x[:, k] - x[:, c[1]] for k in c[2:3])...)
+                        for c in eachcol(corners)]
+        for (areas, tags, left) in
+            ((of_placement, tags, [sum(x[1, c]) < 1.5 for c in eachcol(corners)]),
+             (measures(mesh), mesh.element_tags,
+              [sum(mesh.coordinates[1, c]) < 1.5 for c in eachcol(mesh.elements)]))
+            @test tags isa Vector{Int32} && tags == ifelse.(left, 3, 7)
+            @test all(isapprox(sum(areas[tags .== tag]), 0.5; atol = 1e-12) for tag in (3, 7))
+        end
+
+        @test fails(() -> add_region!(domain, (0.2, 0.5), 0), :error_argument, "tag")
+        @test_throws DimensionMismatch add_region!(domain, (0.2, 0.5, 0), 3)
+        add_region!(domain, (0.2, 0.9), 4)
+        @test fails(() -> check_domain(domain), :error_domain, "region 2 at (0.2, 0.9)")
+    end
+end
+
 @testset "a distributed mesh in space" begin
     Context() do context
         box = add_box!(Domain(context; dim = 3), (0, 0, 0), (2, 1, 1); tag = 5)
         add_surface!(box, [1 1 1 1; 0.2 0.8 0.8 0.2; 0.2 0.2 0.8 0.8], [1 1; 2 3; 3 4];
                      role = :inner, tags = 6)
-        mesh = DistributedMesh(placed_with(box, 0.25))
+        placement = placed_with(add_region!(box, (0.1, 0.1, 0.1), 4), 0.25)
+        mesh = DistributedMesh(placement)
         check_mesh(mesh, 0)
+        @test all(mesh.element_tags .== 4)
+        @test element_tags(placement) == fill(4, size(tetrahedra(placement), 2))
         @test size(mesh.elements, 1) == 4 && sum(measures(mesh)) ≈ 2
         @test mesh.facet_inner == (mesh.facet_tags .== 6) && any(mesh.facet_inner)
         # From outside they turn counter-clockwise, so together they enclose the box.
@@ -72,6 +100,7 @@ end
         check_mesh(mesh, 0)
         @test mesh.dim == 3 && size(mesh.elements, 1) == 3
         @test all(mesh.element_tags .== 5) && size(mesh.facets) == (2, 0)
+        @test fails(() -> element_tags(placement), :error_argument, "surfaces alone")
         close(placement)
         @test size(mesh.coordinates) == (3, mesh.all_nodes)
     end
