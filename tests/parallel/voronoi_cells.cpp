@@ -379,7 +379,7 @@ struct PlacedInBody {
 
 PlacedInBody placed_in_body(const BodyCase& it, pnpbs_context in) {
   PlacedInBody made;
-  pnpbs_domain inset;
+  pnpbs_domain inset = nullptr;
   expect(pnpbs_domain_create(in, it.dim, &made.body) == PNPBS_OK &&
              pnpbs_domain_create(in, it.dim, &inset) == PNPBS_OK &&
              it.body(made.body, nullptr) >= 0,
