@@ -91,10 +91,15 @@ std::vector<GridArray> point_data(const Contents& all) {
   return data;
 }
 
-// The tag comes first, where DOLFINx expects it.
+// The tag comes first, where DOLFINx expects it, and so does that of regions.
 std::vector<GridArray> cell_data(const Contents& all) {
   if (all.cells == Cells::nodes) return {};
-  if (all.cells == Cells::elements) return {of_elements("quality", all, &ElementRows::quality, 1)};
+  if (all.cells == Cells::elements) {
+    std::vector<GridArray> data;
+    if (all.with_regions) data.push_back(of_elements("region", all, &ElementRows::regions, 1));
+    data.push_back(of_elements("quality", all, &ElementRows::quality, 1));
+    return data;
+  }
   std::vector<GridArray> data{of_facets("tag", all, &FacetRows::tags, 1)};
   if (all.dimension == 3) data.push_back(of_facets("quality", all, &FacetRows::quality, 1));
   return data;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gmsh's format 4.1, as text: the one that Gmsh writes itself. The facets of each tag are an entity
-// and a physical group, and so is the inside; a node belongs to the entity of its tag, or to the
-// inside where no facet has its tag. Without elements the nodes of each tag are points of a group.
+// and a physical group, and so are the elements of regions with each tag and the rest of the
+// inside; a node belongs to the entity of its tag, or to that of its region or the inside where no
+// facet has its tag. Without elements the nodes of each tag are points of a group.
 // All are numbered from 1, in the order of ids or corners.
 #include <algorithm>
 #include <vector>
@@ -16,16 +17,17 @@ namespace {
 
 enum Type { line = 1, triangle = 2, tetrahedron = 4, point = 15 };
 
+// Their tags are those of their blocks: see Writer::tag_of_block.
 struct HeldNode {
   std::int32_t tag;
   std::int64_t number;
   std::array<double, 3> x;
 };
 
-struct HeldFacet {
+struct HeldCell {
   std::int32_t tag;
   std::int64_t number;
-  std::array<std::int64_t, 3> corners;
+  std::array<std::int64_t, 4> corners;
 };
 
 class Writer {
@@ -40,6 +42,7 @@ class Writer {
   void write() {
     file_.append_text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
     count_nodes();
+    hold_nodes();
     file_.append_text(physical_names(physical_groups()));
     write_entities();
     write_nodes();
@@ -48,21 +51,45 @@ class Writer {
   }
 
  private:
-  bool has_inside_elements() const { return all_.with_elements && all_.elements > 0; }
+  bool has_inside_elements() const { return all_.with_elements && groups_.inside.rows.count > 0; }
   bool has_inside() const { return has_inside_elements() || inside_nodes_ > 0; }
 
   std::vector<const MshGroup*> physical_groups() const {
     std::vector<const MshGroup*> groups;
-    for (const MshGroup& group : groups_.tagged) groups.push_back(&group);
+    for (std::size_t g = 0; g < group_count(); ++g) groups.push_back(&group(g));
     if (has_inside_elements()) groups.push_back(&groups_.inside);
     return groups;
+  }
+
+  // ------------------------------------------------------------ blocks
+  // Those of tags, then those of regions.
+  std::size_t group_count() const { return groups_.tagged.size() + groups_.regions.size(); }
+  const MshGroup& group(std::size_t g) const {
+    const std::size_t tagged = groups_.tagged.size();
+    return g < tagged ? groups_.tagged[g] : groups_.regions[g - tagged];
+  }
+  static std::int32_t tag_of_block(std::size_t g) { return static_cast<std::int32_t>(g) + 1; }
+
+  // Of a node. Those inside, and without elements the inner ones, are too many to be kept.
+  std::int32_t block_of(const NodeRows& rows, std::size_t i) const {
+    const MshGroup* tagged = groups_.of(rows.tags[i]);
+    if (tagged)
+      return rows.tags[i] == 0 ? NodeDataByBlock::kInside : tag_of_block(index_of(tagged));
+    return all_.with_regions ? block_of_region(rows.regions[i]) : NodeDataByBlock::kInside;
+  }
+
+  std::int32_t block_of_region(std::int32_t region) const {
+    const MshGroup* group = group_of(groups_.regions, region);
+    if (!group) return NodeDataByBlock::kInside;
+    return tag_of_block(groups_.tagged.size() +
+                        static_cast<std::size_t>(group - groups_.regions.data()));
   }
 
   // How many of them belong to each group, and the box around all.
   void count_nodes() {
     TagGroup& box = groups_.inside.rows;
     bool first = true;
-    node_counts_.assign(groups_.tagged.size(), 0);
+    node_counts_.assign(group_count(), 0);
     for (const TagGroup& tag : nodes_.node_groups()) {
       for (std::size_t k = 0; k < 3; ++k) {
         box.low[k] = first ? tag.low[k] : std::min(box.low[k], tag.low[k]);
@@ -83,6 +110,7 @@ class Writer {
   // ------------------------------------------------------------ entities
   void write_entities() {
     std::array<std::size_t, 4> counts{};
+    counts[static_cast<std::size_t>(all_.dimension)] = groups_.regions.size();
     if (!groups_.tagged.empty())
       counts[static_cast<std::size_t>(groups_.tagged[0].dimension)] = groups_.tagged.size();
     if (has_inside()) ++counts[static_cast<std::size_t>(all_.dimension)];
@@ -93,8 +121,8 @@ class Writer {
         sink.number(counts[d]);
         sink.text(d < 3 ? " " : "\n");
       }
-      for (const MshGroup& group : groups_.tagged)
-        write_entity(std::to_string(group.number), group, true, sink);
+      for (std::size_t g = 0; g < group_count(); ++g)
+        write_entity(std::to_string(group(g).number), group(g), true, sink);
       if (has_inside())
         write_entity(std::to_string(groups_.inside.number), groups_.inside, has_inside_elements(),
                      sink);
@@ -104,17 +132,16 @@ class Writer {
 
   // ------------------------------------------------------------ nodes
   void write_nodes() {
-    hold_nodes();
     const std::string n = std::to_string(all_.nodes);
     auto blocks = std::ranges::count_if(node_counts_, [](std::int64_t count) { return count > 0; });
     if (inside_nodes_ > 0) ++blocks;
     file_.append_text("$Nodes\n" + std::to_string(blocks) + " " + n +
                       (all_.nodes > 0 ? " 1 " : " 0 ") + n + "\n");
-    for (std::size_t g = 0; g < groups_.tagged.size(); ++g) {
+    for (std::size_t g = 0; g < group_count(); ++g) {
       if (node_counts_[g] == 0) continue;
-      begin_block(groups_.tagged[g], "0", node_counts_[g]);
-      for_nodes_of(groups_.tagged[g], write_number);
-      for_nodes_of(groups_.tagged[g], write_place);
+      begin_block(group(g), "0", node_counts_[g]);
+      for_nodes_of(g, write_number);
+      for_nodes_of(g, write_place);
     }
     if (inside_nodes_ > 0) {
       begin_block(groups_.inside, "0", inside_nodes_);
@@ -141,48 +168,60 @@ class Writer {
                       kind + " " + std::to_string(count) + "\n");
   }
 
-  // Those inside, and without elements the inner ones, are too many to be kept.
-  bool is_held(std::int32_t tag) const { return tag != 0 && groups_.of(tag); }
-
   HeldNode row(const NodeRows& rows, std::size_t i) const {
     const auto dimension = static_cast<std::size_t>(all_.dimension);
-    HeldNode node{rows.tags[i], rows.first + static_cast<std::int64_t>(i) + 1, {}};
+    HeldNode node{block_of(rows, i), rows.first + static_cast<std::int64_t>(i) + 1, {}};
     for (std::size_t k = 0; k < dimension; ++k) node.x[k] = rows.x[dimension * i + k];
     return node;
   }
 
-  std::int32_t block_of(std::int32_t tag) const {
-    return is_held(tag) ? tag : NodeDataByBlock::kInside;
+  bool is_streamed(std::size_t g) const {
+    return g < groups_.tagged.size() && group(g).rows.tag == 0;
   }
 
   std::vector<std::int32_t> blocks_of_nodes() const {
     std::vector<std::int32_t> blocks;
-    for (std::size_t g = 0; g < groups_.tagged.size(); ++g)
-      if (node_counts_[g] > 0) blocks.push_back(block_of(groups_.tagged[g].rows.tag));
+    for (std::size_t g = 0; g < group_count(); ++g)
+      if (node_counts_[g] > 0)
+        blocks.push_back(is_streamed(g) ? NodeDataByBlock::kInside : tag_of_block(g));
     if (inside_nodes_ > 0) blocks.push_back(NodeDataByBlock::kInside);
     return blocks;
   }
 
   void hold_nodes() {
+    std::vector<std::int64_t> of_regions(groups_.regions.size(), 0);
     nodes_.for_nodes([&](const NodeRows& rows) {
       std::vector<HeldNode> held;
       std::vector<std::int32_t> blocks;
       for (std::size_t i = 0; i < rows.tags.size(); ++i) {
-        blocks.push_back(block_of(rows.tags[i]));
-        if (blocks.back() != NodeDataByBlock::kInside) held.push_back(row(rows, i));
+        blocks.push_back(block_of(rows, i));
+        if (blocks.back() == NodeDataByBlock::kInside) continue;
+        held.push_back(row(rows, i));
+        const auto g = static_cast<std::size_t>(blocks.back() - 1);
+        if (g >= groups_.tagged.size()) ++of_regions[g - groups_.tagged.size()];
       }
       node_data_.add_window(blocks);
       held_nodes_.add_window(std::move(held), file_.ranks());
     });
     held_nodes_.sort();
+    if (!of_regions.empty()) count_nodes_of_regions(std::move(of_regions));
+  }
+
+  // So far they count as inside.
+  void count_nodes_of_regions(std::vector<std::int64_t> counts) {
+    file_.ranks().allreduce_sum(counts);
+    for (std::size_t r = 0; r < counts.size(); ++r) {
+      node_counts_[groups_.tagged.size() + r] = counts[r];
+      inside_nodes_ -= counts[r];
+    }
   }
 
   template <class Write>
-  void for_nodes_of(const MshGroup& group, const Write& write) {
-    if (group.rows.tag == 0)
+  void for_nodes_of(std::size_t g, const Write& write) {
+    if (is_streamed(g))
       for_inside_nodes(write);
     else
-      held_nodes_.append(group.rows.tag, file_, write);
+      held_nodes_.append(tag_of_block(g), file_, write);
   }
 
   template <class Write>
@@ -190,27 +229,28 @@ class Writer {
     nodes_.for_nodes([&](const NodeRows& rows) {
       file_.append([&](Sink& sink) {
         for (std::size_t i = 0; i < rows.tags.size(); ++i)
-          if (!is_held(rows.tags[i])) write(row(rows, i), sink);
+          if (block_of(rows, i) == NodeDataByBlock::kInside) write(row(rows, i), sink);
       });
     });
   }
 
   // ------------------------------------------------------------ elements
   void write_elements() {
-    const std::size_t blocks = groups_.tagged.size() + (has_inside_elements() ? 1 : 0);
+    const std::size_t blocks = group_count() + (has_inside_elements() ? 1 : 0);
     const std::int64_t count = all_.with_elements ? all_.facets + all_.elements : all_.nodes;
     const std::string n = std::to_string(count);
     file_.append_text("$Elements\n" + std::to_string(blocks) + " " + n +
                       (count > 0 ? " 1 " : " 0 ") + n + "\n");
     all_.with_elements ? write_facets() : write_points();
+    if (!groups_.regions.empty()) write_regions();
     if (has_inside_elements()) write_inside();
     file_.append_text("$EndElements\n");
   }
 
   void write_points() {
-    for (const MshGroup& group : groups_.tagged) {
-      begin_block(group, std::to_string(point), group.rows.count);
-      for_nodes_of(group, [](const HeldNode& node, Sink& sink) {
+    for (std::size_t g = 0; g < groups_.tagged.size(); ++g) {
+      begin_block(group(g), std::to_string(point), group(g).rows.count);
+      for_nodes_of(g, [](const HeldNode& node, Sink& sink) {
         sink.number(node.number);
         sink.text(" ");
         sink.number(node.number);
@@ -220,43 +260,70 @@ class Writer {
   }
 
   void write_facets() {
-    hold_facets();
-    const auto corners = static_cast<std::size_t>(all_.facet_corners());
-    for (const MshGroup& group : groups_.tagged) {
-      begin_block(group, std::to_string(all_.dimension == 2 ? line : triangle), group.rows.count);
-      held_facets_.append(group.rows.tag, file_, [&](const HeldFacet& facet, Sink& sink) {
-        sink.number(facet.number);
-        for (std::size_t k = 0; k < corners; ++k) {
-          sink.text(" ");
-          sink.number(facet.corners[k] + 1);
-        }
-        sink.text("\n");
-      });
-    }
+    RowsByTag<HeldCell> facets;
+    nodes_.for_facets([&](const FacetRows& rows) {
+      std::vector<HeldCell> held;
+      for (std::size_t f = 0; f < rows.tags.size(); ++f)
+        held.push_back(
+            cell(tag_of_block(index_of(groups_.of(rows.tags[f]))), rows, all_.facet_corners(), f));
+      facets.add_window(std::move(held), file_.ranks());
+    });
+    facets.sort();
+    const int type = all_.dimension == 2 ? line : triangle;
+    for (std::size_t g = 0; g < groups_.tagged.size(); ++g)
+      write_cells(g, type, all_.facet_corners(), facets);
   }
 
-  void hold_facets() {
-    const auto corners = static_cast<std::size_t>(all_.facet_corners());
-    nodes_.for_facets([&](const FacetRows& rows) {
-      std::vector<HeldFacet> held;
-      for (std::size_t f = 0; f < rows.tags.size(); ++f) {
-        held.push_back({rows.tags[f], rows.first + static_cast<std::int64_t>(f) + 1, {}});
-        for (std::size_t k = 0; k < corners; ++k)
-          held.back().corners[k] = rows.corners[corners * f + k];
+  // Kept, since there may be too many regions to go through all elements for each.
+  void write_regions() {
+    RowsByTag<HeldCell> elements;
+    nodes_.for_elements([&](const ElementRows& rows) {
+      std::vector<HeldCell> held;
+      for (std::size_t e = 0; e < rows.regions.size(); ++e) {
+        const std::int32_t block = block_of_region(rows.regions[e]);
+        if (block == NodeDataByBlock::kInside) continue;
+        held.push_back(cell(block, rows, all_.element_corners(), e));
+        held.back().number += all_.facets;
       }
-      held_facets_.add_window(std::move(held), file_.ranks());
+      elements.add_window(std::move(held), file_.ranks());
     });
-    held_facets_.sort();
+    elements.sort();
+    for (std::size_t g = groups_.tagged.size(); g < group_count(); ++g)
+      write_cells(g, type_of_elements(), all_.element_corners(), elements);
   }
+
+  // Row i of the facets or elements.
+  template <class Rows>
+  static HeldCell cell(std::int32_t block, const Rows& rows, int corners, std::size_t i) {
+    HeldCell cell{block, rows.first + static_cast<std::int64_t>(i) + 1, {}};
+    const auto n = static_cast<std::size_t>(corners);
+    std::copy_n(&rows.corners[n * i], n, cell.corners.begin());
+    return cell;
+  }
+
+  void write_cells(std::size_t g, int type, int corners, const RowsByTag<HeldCell>& cells) {
+    begin_block(group(g), std::to_string(type), group(g).rows.count);
+    cells.append(tag_of_block(g), file_, [&](const HeldCell& cell, Sink& sink) {
+      sink.number(cell.number);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) {
+        sink.text(" ");
+        sink.number(cell.corners[k] + 1);
+      }
+      sink.text("\n");
+    });
+  }
+
+  int type_of_elements() const { return all_.dimension == 2 ? triangle : tetrahedron; }
 
   void write_inside() {
-    begin_block(groups_.inside, std::to_string(all_.dimension == 2 ? triangle : tetrahedron),
-                all_.elements);
+    begin_block(groups_.inside, std::to_string(type_of_elements()), groups_.inside.rows.count);
     nodes_.for_elements([&](const ElementRows& rows) {
       file_.append([&](Sink& sink) {
         std::int64_t number = all_.facets + rows.first;
         for (std::size_t e = 0; e < rows.quality.size(); ++e) {
-          sink.number(++number);
+          ++number;
+          if (all_.with_regions && rows.regions[e] != 0) continue;
+          sink.number(number);
           write_corners(rows.corners, e, all_.element_corners(), sink);
           sink.text("\n");
         }
@@ -271,7 +338,6 @@ class Writer {
   std::vector<std::int64_t> node_counts_;  // of the groups
   std::int64_t inside_nodes_ = 0;          // of none of them
   RowsByTag<HeldNode> held_nodes_;
-  RowsByTag<HeldFacet> held_facets_;
   NodeDataByBlock node_data_;
 };
 

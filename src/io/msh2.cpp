@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gmsh's format 2.2, as text, which programs read that know no later one. Numbers from 1. Facets of
-// the boundary have their tag as physical group, elements that of the inside. Without elements
-// every node is a point of its tag's group, since Gmsh forgets nodes that belong to nothing.
+// the boundary have their tag as physical group, elements that of their region or of the inside.
+// Without elements every node is a point of its tag's group, since Gmsh forgets nodes that belong
+// to nothing.
 #include <cmath>
 #include <cstdlib>
 
@@ -63,16 +64,20 @@ void write_facets(const NodeSource& nodes, SharedFile& file) {
   });
 }
 
-void write_elements(const NodeSource& nodes, const MshGroup& inside, SharedFile& file) {
+void write_elements(const NodeSource& nodes, const MshGroups& groups, SharedFile& file) {
   const Contents& all = nodes.contents();
-  const std::string group = std::to_string(inside.number);
   nodes.for_elements([&](const ElementRows& rows) {
     file.append([&](Sink& sink) {
       std::int64_t number = all.facets + rows.first;
       for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
         sink.text(all.dimension == 2 ? triangle_code : tetrahedron_code);
-        sink.text(group + " " + group);
+        const MshGroup* region =
+            all.with_regions ? group_of(groups.regions, rows.regions[e]) : nullptr;
+        const std::int64_t group = (region ? *region : groups.inside).number;
+        sink.number(group);
+        sink.text(" ");
+        sink.number(group);
         write_corners(rows.corners, e, all.element_corners(), sink);
         sink.text("\n");
       }
@@ -85,6 +90,7 @@ void write_names(const MshGroups& groups, bool with_inside, SharedFile& file) {
   std::vector<const MshGroup*> named;
   for (const MshGroup& group : groups.tagged)
     if (group.rows.tag > 0) named.push_back(&group);
+  for (const MshGroup& region : groups.regions) named.push_back(&region);
   if (with_inside) named.push_back(&groups.inside);
   file.append_text(physical_names(named));
 }
@@ -95,13 +101,13 @@ void write_msh2(const NodeSource& nodes, SharedFile& file) {
   file.append_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
   const Contents& all = nodes.contents();
   const MshGroups groups = msh_groups(nodes);
-  write_names(groups, all.with_elements && all.elements > 0, file);
+  write_names(groups, all.with_elements && groups.inside.rows.count > 0, file);
   write_points(nodes, file);
   const std::int64_t elements = all.with_elements ? all.facets + all.elements : all.nodes;
   file.append_text("$Elements\n" + std::to_string(elements) + "\n");
   if (all.with_elements) {
     write_facets(nodes, file);
-    write_elements(nodes, groups.inside, file);
+    write_elements(nodes, groups, file);
   } else {
     write_nodes_as_elements(nodes, file);
   }

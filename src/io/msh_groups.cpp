@@ -31,6 +31,27 @@ std::string name_of(const Contents& all, std::int32_t tag) {
   return name_of_tag(tag);
 }
 
+std::string name_of_region(const Contents& all, std::int32_t tag) {
+  const std::string* name = all.names ? all.names->find({all.dimension, tag}) : nullptr;
+  return name ? *name : "region_" + std::to_string(tag);
+}
+
+bool has_number(const std::vector<MshGroup>& groups, std::int64_t number) {
+  return std::ranges::find(groups, number, &MshGroup::number) != groups.end();
+}
+
+// name_of: by tag.
+template <class NameOf>
+std::vector<MshGroup> numbered_groups(int dimension, const std::vector<TagGroup>& tags,
+                                      const NameOf& name_of) {
+  std::vector<MshGroup> groups;
+  std::int64_t free = 1;
+  for (const TagGroup& tag : tags) free = std::max<std::int64_t>(free, tag.tag + std::int64_t{1});
+  for (const TagGroup& tag : tags)
+    groups.push_back({dimension, tag.tag > 0 ? tag.tag : free++, name_of(tag.tag), tag});
+  return groups;
+}
+
 void write_numbers(const std::array<double, 3>& numbers, Sink& sink) {
   for (const double number : numbers) {
     sink.text(" ");
@@ -40,28 +61,32 @@ void write_numbers(const std::array<double, 3>& numbers, Sink& sink) {
 
 }  // namespace
 
-MshGroup inside_group(const Contents& all) {
+std::vector<MshGroup> tagged_groups(const Contents& all, const std::vector<TagGroup>& tags) {
+  return numbered_groups(all.with_elements ? all.dimension - 1 : 0, tags,
+                         [&](std::int32_t tag) { return name_of(all, tag); });
+}
+
+std::vector<MshGroup> region_groups(const Contents& all, std::vector<TagGroup> tags) {
+  std::erase_if(tags, [](const TagGroup& group) { return group.tag == 0; });
+  return numbered_groups(all.dimension, tags,
+                         [&](std::int32_t tag) { return name_of_region(all, tag); });
+}
+
+MshGroup inside_group(const Contents& all, const std::vector<MshGroup>& regions) {
   MshGroup inside{all.dimension, 1, "domain", {}};
   std::int64_t named = 0;
   if (all.names)
     for (const auto& [group, name] : all.names->all()) {
-      if (group.dimension != all.dimension || group.tag < 1) continue;
+      if (group.dimension != all.dimension || group.tag < 1 || group_of(regions, group.tag))
+        continue;
       if (named++ == 0) {
         inside.number = group.tag;
         inside.name = name;
       }
     }
-  return named > 1 ? MshGroup{all.dimension, 1, "domain", {}} : inside;
-}
-
-std::vector<MshGroup> tagged_groups(const Contents& all, const std::vector<TagGroup>& tags) {
-  const int dimension = all.with_elements ? all.dimension - 1 : 0;
-  std::vector<MshGroup> groups;
-  std::int64_t free = 1;
-  for (const TagGroup& tag : tags) free = std::max<std::int64_t>(free, tag.tag + std::int64_t{1});
-  for (const TagGroup& tag : tags)
-    groups.push_back({dimension, tag.tag > 0 ? tag.tag : free++, name_of(all, tag.tag), tag});
-  return groups;
+  if (named > 1) inside = {all.dimension, 1, "domain", {}};
+  while (has_number(regions, inside.number)) ++inside.number;
+  return inside;
 }
 
 const MshGroup* group_of(const std::vector<MshGroup>& groups, std::int32_t tag) {
@@ -72,8 +97,15 @@ const MshGroup* group_of(const std::vector<MshGroup>& groups, std::int32_t tag) 
 
 MshGroups msh_groups(const NodeSource& nodes) {
   const Contents& all = nodes.contents();
-  return {tagged_groups(all, all.with_elements ? nodes.facet_groups() : nodes.node_groups()),
-          inside_group(all)};
+  MshGroups groups;
+  groups.tagged =
+      tagged_groups(all, all.with_elements ? nodes.facet_groups() : nodes.node_groups());
+  const std::vector<TagGroup> regions = nodes.region_groups();
+  groups.regions = region_groups(all, regions);
+  groups.inside = inside_group(all, groups.regions);
+  groups.inside.rows.count = all.elements;
+  for (const MshGroup& region : groups.regions) groups.inside.rows.count -= region.rows.count;
+  return groups;
 }
 
 std::string physical_names(const std::vector<const MshGroup*>& groups) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Physical groups of Gmsh's files: the facets of each tag, and the inside; or, without elements,
-// the nodes of each tag.
+// Physical groups of Gmsh's files: the facets of each tag, the elements of regions with each tag,
+// and those of the rest of the inside; or, without elements, the nodes of each tag.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,20 @@ struct MshGroup {
   TagGroup rows;
 };
 
-// The inside is called as the domain's is, if that has one name.
-MshGroup inside_group(const Contents& all);
 // Of facets, or of nodes without elements. Tags that are not positive, which Gmsh's groups must be,
 // get numbers that are free.
 std::vector<MshGroup> tagged_groups(const Contents& all, const std::vector<TagGroup>& tags);
+// The same of elements in regions that have a tag.
+std::vector<MshGroup> region_groups(const Contents& all, std::vector<TagGroup> tags);
+// The inside without these regions: called as the domain's is, if that has one name.
+MshGroup inside_group(const Contents& all, const std::vector<MshGroup>& regions);
 // In groups by tag; nullptr if there is none.
 const MshGroup* group_of(const std::vector<MshGroup>& groups, std::int32_t tag);
 
 struct MshGroups {
-  std::vector<MshGroup> tagged;  // of facets, or of nodes; by tag
-  MshGroup inside;
+  std::vector<MshGroup> tagged;   // of facets, or of nodes; by tag
+  std::vector<MshGroup> regions;  // by tag
+  MshGroup inside;                // its rows: elements without a region
 
   const MshGroup* of(std::int32_t tag) const { return group_of(tagged, tag); }
 };

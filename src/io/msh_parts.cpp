@@ -89,14 +89,24 @@ class MshPart {
     if (of_surfaces_alone()) {
       groups_[kMshElements] = tagged_groups(contents(mesh_.corners), boxes_by_tag(kMshElements));
     } else {
-      groups_[kMshElements] = {inside_group(contents(mesh_.dimension))};
-      for (const TagGroup& inside : boxes_by_tag(kMshElements))
-        groups_[kMshElements][0].rows = inside;
+      find_regions();
     }
     for (const MshKind kind : {kMshFacets, kMshElements}) {
       for (const MshGroup& group : groups_[kind]) taken_[kind].push_back(group.number);
       std::ranges::sort(taken_[kind]);
     }
+  }
+
+  // Those of elements with tags, and of the rest if there is one.
+  void find_regions() {
+    const std::vector<TagGroup> tags = boxes_by_tag(kMshElements);
+    std::vector<MshGroup>& groups = groups_[kMshElements];
+    groups = region_groups(contents(mesh_.dimension), tags);
+    MshGroup inside = inside_group(contents(mesh_.dimension), groups);
+    const auto rest = std::ranges::find(tags, 0, &TagGroup::tag);
+    if (rest != tags.end()) inside.rows = *rest;
+    if (rest != tags.end() || tags.empty()) groups.push_back(inside);
+    std::ranges::sort(groups, {}, [](const MshGroup& group) { return group.rows.tag; });
   }
 
   // As of what has this dimension, and facets of one less with tags.
@@ -129,6 +139,7 @@ class MshPart {
 
   // ------------------------------------------------------------ rows by entity
   void collect_rows() {
+    find_regions_of_nodes();
     for (std::size_t i = 0; i < mesh_.numbers.size(); ++i)
       node_rows_[part_of_node(i)].push_back(static_cast<std::int32_t>(i));
     for (const MshKind kind : {kMshFacets, kMshElements})
@@ -148,11 +159,26 @@ class MshPart {
     return {kind, static_cast<std::size_t>(group_of(groups, tag) - groups.data()), owner};
   }
 
+  // Of nodes inside, that of their elements.
+  void find_regions_of_nodes() {
+    node_regions_.assign(mesh_.numbers.size(), 0);
+    if (of_surfaces_alone()) return;
+    const auto n = static_cast<std::size_t>(mesh_.corners);
+    for (std::size_t e = 0; e < mesh_.element_tags.size(); ++e)
+      for (std::size_t k = n * e; k < n * (e + 1); ++k) {
+        const auto node = static_cast<std::size_t>(mesh_.element_corners[k]);
+        if (mesh_.tags[node] == 0) node_regions_[node] = mesh_.element_tags[e];
+      }
+  }
+
   // Of a tag that only the node has: inside.
   EntityPart part_of_node(std::size_t i) const {
-    for (const MshKind kind : {kMshElements, kMshFacets})
-      if (group_of(groups_[kind], mesh_.tags[i])) return part(kind, mesh_.tags[i], mesh_.owners[i]);
-    return {kMshElements, 0, mesh_.owners[i]};
+    const std::int32_t tag = mesh_.tags[i], owner = mesh_.owners[i];
+    const std::int32_t tag_within = of_surfaces_alone() ? tag : node_regions_[i];
+    const bool within = group_of(groups_[kMshElements], tag_within) != nullptr;
+    if (group_of(groups_[kMshFacets], tag) && !(within && of_surfaces_alone()))
+      return part(kMshFacets, tag, owner);
+    return within ? part(kMshElements, tag_within, owner) : EntityPart{kMshElements, 0, owner};
   }
 
   void number_facets() {
@@ -317,6 +343,7 @@ class MshPart {
   const DistributedMesh& mesh_;
   std::array<std::vector<MshGroup>, 2> groups_;     // by kind; by tag
   std::array<std::vector<std::int64_t>, 2> taken_;  // their numbers, sorted
+  std::vector<std::int32_t> node_regions_;          // tags, 0 for none
   RowsByPart node_rows_;
   RowsByPart rows_;                // of elements and facets that this rank owns
   std::vector<EntityPart> parts_;  // those of either

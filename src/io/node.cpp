@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangle's and TetGen's .node format, "nodes dimension attributes markers", then "number x y
 // marker" or "number x y z marker"; their .ele format, "elements corners attributes", then "number
-// corner corner ..."; and TetGen's .face format, "faces markers", then "number corner corner corner
-// marker". From 1.
+// corner corner ...", and the region where any has a tag; and TetGen's .face format, "faces
+// markers", then "number corner corner corner marker". From 1.
 #include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {
@@ -21,13 +21,18 @@ void write_node(const NodeSource& nodes, SharedFile& file) {
 void write_ele(const NodeSource& nodes, SharedFile& file) {
   const Contents& all = nodes.contents();
   const int corners = all.element_corners();
-  file.append_text(std::to_string(all.elements) + " " + std::to_string(corners) + " 0\n");
+  file.append_text(std::to_string(all.elements) + " " + std::to_string(corners) +
+                   (all.with_regions ? " 1\n" : " 0\n"));
   nodes.for_elements([&](const ElementRows& rows) {
     file.append([&](Sink& sink) {
       std::int64_t number = rows.first;
       for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
         write_corners(rows.corners, e, corners, sink);
+        if (all.with_regions) {
+          sink.text(" ");
+          sink.number(rows.regions[e]);
+        }
         sink.text("\n");
       }
     });

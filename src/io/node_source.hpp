@@ -25,6 +25,7 @@ struct Contents {
   bool is_piece = false;       // one of many, which stands for itself and knows ghosts
   bool with_elements = false;  // and facets?
   Cells cells = Cells::nodes;  // of surfaces alone, which have no elements, the facets
+  bool with_regions = false;   // have elements tags, of the regions that they lie in?
   bool is_beside = false;      // a grid of the facets beside that of the elements
   std::int64_t nodes = 0, elements = 0, facets = 0;
   const GroupNames* names = nullptr;                 // of tags; none of pieces
@@ -43,12 +44,13 @@ struct Contents {
 };
 
 struct NodeRows {
-  std::int64_t first = 0;            // number of the first one here
-  std::vector<double> x;             // [nodes][dimension]
-  std::vector<std::int64_t> ids;     // [nodes]
-  std::vector<std::int32_t> tags;    // [nodes], 0: inner node
-  std::vector<double> spacing;       // [nodes], d at the node
-  std::vector<std::uint8_t> ghosts;  // [nodes], 1: another rank's; pieces only
+  std::int64_t first = 0;             // number of the first one here
+  std::vector<double> x;              // [nodes][dimension]
+  std::vector<std::int64_t> ids;      // [nodes]
+  std::vector<std::int32_t> tags;     // [nodes], 0: inner node
+  std::vector<std::int32_t> regions;  // [nodes], where they lie; with_regions only, not of pieces
+  std::vector<double> spacing;        // [nodes], d at the node
+  std::vector<std::uint8_t> ghosts;   // [nodes], 1: another rank's; pieces only
 };
 
 // Of one field of the caller's.
@@ -61,6 +63,7 @@ struct ElementRows {
   std::int64_t first = 0;
   std::vector<std::int64_t> corners;  // [elements][dimension + 1], numbers
   std::vector<float> quality;         // [elements], 2 r_in / R, in space 3 r_in / R
+  std::vector<std::int32_t> regions;  // [elements], 0: without a tag; with_regions only
 };
 
 struct FacetRows {  // on inner curves and surfaces, too
@@ -70,7 +73,7 @@ struct FacetRows {  // on inner curves and surfaces, too
   std::vector<float> quality;         // [facets], 2 r_in / R; in space only
 };
 
-// All nodes, or all facets, with one tag.
+// All nodes, all facets, or all elements of regions, with one tag.
 struct TagGroup {
   std::int32_t tag;
   std::int64_t count = 0;
@@ -95,6 +98,7 @@ class NodeSource {
   // By tag, of all ranks; none of pieces. Collective.
   virtual std::vector<TagGroup> node_groups() const { return {}; }
   virtual std::vector<TagGroup> facet_groups() const { return {}; }
+  virtual std::vector<TagGroup> region_groups() const { return {}; }  // with_regions only
 
  protected:
   Contents contents_;

@@ -19,7 +19,7 @@ struct NodeRow {
   std::int64_t id;
   Point<Dim> x;
   double d;
-  std::int64_t tag;
+  std::int32_t tag, region;
 };
 
 struct FieldValue {
@@ -31,7 +31,8 @@ struct FieldValue {
 template <int Dim>
 struct ElementRow {
   std::array<std::int64_t, Dim + 1> corners;  // the least first
-  double quality;
+  float quality;
+  std::int32_t region;
 };
 
 template <int Dim>
@@ -42,30 +43,33 @@ struct FacetRow {
 };
 
 template <int Dim>
-NodeRow<Dim> node_row(const Nodes<Dim>& nodes, std::int64_t i) {
-  return {nodes.id(i), nodes.position(i), nodes.d(i), nodes.tag(i)};
+NodeRow<Dim> node_row(const Nodes<Dim>& nodes, std::int64_t i, std::int32_t region) {
+  return {nodes.id(i), nodes.position(i), nodes.d(i), static_cast<std::int32_t>(nodes.tag(i)),
+          region};
 }
 
 template <int Dim>
-NodeRows sorted_nodes(std::vector<NodeRow<Dim>> rows) {
+NodeRows sorted_nodes(std::vector<NodeRow<Dim>> rows, bool with_regions) {
   std::ranges::sort(rows, {}, &NodeRow<Dim>::id);
   NodeRows sorted;
   for (const NodeRow<Dim>& row : rows) {
     sorted.ids.push_back(row.id);
     sorted.x.insert(sorted.x.end(), row.x.begin(), row.x.end());
     sorted.spacing.push_back(row.d);
-    sorted.tags.push_back(static_cast<std::int32_t>(row.tag));
+    sorted.tags.push_back(row.tag);
+    if (with_regions) sorted.regions.push_back(row.region);
   }
   return sorted;
 }
 
 template <int Dim>
-ElementRows sorted_elements(std::vector<ElementRow<Dim>> rows) {
+ElementRows sorted_elements(std::vector<ElementRow<Dim>> rows, bool with_regions) {
   std::ranges::sort(rows, {}, &ElementRow<Dim>::corners);
   ElementRows sorted;
   for (const ElementRow<Dim>& row : rows) {
     sorted.corners.insert(sorted.corners.end(), row.corners.begin(), row.corners.end());
-    sorted.quality.push_back(static_cast<float>(row.quality));
+    sorted.quality.push_back(row.quality);
+    if (with_regions) sorted.regions.push_back(row.region);
   }
   return sorted;
 }
@@ -93,6 +97,9 @@ NodesById<Dim>::NodesById(Results<Dim>& results, bool elements,
   contents_.dimension = Dim;
   contents_.with_elements = elements;
   contents_.cells = cells_of(results, elements);
+  if (contents_.cells == Cells::elements) region_of_.emplace(results);
+  if (region_of_ && !region_of_->any()) region_of_.reset();
+  contents_.with_regions = region_of_.has_value();
   contents_.names = &results.domain().names();
   contents_.fields = &fields;
   std::vector<std::int64_t> counts{owned_, 0, 0};
@@ -179,10 +186,13 @@ void NodesById<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit
   const Nodes<Dim>& nodes = results_.level().nodes;
   for_windows([&](const Window& window) {
     std::vector<NodeRow<Dim>> own;
-    for (std::int64_t place = window.begin; place < window.end; ++place)
-      own.push_back(node_row<Dim>(nodes, results_.node_at(place)));
+    for (std::int64_t place = window.begin; place < window.end; ++place) {
+      const std::int64_t i = results_.node_at(place);
+      own.push_back(node_row<Dim>(nodes, i, region_of_ ? region_of_->at_node(i) : 0));
+    }
     NodeRows rows =
-        sorted_nodes<Dim>(brought(std::move(own), [](const NodeRow<Dim>& n) { return n.id; }));
+        sorted_nodes<Dim>(brought(std::move(own), [](const NodeRow<Dim>& n) { return n.id; }),
+                          region_of_.has_value());
     rows.first = window.first;
     visit(rows);
   });
@@ -224,10 +234,12 @@ void NodesById<Dim>::for_elements(const std::function<void(const ElementRows&)>&
   for_windows([&](const Window& window) {
     std::vector<ElementRow<Dim>> own;
     results_.for_elements(window.begin, window.end, [&](const auto& places) {
-      own.push_back({labels(places), quality_of(positions_at(results_, places))});
+      own.push_back({labels(places), quality_of(positions_at(results_, places)),
+                     region_of_ ? (*region_of_)(places) : 0});
     });
     ElementRows rows = sorted_elements<Dim>(
-        brought(std::move(own), [](const ElementRow<Dim>& e) { return e.corners[0]; }));
+        brought(std::move(own), [](const ElementRow<Dim>& e) { return e.corners[0]; }),
+        region_of_.has_value());
     number_rows(rows, rows.quality.size(), before);
     visit(rows);
   });
@@ -284,6 +296,17 @@ std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
   };
   results_.for_boundary_facets(add);
   if constexpr (Dim == 3) results_.for_inner_facets(add);
+  return groups.of_all(comm_);
+}
+
+template <int Dim>
+std::vector<TagGroup> NodesById<Dim>::region_groups() const {
+  TagGroups groups;
+  if (!region_of_) return {};
+  results_.for_elements([&](const auto& places) {
+    const auto corners = positions_at(results_, places);
+    groups.add<Dim>((*region_of_)(places), corners);
+  });
   return groups.of_all(comm_);
 }
 

@@ -8,6 +8,7 @@
 
 #include "comm/id_blocks.hpp"
 #include "io/node_source.hpp"
+#include "placement/element_regions.hpp"
 #include "placement/results.hpp"
 
 namespace pnpbs::io {
@@ -25,6 +26,7 @@ class NodesById : public NodeSource {
   void for_facets(const std::function<void(const FacetRows&)>& visit) const override;
   std::vector<TagGroup> node_groups() const override;
   std::vector<TagGroup> facet_groups() const override;
+  std::vector<TagGroup> region_groups() const override;
 
  private:
   // Each rank has one part of it, of kWindow nodes.
@@ -46,7 +48,8 @@ class NodesById : public NodeSource {
 
   const Results<Dim>& results_;
   const Communicator& comm_;
-  std::int64_t owned_ = 0;  // nodes of this rank
+  std::int64_t owned_ = 0;                                // nodes of this rank
+  mutable std::optional<ElementRegions<Dim>> region_of_;  // with_regions only
   // More ranks than one know nodes of others by their ids; one alone by their places, which are
   // the numbers.
   std::optional<IdBlocks> blocks_;

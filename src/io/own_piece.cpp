@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/rows.hpp"
+#include "placement/element_regions.hpp"
 
 namespace pnpbs::io {
 
@@ -18,6 +19,8 @@ OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
   contents_.fields = &fields;
   contents_.with_elements = elements;
   contents_.cells = cells_of(results, elements);
+  contents_.with_regions =
+      contents_.cells == Cells::elements && results.level().ground.domain().regions();
   if (elements) {
     results.for_elements([&](const auto& places) {
       ++contents_.elements;
@@ -90,12 +93,14 @@ void OwnPiece<Dim>::for_windows(const Visit& visit) const {
 template <int Dim>
 void OwnPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& visit) const {
   std::int64_t before = 0;
+  ElementRegions<Dim> region_of(results_);
   for_windows([&](std::int64_t begin, std::int64_t end) {
     ElementRows rows;
     rows.first = before;
     results_.for_elements(begin, end, [&](const auto& places) {
       for (const std::int64_t place : places) rows.corners.push_back(number(place));
       rows.quality.push_back(quality_of(positions_at(results_, places)));
+      if (contents_.with_regions) rows.regions.push_back(region_of(places));
     });
     before += static_cast<std::int64_t>(rows.quality.size());
     visit(rows);

@@ -21,6 +21,8 @@ class ElementRegions {
     if (regions_) of_node_.assign(static_cast<std::size_t>(results.nodes().count), kUnknown);
   }
 
+  bool any() const { return regions_ != nullptr; }
+
   // The tag of its region, 0 if that has none. Elements end at the facets of regions, so it is that
   // of any of its corners that is on none of them: of the one with the least id. If all are, that
   // of its middle.
@@ -30,23 +32,24 @@ class ElementRegions {
     std::ranges::transform(places, nodes.begin(), [&](auto p) { return results_.node_at(p); });
     std::ranges::sort(nodes, {}, [&](std::int64_t i) { return all().id(i); });
     for (const std::int64_t i : nodes)
-      if (all().tag(i) == 0) return of_node(i);
+      if (all().tag(i) == 0) return at_node(i);
     Point<Dim> middle{};
     for (const std::int64_t i : nodes)
       for (std::size_t k = 0; k < Dim; ++k) middle[k] += all().position(i)[k] / (Dim + 1);
     return regions_->tag_at(middle);
   }
 
- private:
-  static constexpr std::int64_t kUnknown = std::int64_t{1} << 40;  // is no tag
-
-  const Nodes<Dim>& all() const { return results_.level().nodes; }
-
-  std::int32_t of_node(std::int64_t i) {
+  // The same of a node, by its place alone. If there are any.
+  std::int32_t at_node(std::int64_t i) {
     std::int64_t& known = of_node_[static_cast<std::size_t>(i)];
     if (known == kUnknown) known = regions_->tag_at(all().position(i));
     return static_cast<std::int32_t>(known);
   }
+
+ private:
+  static constexpr std::int64_t kUnknown = std::int64_t{1} << 40;  // is no tag
+
+  const Nodes<Dim>& all() const { return results_.level().nodes; }
 
   const Results<Dim>& results_;
   const RegionIndex<Dim>* regions_;

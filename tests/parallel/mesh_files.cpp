@@ -16,6 +16,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// ------------------------------------------------------------------ regions --------------------
+
+// Halves of which one has a tag, and a third part between them that has another.
+pnpbs_status plane_with_regions(pnpbs_domain domain, const char*) {
+  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, left[] = {0.4, 0, 0.4, 1},
+               right[] = {0.6, 0, 0.6, 1}, in_left[] = {0.1, 0.1}, between[] = {0.5, 0.5};
+  pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0);
+  pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 2, left, nullptr, 0);
+  pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 2, right, nullptr, 0);
+  pnpbs_domain_set_tag_name(domain, 2, 9, "middle");
+  pnpbs_domain_add_region(domain, between, 9);
+  return pnpbs_domain_add_region(domain, in_left, 1);
+}
+
+// Another box in the middle; no element is without a region.
+pnpbs_status box_in_box(pnpbs_domain domain, const char*) {
+  const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  const double corners[8][3] = {{.3, .3, .3}, {.7, .3, .3}, {.3, .7, .3}, {.7, .7, .3},
+                                {.3, .3, .7}, {.7, .3, .7}, {.3, .7, .7}, {.7, .7, .7}};
+  const std::int64_t sides[12][3] = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5},
+                                     {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                     {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+  const double inner[] = {0.5, 0.5, 0.5}, outer[] = {0.1, 0.5, 0.5};
+  pnpbs_domain_add_box(domain, low, high, 1);
+  pnpbs_domain_add_surface(domain, PNPBS_INNER, 8, corners[0], 12, sides[0], nullptr, 40);
+  pnpbs_domain_add_region(domain, inner, 4);
+  return pnpbs_domain_add_region(domain, outer, 3);
+}
+
+const Case kRegions[] = {{"regions", 2, plane_with_regions, 0.05},
+                         {"box in box", 3, box_in_box, 0.17}};
+
 // ------------------------------------------------------------------ against the mesh -----------
 
 // The tag that the group of a part stands for; -6 is none that a group can have.
@@ -23,6 +55,23 @@ bool is_of_tag(const File& file, const Entity& entity, std::int32_t tag) {
   const std::int64_t group = file.parts.at(entity).group;
   if (tag > 0) return group == tag;
   return file.names.at({entity[0], group}) == "\"tag_" + std::to_string(tag) + "\"";
+}
+
+// The group has none of these names.
+bool is_of_inside(const File& file, const Entity& entity) {
+  const std::string& name = file.names.at({entity[0], file.parts.at(entity).group});
+  return !name.starts_with("\"region_") && !name.starts_with("\"tag_") && name != "\"middle\"";
+}
+
+// A node inside is with the elements around it, which are not all here if it is a ghost.
+void check_regions_of_nodes(const File& file, const Part& p) {
+  for (std::int64_t k = 0; k < p.owned_elements * p.corners; ++k) {
+    const auto node = static_cast<std::size_t>(p.element_nodes[static_cast<std::size_t>(k)]);
+    const std::int32_t tag = p.element_tags[static_cast<std::size_t>(k / p.corners)];
+    if (p.tags[node] != 0 || tag == 0) continue;
+    expect(is_of_tag(file, file.nodes.at(p.numbers[node] + 1).entity, tag),
+           "a node is with its region");
+  }
 }
 
 void check_nodes(const File& file, const Part& p) {
@@ -66,8 +115,10 @@ void check_elements(const File& file, const Part& p) {
     expect((ghost != file.ghosts.end()) == is_ghost, "is it a ghost?");
     if (!is_ghost) {
       expect(file.parts.at(element.entity).partition == rank + 1, "its owner");
-      expect(p.corners != p.dim || is_of_tag(file, element.entity, p.element_tags[k]),
-             "tag of an element");
+      if (const std::int32_t tag = p.element_tags[k]; tag != 0)
+        expect(is_of_tag(file, element.entity, tag), "tag of an element");
+      else
+        expect(is_of_inside(file, element.entity), "an element without a region");
       continue;
     }
     expect(file.ghost_entities.contains(element.entity[1]), "ghosts have an entity");
@@ -171,6 +222,17 @@ void check_names(const File& file, const Case& it) {
     is_named({2, kWall}, "\"tag_2\"");
     is_named({3, 1}, "\"domain\"");
   }
+  if (it.body == plane_with_regions) {
+    is_named({2, 1}, "\"region_1\"");
+    is_named({2, 9}, "\"middle\"");
+    is_named({2, 2}, "\"domain\"");
+    expect(file.names.size() == 4, "groups of regions");
+  }
+  if (it.body == box_in_box) {
+    is_named({3, 3}, "\"region_3\"");
+    is_named({3, 4}, "\"region_4\"");
+    expect(file.names.size() == 3, "no group of elements without a region");
+  }
   if (it.body == surface_halves) {
     is_named({2, 1}, "\"tag_1\"");
     is_named({2, 2}, "\"tag_2\"");
@@ -194,6 +256,7 @@ void check_case(const Case& it, const std::string& prefix) {
     expect(file.partitions == size, "one partition for each rank");
     check_nodes(file, p);
     check_elements(file, p);
+    check_regions_of_nodes(file, p);
     const Ids facets = check_facets(file, p);
     check_all_files(file, p, facets);
     check_names(file, it);
@@ -279,6 +342,7 @@ int main(int argc, char** argv) {
   if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
   MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
   for (const Case& it : kCases) check_case(it, std::string(folder) + "/mesh");
+  for (const Case& it : kRegions) check_case(it, std::string(folder) + "/mesh");
   check_errors(folder);
   MPI_Barrier(MPI_COMM_WORLD);
   if (rank == 0) fs::remove_all(folder);
