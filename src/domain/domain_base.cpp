@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "domain/domain_base.hpp"
 
+#include <utility>
+
 #include "domain/given_values.hpp"
 
 namespace pnpbs {
@@ -31,6 +33,15 @@ void DomainBase<Dim>::add_region(const Point<Dim>& point, std::int32_t tag) {
   require_point<Dim>("point", point);
   require_tag("tag", tag);
   region_points_.push_back({point, "region " + std::to_string(regions_given_++), tag});
+  checked_ = false;
+}
+
+template <int Dim>
+void DomainBase<Dim>::add_region_of_file(const Point<Dim>& point, std::int32_t tag,
+                                         std::string name) {
+  require_point<Dim>("point", point);
+  require_tag("tag", tag);
+  region_points_.push_back({point, std::move(name), tag, true});
   checked_ = false;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "domain/from_files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "base/error.hpp"
 #include "formats/msh_curves.hpp"
 #include "formats/msh_facets.hpp"
+#include "formats/msh_region_points.hpp"
 #include "formats/msh_triangles.hpp"
 
 namespace pnpbs {
@@ -72,22 +74,37 @@ void add_points(DomainBase<Dim>& domain, const MshMesh& mesh, const std::vector<
 }
 
 template <int Dim>
+void add_regions(DomainBase<Dim>& domain, const MshMesh& mesh) {
+  for (const MshRegionPoint& region : region_points_of(mesh, Dim)) {
+    Point<Dim> point;
+    std::copy_n(region.point.begin(), Dim, point.begin());
+    domain.add_region_of_file(point, region.tag, mesh.name + ": a part of " + region.name);
+  }
+}
+
+template <int Dim>
 void add_names_and_warnings(DomainBase<Dim>& domain, const MshMesh& mesh) {
-  std::vector<std::string> warnings = mesh.warnings;
-  warn_of_joined_regions(mesh, Dim, warnings);
-  for (std::string& warning : warnings) domain.add_warning(std::move(warning));
+  for (const std::string& warning : mesh.warnings) domain.add_warning(warning);
   for (const auto& [group, name] : mesh.names.all()) domain.names().add(group, name);
 }
 
 }  // namespace
 
 void add_poly(PlaneDomain& domain, const PolyGraph& graph) {
+  PlaneDomain changed = domain;
   as_of_file(graph.name, [&] {
-    domain.add_pslg(graph.vertices.count(), graph.vertices.coordinates.data(),
-                    graph.vertices.tags.data(), std::ssize(graph.segment_tags),
-                    graph.segment_ends.data(), graph.segment_tags.data(),
-                    std::ssize(graph.holes) / 2, graph.holes.data(), graph.vertices.first_number);
+    changed.add_pslg(graph.vertices.count(), graph.vertices.coordinates.data(),
+                     graph.vertices.tags.data(), std::ssize(graph.segment_tags),
+                     graph.segment_ends.data(), graph.segment_tags.data(),
+                     std::ssize(graph.holes) / 2, graph.holes.data(), graph.vertices.first_number);
+    const RegionSection<2>& regions = graph.regions;
+    for (std::size_t k = 0; k < regions.tags.size(); ++k)
+      changed.add_region_of_file({regions.points[2 * k], regions.points[2 * k + 1]},
+                                 regions.tags[k], graph.name + ": " + regions.names[k]);
   });
+  if (std::string warning = warning_of_skipped(graph.regions.skipped, graph.name); !warning.empty())
+    changed.add_warning(std::move(warning));
+  domain = std::move(changed);
 }
 
 void add_msh(PlaneDomain& domain, const MshMesh& mesh, double corner_angle) {
@@ -96,6 +113,7 @@ void add_msh(PlaneDomain& domain, const MshMesh& mesh, double corner_angle) {
     const std::vector<MshPoint> points = points_in_groups(mesh);
     add_curves(changed, mesh, curves_of_plane(mesh, points), corner_angle);
     add_points<2>(changed, mesh, points);
+    add_regions<2>(changed, mesh);
   });
   add_names_and_warnings<2>(changed, mesh);
   domain = std::move(changed);
@@ -107,6 +125,7 @@ void add_msh(VolumeDomain& domain, const MshMesh& mesh, double feature_angle) {
     add_surfaces(changed, mesh, feature_angle);
     add_curves(changed, mesh, curves_in_groups(mesh));
     add_points<3>(changed, mesh, points_in_groups(mesh));
+    add_regions<3>(changed, mesh);
   });
   add_names_and_warnings<3>(changed, mesh);
   domain = std::move(changed);

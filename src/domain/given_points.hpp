@@ -23,6 +23,9 @@ struct RegionPoint {
   Point<Dim> point;
   std::string name;      // for messages: "hole 0", "region 2"
   std::int32_t tag = 0;  // 0 of holes
+  // A file's: where it lies in no region of the domain, or in one with another tag, it does not
+  // count, with a warning. Others are errors then.
+  bool from_file = false;
 
   bool is_hole() const { return tag == 0; }
 };

@@ -40,26 +40,36 @@ void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& par
     reject_domain("the holes leave nothing of the domain");
 }
 
-// Of each part its tag, 0 where no point gives it one; empty if none does anywhere. `inside`:
-// without the holes.
+// Of each part its tag, 0 where no point gives it one; empty if none does anywhere. Points of files
+// come behind the user's. `inside`: without the holes.
 template <int Dim, class PartOf>
 std::vector<std::int32_t> tags_of_parts(const std::vector<RegionPoint<Dim>>& points,
-                                        const PartOf& part_of, const std::vector<char>& inside) {
+                                        const PartOf& part_of, const std::vector<char>& inside,
+                                        std::vector<std::string>& warnings) {
   std::vector<const RegionPoint<Dim>*> point_in(inside.size());
   std::vector<std::int32_t> tags;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].is_hole()) continue;
-    tags.resize(inside.size());
+  std::vector<std::string> left_out;
+  const auto add = [&](std::size_t k) {
+    const RegionPoint<Dim>& it = points[k];
     const std::size_t part = index(part_of(k));
-    if (!inside[part]) reject_domain(name_and_place<Dim>(points[k]) + " lies outside the domain");
-    if (point_in[part] && point_in[part]->tag != points[k].tag)
-      reject_domain(name_and_place<Dim>(points[k]) + " has the tag " +
-                    std::to_string(points[k].tag) + ", but lies in the same region as " +
-                    name_and_place<Dim>(*point_in[part]) + " with the tag " +
-                    std::to_string(point_in[part]->tag));
-    point_in[part] = &points[k];
-    tags[part] = points[k].tag;
-  }
+    const RegionPoint<Dim>* other = point_in[part];
+    std::string problem;
+    if (!inside[part])
+      problem = name_and_place<Dim>(it) + " lies outside the domain";
+    else if (other && other->tag != it.tag)
+      problem = name_and_place<Dim>(it) + " has the tag " + std::to_string(it.tag) +
+                ", but lies in the same region as " + name_and_place<Dim>(*other) +
+                " with the tag " + std::to_string(other->tag);
+    if (!problem.empty() && !it.from_file) reject_domain(problem);
+    if (!problem.empty()) return left_out.push_back(problem);
+    point_in[part] = &it;
+    tags.resize(inside.size());
+    tags[part] = it.tag;
+  };
+  for (const bool from_file : {false, true})
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (!points[k].is_hole() && points[k].from_file == from_file) add(k);
+  if (!left_out.empty()) warnings.push_back("left out: " + list_text(left_out));
   return tags;
 }
 

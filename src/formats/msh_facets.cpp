@@ -2,47 +2,16 @@
 #include "formats/msh_facets.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <map>
-#include <set>
 #include <string>
 
 #include "base/error.hpp"
-#include "base/point_text.hpp"
+#include "formats/msh_sides.hpp"
 
 namespace pnpbs {
 
+using namespace msh_sides;
+
 namespace {
-
-constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
-
-// Corners of the facets of each shape; -1: no fourth one.
-using Sides = std::vector<std::array<int, 4>>;
-
-const Sides& sides_of(MshShape shape) {
-  static const std::map<MshShape, Sides> sides{
-      {MshShape::triangle, {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}}},
-      {MshShape::quadrangle, {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 3, -1, -1}, {3, 0, -1, -1}}},
-      {MshShape::tetrahedron, {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}},
-      {MshShape::hexahedron,
-       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
-      {MshShape::prism, {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
-      {MshShape::pyramid,
-       {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}}};
-  return sides.at(shape);
-}
-
-using Key = std::array<std::int32_t, 4>;
-
-Key key_of(Key corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
-std::int32_t count_of(const Key& corners) {
-  return static_cast<std::int32_t>(std::find(corners.begin(), corners.end(), kNone) -
-                                   corners.begin());
-}
 
 // A facet of elements that fill the domain.
 struct Face {
@@ -52,18 +21,6 @@ struct Face {
   bool divides = false;  // elements of different regions
   bool given = false;    // as an element itself
 };
-
-template <class Visit>
-void for_cells(const MshMesh& mesh, int dimension, const Visit& visit) {
-  for (std::size_t shape = 0; shape < kMshShapes; ++shape) {
-    if (kMshDimensions[shape] != dimension) continue;
-    const auto corners = static_cast<std::size_t>(kMshCorners[shape]);
-    const MshCells& cells = mesh.cells[shape];
-    for (std::size_t e = 0; e < cells.count(); ++e)
-      visit(static_cast<MshShape>(shape), std::span(cells.corners).subspan(corners * e, corners),
-            static_cast<std::size_t>(cells.regions[e]));
-  }
-}
 
 std::vector<Face> faces_of_cells(const MshMesh& mesh, int dimension) {
   const std::vector<std::int32_t> tags = tags_of_regions(mesh, dimension);
@@ -153,21 +110,6 @@ std::vector<MshFacet> facets_of(const MshMesh& mesh, int dimension) {
                         face.divides ? MshSides::both_inside : MshSides::one_inside});
   if (facets.empty()) throw Error(ErrorKind::file, mesh.name + ": " + what_is_missing(dimension));
   return facets;
-}
-
-void warn_of_joined_regions(const MshMesh& mesh, int dimension,
-                            std::vector<std::string>& warnings) {
-  std::set<std::int32_t> groups;
-  for (const MshRegion& region : mesh.regions)
-    if (region.dimension == dimension && region.group != 0) groups.insert(region.group);
-  if (groups.size() < 2) return;
-  std::vector<std::string> names;
-  for (const std::int32_t group : groups) {
-    const std::string* name = mesh.names.find({dimension, group});
-    names.push_back(name ? *name : name_of_tag(group));
-  }
-  warnings.push_back(mesh.name + ": its regions become one, and nodes follow what divides them: " +
-                     list_text(names, 5));
 }
 
 }  // namespace pnpbs

@@ -36,7 +36,4 @@ struct MshFacet {
 // the least tag that is free. Throws Error(ErrorKind::file), also if there are none.
 std::vector<MshFacet> facets_of(const MshMesh& mesh, int dimension);
 
-// Of the regions that fill a domain of this dimension: it is one, whatever they are called.
-void warn_of_joined_regions(const MshMesh& mesh, int dimension, std::vector<std::string>& warnings);
-
 }  // namespace pnpbs

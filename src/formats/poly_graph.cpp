@@ -34,7 +34,7 @@ PolyGraph parse(std::string_view text, const std::string& name,
   graph.vertices = read_vertices<2>(fields, node_file);
   read_segments(fields, graph);
   graph.holes = read_holes<2>(fields);
-  skip_regions(fields);
+  graph.regions = read_regions<2>(fields);
   return graph;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangle's .poly format (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments,
-// holes; regional attributes are skipped.
+// holes, regions.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,7 @@ struct PolyGraph {
   std::vector<std::int64_t> segment_ends;  // two of each: vertices, from 0
   std::vector<std::int32_t> segment_tags;  // 1 where the file has none
   std::vector<double> holes;               // two coordinates of each
+  RegionSection<2> regions;
 };
 
 // If the file holds no vertices ("0 2 0 0"), they are read from the .node file beside it. Throws

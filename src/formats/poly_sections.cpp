@@ -2,6 +2,11 @@
 #include "formats/poly_sections.hpp"
 
 #include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/point_text.hpp"
 
 namespace pnpbs {
 
@@ -49,6 +54,30 @@ VertexSection<Dim> read_vertex_section(TextFields& fields) {
     vertices.tags.push_back(markers > 0 ? fields.tag("a boundary marker") : 0);
   });
   return vertices;
+}
+
+// 0 for none; nothing if it is no tag. Triangle writes them with a decimal point.
+std::optional<std::int32_t> tag_in(std::string_view attribute) {
+  double value = 0;
+  if (attribute.empty()) return 0;
+  if (!parse_field(attribute, value) || std::trunc(value) != value ||
+      std::abs(value) > std::numeric_limits<std::int32_t>::max())
+    return {};
+  return static_cast<std::int32_t>(value);
+}
+
+template <int Dim>
+void read_region(TextFields& fields, RegionSection<Dim>& regions) {
+  const std::string name = "region " + std::to_string(fields.integer("a region number"));
+  std::vector<double> point;
+  read_point<Dim>(fields, point);
+  const std::string_view attribute = fields.next().value_or("");
+  const std::optional<std::int32_t> tag = tag_in(attribute);
+  if (!tag) regions.skipped.push_back(shown_field(attribute) + " of " + name);
+  if (tag.value_or(0) == 0) return;
+  regions.points.insert(regions.points.end(), point.begin(), point.end());
+  regions.tags.push_back(*tag);
+  regions.names.push_back(name);
 }
 
 }  // namespace
@@ -120,11 +149,20 @@ std::vector<double> read_holes(TextFields& fields) {
   return holes;
 }
 
-void skip_regions(TextFields& fields) {
-  if (!fields.next_line()) return;
+template <int Dim>
+RegionSection<Dim> read_regions(TextFields& fields) {
+  RegionSection<Dim> regions;
+  if (!fields.next_line()) return regions;
   const std::int64_t count = read_count(fields, "regions");
-  read_lines(fields, count, "regions", [] {});
+  read_lines(fields, count, "regions", [&] { read_region(fields, regions); });
   if (fields.next_line()) fields.fail("found more lines than expected");
+  return regions;
+}
+
+std::string warning_of_skipped(const std::vector<std::string>& skipped, const std::string& file) {
+  if (skipped.empty()) return "";
+  return file + ": regional attributes that are no integers, and so no tags, are skipped: " +
+         list_text(skipped, 5);
 }
 
 template VertexSection<2> read_vertices<2>(TextFields&, const std::function<NodeFile()>&);
@@ -133,5 +171,7 @@ template std::int64_t read_vertex<2>(TextFields&, const VertexSection<2>&);
 template std::int64_t read_vertex<3>(TextFields&, const VertexSection<3>&);
 template std::vector<double> read_holes<2>(TextFields&);
 template std::vector<double> read_holes<3>(TextFields&);
+template RegionSection<2> read_regions<2>(TextFields&);
+template RegionSection<3> read_regions<3>(TextFields&);
 
 }  // namespace pnpbs

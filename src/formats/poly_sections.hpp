@@ -52,7 +52,20 @@ std::int64_t read_vertex(TextFields& fields, const VertexSection<Dim>& vertices)
 template <int Dim>
 std::vector<double> read_holes(TextFields& fields);
 
+// Regions with a tag.
+template <int Dim>
+struct RegionSection {
+  std::vector<double> points;        // Dim coordinates of each
+  std::vector<std::int32_t> tags;    // of each; nonzero
+  std::vector<std::string> names;    // of each, for messages
+  std::vector<std::string> skipped;  // names and attributes of those that have another attribute
+};
+
 // Regions, which may be missing, and the end of the file.
-void skip_regions(TextFields& fields);
+template <int Dim>
+RegionSection<Dim> read_regions(TextFields& fields);
+
+// Nothing if none was.
+std::string warning_of_skipped(const std::vector<std::string>& skipped, const std::string& file);
 
 }  // namespace pnpbs

@@ -14,6 +14,12 @@
 
 namespace pnpbs {
 
+struct SurfaceRegion {
+  Point<3> point;
+  std::string name;  // for messages
+  std::int32_t tag;
+};
+
 struct SurfaceTriangles {
   std::vector<Point<3>> vertices;
   // Vertices, from 0. Two may be the same, or all.
@@ -21,7 +27,10 @@ struct SurfaceTriangles {
   std::vector<std::int32_t> tags;  // of triangles; 1 where the file has none
   // Where the file names what it tags: solids of an STL, groups, objects and materials of an OBJ.
   std::vector<std::pair<std::int32_t, std::string>> tag_names;
-  std::vector<Point<3>> holes;  // a point in each cavity, from TetGen's files
+  // From TetGen's files: a point in each cavity, and in regions with a tag.
+  std::vector<Point<3>> holes;
+  std::vector<SurfaceRegion> regions;
+  std::vector<std::string> warnings;
 };
 
 enum class SurfaceFormat { stl, off, obj, ply, poly, smesh };

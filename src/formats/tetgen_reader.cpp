@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // TetGen's .poly and .smesh (https://wias-berlin.de/software/tetgen/fformats.html): vertices,
-// facets, holes; regional attributes are skipped. A facet is one polygon or more that do not lie in
-// each other.
+// facets, holes, regions. A facet is one polygon or more that do not lie in each other.
 #include "formats/polygons.hpp"
 #include "formats/surface_formats.hpp"
 
@@ -79,6 +78,15 @@ std::vector<Point<3>> points(const std::vector<double>& coordinates) {
   return result;
 }
 
+void add_regions(const RegionSection<3>& regions, const std::string& file,
+                 SurfaceTriangles& surface) {
+  const std::vector<Point<3>> all = points(regions.points);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    surface.regions.push_back({all[k], file + ": " + regions.names[k], regions.tags[k]});
+  if (const std::string warning = warning_of_skipped(regions.skipped, file); !warning.empty())
+    surface.warnings.push_back(warning);
+}
+
 }  // namespace
 
 SurfaceTriangles parse_tetgen(std::string_view text, const std::string& name, TetGenFormat format,
@@ -91,7 +99,7 @@ SurfaceTriangles parse_tetgen(std::string_view text, const std::string& name, Te
   surface.vertices = points(vertices.coordinates);
   FacetParser(fields, vertices, surface).parse(format);
   surface.holes = points(read_holes<3>(fields));
-  skip_regions(fields);
+  add_regions(read_regions<3>(fields), name, surface);
   return surface;
 }
 

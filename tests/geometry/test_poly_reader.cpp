@@ -73,13 +73,16 @@ START_TEST(numbered_from_zero_with_all_sections) {
       "0 0 1 5\r\n1 1 2 5\r\n2 2 3 5\r\n3 3 0 -6\r\n"
       "4 4 5 0\r\n5 5 6 7\r\n6 6 7 7\r\n7 7 4 7\r\n"
       "1\r\n0 1.5 1.5\r\n"
-      "1 # regions, skipped\r\n0 0.5 0.5 17 0.1");
+      "3 # regions\r\n0 0.5 0.5 17 0.1\r\n1 3 3 17. -1\r\n2 3 3 0.5");
   ck_assert_double_eq(domain.area(), 15);
   ck_assert_int_eq(domain.corners()[1].tag, 9);
   ck_assert_int_eq(domain.corners()[2].tag, 5);
   ck_assert_int_eq(domain.curves()[3].tag, -6);
   ck_assert_int_eq(domain.curves()[4].tag, 1);  // 0 is no marker
   ck_assert_str_eq(domain.corners()[0].name.c_str(), "vertex 0");
+  ck_assert_ptr_nonnull(domain.regions());
+  ck_assert_int_eq(domain.regions()->tag_at({3, 0.5}), 17);
+  ck_assert_uint_eq(domain.warnings().size(), 1);
 }
 END_TEST
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Under mpirun the command writes the same files as alone."""
 
+import collections
 import json
 import unittest
 
@@ -66,6 +67,30 @@ class InnerSurfaces(RanksTest):
         self.run_ranks(3, *ask)
         for name, data in expected.items():
             self.assertTrue((self.folder / name).read_bytes() == data, name)
+
+
+class Regions(RanksTest):
+    def test_are_the_same(self):
+        """Some elements have no region; some ranks have no nodes where d is coarse."""
+        pair = self.folder / "pair.poly"
+        pair.write_text("6 2 0 0\n1 0 0\n2 1 0\n3 2 0\n4 2 1\n5 1 1\n6 0 1\n8 1\n1 1 2 1\n"
+                        "2 2 3 1\n3 3 4 1\n4 4 5 1\n5 5 6 1\n6 6 1 1\n7 2 5 2\n8 1 5 3\n0\n"
+                        "2\n1 0.9 0.1 7\n2 1.5 0.5 4\n")
+        names = ("a.vtu", "a.msh", "a.msh2", "a.ele")
+        outputs = [word for name in names for word in ("-o", name)]
+        for spacing in ("0.01 + 0.02*x", "0.6"):
+            ask = ("--domain", pair, "--spacing", spacing, "--quiet", *outputs, "-o", "a.pvtu")
+            self.run_command(*ask)
+            expected = {name: (self.folder / name).read_bytes() for name in names}
+            grid = read_with_vtk(self.folder / "a.vtu")
+            regions = vtk_to_numpy(grid.GetCellData().GetArray("region"))
+            self.assertEqual(set(regions), {0, 4, 7})
+            self.run_ranks(3, *ask)
+            for name, content in expected.items():
+                self.assertTrue((self.folder / name).read_bytes() == content, name)
+            whole = read_with_vtk(self.folder / "a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
+            again = vtk_to_numpy(whole.GetCellData().GetArray("region"))
+            self.assertEqual(collections.Counter(again), collections.Counter(regions))
 
 
 class SameFiles(RanksTest):

@@ -58,7 +58,7 @@ class Resolver {
     }
     const auto face_of = [this](std::size_t k) { return face_of_point(k); };
     remove_holes(region_points_, face_of, inside_, result_.warnings);
-    region_tags_ = tags_of_parts(region_points_, face_of, inside_);
+    region_tags_ = tags_of_parts(region_points_, face_of, inside_, result_.warnings);
     number_inner_faces();
     keep_edges();
     place_lone_vertices();

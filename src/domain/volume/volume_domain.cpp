@@ -104,6 +104,9 @@ void VolumeDomain::add_surface(SurfaceRole role, const SurfaceTriangles& surface
   add_surface(role, std::ssize(surface.vertices), surface.vertices.data()->data(),
               std::ssize(surface.triangles), corners.data(), surface.tags.data(), feature_angle);
   for (const Point<3>& hole : surface.holes) add_hole(hole);
+  for (const SurfaceRegion& region : surface.regions)
+    add_region_of_file(region.point, region.tag, region.name);
+  for (const std::string& warning : surface.warnings) add_warning(warning);
   for (const auto& [tag, name] : surface.tag_names) names().add({2, tag}, name);
 }
 

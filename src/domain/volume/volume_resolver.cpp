@@ -190,13 +190,14 @@ class Resolver {
   }
 
   void heed_region_points() {
-    if (!filled_ && !region_points_.empty())
-      reject_domain(name_and_place<3>(region_points_[0]) +
+    const auto given = std::ranges::find(region_points_, false, &RegionPoint<3>::from_file);
+    if (!filled_ && given != region_points_.end())
+      reject_domain(name_and_place<3>(*given) +
                     ": a domain of surfaces alone has no inside, of which to take out or tag any");
     if (!filled_) return;
     const auto region_of = [this](std::size_t k) { return region_of_point(k); };
     remove_holes(region_points_, region_of, inside_, result_.warnings);
-    region_tags_ = tags_of_parts(region_points_, region_of, inside_);
+    region_tags_ = tags_of_parts(region_points_, region_of, inside_, result_.warnings);
   }
 
   // The first triangle on which the point lies, as near as places are told apart, or -1.
