@@ -95,6 +95,12 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
     refuse("--simplify is for domains in the plane, and this one is a body");
   if (arguments.surfaces_only && !arguments.cut.empty())
     refuse("--cut is for bodies, and with --surfaces-only nothing is inside");
+  for (const Region& region : arguments.regions)
+    if (std::ssize(region.point) != dimension)
+      refuse(std::string("--region: expected ") + (dimension == 2 ? "X,Y:TAG" : "X,Y,Z:TAG") +
+             " for this domain, found '" + region.text + "'");
+  if (arguments.surfaces_only && !arguments.regions.empty())
+    refuse("--region is for what is inside, and --surfaces-only leaves that empty");
   using picture::ElementColour;
   const bool coloured = arguments.colour.value_or(ElementColour::none) != ElementColour::none;
   if (arguments.surfaces_only && coloured)

@@ -48,15 +48,34 @@ void take_places(const std::string& text, Arguments& arguments) {
     refuse("--nodes-at: unknown value '" + text + "' (known: boundary, centers)");
 }
 
+namespace {
+
+// 0 if it is none.
+std::int32_t tag_in(std::string_view text) {
+  std::int32_t tag = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, tag);
+  return read.ec == std::errc() && read.ptr == end ? tag : 0;
+}
+
+}  // namespace
+
 void take_name(const std::string& text, Arguments& arguments) {
   const std::size_t equals = text.find('=');
   const std::string name = equals == std::string::npos ? "" : text.substr(equals + 1);
-  std::int32_t tag = 0;
-  const char* end = text.data() + std::min(equals, text.size());
-  const auto read = std::from_chars(text.data(), end, tag);
-  if (name.empty() || read.ec != std::errc() || read.ptr != end || tag == 0)
+  const std::int32_t tag = tag_in(text.substr(0, equals));
+  if (name.empty() || tag == 0)
     refuse("--name: expected TAG=NAME with a tag other than 0, found '" + text + "'");
   arguments.names.emplace_back(tag, name);
+}
+
+void take_region(const std::string& text, Arguments& arguments) {
+  const std::size_t colon = text.find(':');
+  const auto point = numbers_between_commas(text.substr(0, colon));
+  const std::int32_t tag = colon == std::string::npos ? 0 : tag_in(text.substr(colon + 1));
+  if (!point || point->size() < 2 || point->size() > 3 || tag == 0)
+    refuse("--region: expected X,Y:TAG or X,Y,Z:TAG with a tag other than 0, found '" + text + "'");
+  arguments.regions.push_back({*point, tag, text});
 }
 
 void take_repair(const std::vector<std::string>& text, Arguments& arguments) {

@@ -19,6 +19,7 @@ void take_simplify(const std::string& text, Arguments& arguments);
 void take_nodes(const std::string& text, Arguments& arguments);
 void take_places(const std::string& text, Arguments& arguments);
 void take_name(const std::string& text, Arguments& arguments);
+void take_region(const std::string& text, Arguments& arguments);
 void take_repair(const std::vector<std::string>& text, Arguments& arguments);
 void take_colour(const std::string& name, Arguments& arguments);
 void take_settings(const std::vector<std::string>& settings, Arguments& arguments);

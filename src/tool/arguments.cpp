@@ -143,16 +143,25 @@ void add_nodes_at(CLI::App& app, Arguments& arguments) {
       ->group("What to fill");
 }
 
-void add_groups(CLI::App& app, Arguments& arguments, std::vector<std::string>& names) {
+// Texts that become values when all of them are there.
+struct Texts {
+  std::vector<std::string> settings, names, regions;
+};
+
+void add_groups(CLI::App& app, Arguments& arguments, Texts& texts) {
   add_repeatable(app, "--inner", arguments.inner,
                  "in space: nodes follow the triangles of this group, which lie\ninside and bound "
                  "nothing; may be given several times");
   app.get_option("--inner")->type_name("NAME|TAG")->group("What to fill");
   add_repeatable(
-      app, "--name", names,
+      app, "--name", texts.names,
       "name of a tag of the boundary, for files with named groups\n(.msh, .msh2); may be "
       "given several times");
   app.get_option("--name")->type_name("TAG=NAME")->group("What to fill");
+  add_repeatable(app, "--region", texts.regions,
+                 "tag of the elements in the region around this point, up to the\n"
+                 "next curves or surfaces; may be given several times");
+  app.get_option("--region")->type_name("X,Y[,Z]:TAG")->group("What to fill");
 }
 
 void add_repair(CLI::App& app, Arguments& arguments) {
@@ -259,9 +268,10 @@ void add_general(CLI::App& app, Arguments& arguments, Questions& questions) {
 }
 
 // Short ways to say --set key=value, for those of these options that the library has.
-void add_library_options(CLI::App& app, Arguments& arguments, std::vector<std::string>& settings) {
+void add_library_options(CLI::App& app, Arguments& arguments, Texts& texts) {
   const std::string group = "How to do it";
-  add_repeatable(app, "--set", settings, "set an option of the library (below); may be repeated");
+  add_repeatable(app, "--set", texts.settings,
+                 "set an option of the library (below); may be repeated");
   app.get_option("--set")->type_name("KEY=VALUE")->group(group);
   for (const LibraryOption& option : library_options()) {
     if (option.name != "steps" && option.name != "threads" && option.name != "growth_limit")
@@ -306,7 +316,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
       "function.",
       "pnpbs");
   Questions questions;
-  std::vector<std::string> settings, names;
+  Texts texts;
   app.allow_extras();
   app.get_formatter()->column_width(28);
   add_input(app, arguments);
@@ -316,9 +326,9 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   add_repair(app, arguments);
   add_surfaces_only(app, arguments);
   add_nodes_at(app, arguments);
-  add_groups(app, arguments, names);
+  add_groups(app, arguments, texts);
   add_output(app, arguments);
-  add_library_options(app, arguments, settings);
+  add_library_options(app, arguments, texts);
   add_checkpoints(app, arguments);
   add_general(app, arguments, questions);
   try {
@@ -332,8 +342,9 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   if (questions.version) answer += version_text();
   if (questions.statistics) answer += statistics_text();
   if (!answer.empty()) return answer;
-  take_settings(settings, arguments);
-  for (const std::string& name : names) take_name(name, arguments);
+  take_settings(texts.settings, arguments);
+  for (const std::string& name : texts.names) take_name(name, arguments);
+  for (const std::string& region : texts.regions) take_region(region, arguments);
   require_arguments_that_fit(arguments);
   return "";
 }

@@ -15,6 +15,13 @@ namespace pnpbs::tool {
 
 constexpr double default_feature_angle = 40;  // degrees
 
+// Around this point, which has as many coordinates as the domain.
+struct Region {
+  std::vector<double> point;
+  std::int32_t tag;
+  std::string text;  // as the user gives it
+};
+
 struct Arguments {
   std::string domain;                              // a file, "-", or a body in words
   std::string spacing;                             // a formula; may be empty with a grid
@@ -33,7 +40,8 @@ struct Arguments {
   std::string layer, projection, unit, tag_field;            // of files that GDAL reads
   std::vector<std::string> inner;                            // groups of triangles, by name or tag
   std::vector<std::pair<std::int32_t, std::string>> names;   // of tags
-  std::optional<picture::ElementColour> colour;              // of elements in pictures
+  std::vector<Region> regions;
+  std::optional<picture::ElementColour> colour;  // of elements in pictures
   std::string cut;               // where pictures cut a body open; empty: through its middle
   std::optional<double> repair;  // its resolution, 0 for the default
   bool repair_if_needed = false;

@@ -74,7 +74,8 @@ DomainSource::DomainSource(const Arguments& arguments)
       repair_if_needed_(arguments.repair_if_needed),
       quiet_(arguments.quiet),
       inner_(arguments.inner),
-      names_(arguments.names) {
+      names_(arguments.names),
+      regions_(arguments.regions) {
   if (geo_) return;
   dimension_ = level_set_ || primitive_ ? 3 : dimension_of(path_, arguments.surfaces_only);
 }
@@ -91,6 +92,7 @@ void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks&
       add_to(domain, context);
     }
     name_groups(domain, context);
+    add_regions(domain, context);
     if (dimension_ == 2) check(pnpbs_domain_set_corner_angle(domain, corner_angle_), context);
     check_domain(domain, context, ranks.is_first() && !quiet_);
   });
@@ -124,6 +126,11 @@ void DomainSource::name_groups(pnpbs_domain domain, pnpbs_context context) const
   const std::vector<GroupName> names = group_names(domain, context);
   for (const std::string& group : inner_)
     check(pnpbs_domain_set_role(domain, tag_of(group, names), PNPBS_INNER), context);
+}
+
+void DomainSource::add_regions(pnpbs_domain domain, pnpbs_context context) const {
+  for (const Region& region : regions_)
+    check(pnpbs_domain_add_region(domain, region.point.data(), region.tag), context);
 }
 
 void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {

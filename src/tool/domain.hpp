@@ -42,6 +42,7 @@ class DomainSource {
   void read_plane(pnpbs_domain domain, pnpbs_context context) const;
   void read_msh(pnpbs_domain domain, pnpbs_context context) const;
   void name_groups(pnpbs_domain domain, pnpbs_context context) const;
+  void add_regions(pnpbs_domain domain, pnpbs_context context) const;
   bool is_msh() const;
 
   std::string path_;  // "-" is standard input
@@ -56,6 +57,7 @@ class DomainSource {
   bool repair_if_needed_, quiet_;
   std::vector<std::string> inner_;                           // groups
   std::vector<std::pair<std::int32_t, std::string>> names_;  // of tags
+  std::vector<Region> regions_;
 };
 
 }  // namespace pnpbs::tool

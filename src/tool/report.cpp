@@ -88,6 +88,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   if (arguments.repair_if_needed) report["repair"] = "auto";
   if (arguments.surfaces_only) report["surfaces_only"] = true;
   if (!arguments.inner.empty()) report["inner"] = arguments.inner;
+  for (const Region& region : arguments.regions) report["regions"].push_back(region.text);
   if (!groups.empty()) report["groups"] = groups_of(groups);
   if (!arguments.spacing.empty()) report["spacing"] = arguments.spacing;
   if (arguments.spacing_grids.size() == 1)

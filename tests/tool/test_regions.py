@@ -6,6 +6,7 @@ import unittest
 
 import meshio
 import numpy
+import vtk
 
 from command import BAD_INPUT, CommandTest
 from readers import grid_arrays, read_rows, read_with_vtk
@@ -223,6 +224,53 @@ class FilesOfGmsh(RegionTest):
         self.assertNotIn("region", meshio.read(self.folder / "a.vtu").cell_data)
         self.check_groups(meshio.read(self.folder / "a.msh", file_format="gmsh"), {0: 16.0},
                           {0: "steel"})
+
+
+class Command(RegionTest):
+    def test_tags_by_points(self):
+        path = self.write("m.poly", PAIR)
+        self.fill(path, "--region", "0.5,0.5:7", "--region", "0.6, 1e-1:7")
+        self.check_sizes({7: 1.0, 0: 1.0})
+        self.assertEqual(json.loads((self.folder / "a.json").read_text())["regions"],
+                         ["0.5,0.5:7", "0.6, 1e-1:7"])
+        self.fill("box(0,0,0, 1,1,1)", "--region", "0.5,0.5,0.5:3", spacing="0.3")
+        self.check_sizes({3: 1.0})
+
+    def test_come_before_those_of_files(self):
+        self.fill(self.write("m.poly", PAIR + "1\n1 0.5 0.5 7\n"), "--region", "0.1,0.1:8",
+                  warning="region 1 at (0.5, 0.5) has the tag 7, but lies in the same region as "
+                          "region 0 at (0.1, 0.1) with the tag 8")
+        self.check_sizes({8: 1.0, 0: 1.0})
+
+    def test_in_other_grids(self):
+        """By HDF5, where there is any."""
+        ask = ("--domain", self.write("m.poly", PAIR), "--spacing", "0.2", "--quiet",
+               "--region", "0.5,0.5:7", "-o", "a.vtu")
+        process = self.start(*ask, "-o", "a.vtkhdf", "-o", "a.xdmf")
+        _, err = process.communicate()
+        if b"HDF5" in err:
+            self.skipTest("built without HDF5")
+        expected = meshio.read(self.folder / "a.vtu").cell_data["region"][0]
+        for name, kind in (("a.vtkhdf", vtk.vtkHDFReader), ("a.xdmf", vtk.vtkXdmfReader)):
+            grid = grid_arrays(read_with_vtk(self.folder / name, kind))
+            numpy.testing.assert_array_equal(grid["cell", "region"], expected)
+
+    def test_refusals(self):
+        square = ("--domain", self.square, "--spacing", "0.2", "--region")
+        for text in ("", "0.1,0.1", "0.1:3", "0.1,0.1:0", "0.1,0.1:x", "0.1,x:3", "0.1,0.1:3:4",
+                     "1,2,3,4:5", "0.1,0.1:3000000000"):
+            self.assertIn(f"--region: expected X,Y:TAG or X,Y,Z:TAG with a tag other than 0, found "
+                          f"'{text}'", self.refuse(*square, text))
+        self.assertIn("--region: expected X,Y:TAG for this domain, found '0.1,0.1,0:3'",
+                      self.refuse(*square, "0.1,0.1,0:3"))
+        box = ("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.5", "--region")
+        self.assertIn("--region: expected X,Y,Z:TAG for this domain", self.refuse(*box, "0,0:3"))
+        self.assertIn("--region is for what is inside",
+                      self.refuse(*box, "0.5,0.5,0.5:3", "--surfaces-only"))
+        self.assertIn("region 0 at (0.5, 0.5) lies outside the domain",
+                      self.refuse(*square, "0.5,0.5:3"))
+        self.assertIn("region 1 at (0.9, 0.9) has the tag 4, but lies in the same region as region "
+                      "0 at (0.1, 0.1)", self.refuse(*square, "0.1,0.1:3", "--region", "0.9,0.9:4"))
 
 
 if __name__ == "__main__":
