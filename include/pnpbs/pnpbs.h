@@ -289,7 +289,9 @@ PNPBS_API pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t rol
 /** Reads a surface from a file and adds it as pnpbs_domain_add_surface does: .stl (text or binary),
  *  .off, .obj, .ply, or TetGen's .poly and .smesh. Solids, groups, materials and facet markers
  *  become tags with their names (pnpbs_domain_get_tag_name); hole points become holes of the domain
- *  in space. Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected. */
+ *  in space, and regions whose attribute is an integer other than 0 get it as their tag
+ *  (pnpbs_domain_add_region). Local. Errors: PNPBS_ERROR_FILE with file, line and what was
+ *  expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role,
                                                  const char *path, double feature_angle);
 
@@ -307,9 +309,10 @@ PNPBS_API pnpbs_status pnpbs_domain_set_role(pnpbs_domain domain, int32_t tag, i
  *  sheets and surfaces that divide a body are inner. Lines and points in physical groups are inner
  *  curves and fixed nodes. In the plane the boundary is its lines, and the edges that bound
  *  triangles and quadrangles; points are treated as in space. Without elements that fill the
- *  domain, closed lines are boundary and open ones inner. The tag of a physical group becomes the
- *  tag, and its name is kept (pnpbs_domain_get_tag_name); in a file without physical groups, the
- *  entity numbers are the tags. Higher-order elements are treated as straight, with a warning.
+ *  domain, closed lines are boundary and open ones inner. Several physical groups of elements that
+ *  fill the domain become regions (pnpbs_domain_add_region). The tag of a physical group becomes
+ *  the tag, and its name is kept (pnpbs_domain_get_tag_name); in a file without physical groups,
+ *  the entity numbers are the tags. Higher-order elements are treated as straight, with a warning.
  *  Local. Errors: PNPBS_ERROR_FILE with file, line or byte, and what was expected.
  *  @param[in] feature_angle  degrees, 0 .. 180: in space as in pnpbs_domain_add_surface, in the
  *                            plane as the corner_angle of pnpbs_domain_add_polyline; 0 makes every
@@ -438,9 +441,11 @@ PNPBS_API pnpbs_status pnpbs_domain_add_region(pnpbs_domain domain, const double
 PNPBS_API pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
                                                     const double *coordinates, const int32_t *tags);
 
-/** Reads a file in Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
- *  markers kept as tags) and adds it to a domain in the plane as pnpbs_domain_add_pslg does. Local.
- *  Errors: PNPBS_ERROR_FILE with file, line and what was expected. */
+/** Reads a file in Triangle's .poly format (vertices numbered from 0 or 1, their attributes
+ *  ignored, markers kept as tags) and adds it to a domain in the plane as pnpbs_domain_add_pslg
+ *  does. Regions whose attribute is an integer other than 0 get it as their tag
+ *  (pnpbs_domain_add_region). Local. Errors: PNPBS_ERROR_FILE with file, line and what was
+ *  expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
 
 /** Does the same as pnpbs_domain_read_poly with a text in memory. Local.
