@@ -139,6 +139,55 @@ START_TEST(strips_and_a_disc) {
 }
 END_TEST
 
+/* Three nodes lie on it. */
+START_TEST(disc_that_d_does_not_resolve) {
+  const double middle[2] = {0, 0}, r = 0.3;
+  job it = job_begin();
+  elements e;
+  int64_t k;
+  int c;
+  add_rectangle(it.domain, PNPBS_BOUNDARY, -4, -4, 4, 4, 1);
+  add_circle(it.domain, PNPBS_INNER, 0, 0, r, 4);
+  MUST(pnpbs_domain_add_region(it.domain, middle, 5));
+  it = placed(it, 0.63);
+  e = elements_of(&it, 2);
+  for (k = 0; k < e.n; ++k) {
+    int in_disc = 1;
+    for (c = 0; c < 3; ++c) {
+      const double* x = e.x + 6 * k + 2 * c;
+      in_disc = in_disc && hypot(x[0], x[1]) < r + 1e-9;
+    }
+    ck_assert_int_eq(e.tags[k], in_disc ? 5 : 0);
+  }
+  ck_assert_double_gt(measure_with(&e, 5), 0);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* So narrow that middles of elements lie in the hole. */
+START_TEST(ring_that_d_does_not_resolve) {
+  const double in[2] = {1.1, 0};
+  job it = job_begin();
+  elements e;
+  int64_t k, beside = 0;
+  add_circle(it.domain, PNPBS_BOUNDARY, 0, 0, 1, 1);
+  add_circle(it.domain, PNPBS_BOUNDARY, 0, 0, 1.2, 2);
+  MUST(pnpbs_domain_add_region(it.domain, in, 3));
+  it = placed(it, 1);
+  e = elements_of(&it, 2);
+  for (k = 0; k < e.n; ++k) {
+    double x[2];
+    centre(&e, k, x);
+    beside += hypot(x[0], x[1]) < 1;
+    ck_assert_int_eq(e.tags[k], 3);
+  }
+  ck_assert_int_gt(beside, 0);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
 /* A domain changed after the run: its elements keep the tags until they are made anew. */
 START_TEST(tags_stay_with_the_elements) {
   const double in[2] = {0.5, 0.5};
@@ -232,6 +281,28 @@ START_TEST(box_with_wall_and_balls) {
 }
 END_TEST
 
+/* A ball inside is taken out: its triangles turn, and with them what is on their sides. */
+START_TEST(box_without_a_ball) {
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1}, middle[3] = {0.5, 0.5, 0.5},
+               in[3] = {0.05, 0.05, 0.05};
+  job it = {NULL, NULL, NULL};
+  elements e;
+  int64_t k;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_box(it.domain, low, high, 1));
+  add_inner_ball(it.domain, middle, 0.3);
+  MUST(pnpbs_domain_add_hole(it.domain, middle));
+  MUST(pnpbs_domain_add_region(it.domain, in, 20));
+  it = placed(it, 0.15);
+  e = elements_of(&it, 3);
+  ck_assert_int_gt(e.n, 100);
+  for (k = 0; k < e.n; ++k) ck_assert_int_eq(e.tags[k], 20);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- bad ones -------------- */
 
 START_TEST(bad_input) {
@@ -297,8 +368,11 @@ int main(void) {
   TCase* good = tcase_create("good");
   TCase* bad = tcase_create("bad");
   tcase_add_loop_test(good, strips_and_a_disc, 0, 2);
+  tcase_add_test(good, disc_that_d_does_not_resolve);
+  tcase_add_test(good, ring_that_d_does_not_resolve);
   tcase_add_test(good, tags_stay_with_the_elements);
   tcase_add_test(good, box_with_wall_and_balls);
+  tcase_add_test(good, box_without_a_ball);
   tcase_add_test(bad, bad_input);
   tcase_add_test(bad, surfaces_alone_have_none);
   tcase_set_timeout(good, 0);
