@@ -75,8 +75,12 @@ VolumeFigures add_volumes(pnpbs_placement placement, const VolumesWanted& wanted
   Figures all;
   for (const Figures& of_rank : ranks.gather(std::vector<Figures>{own})) all.add(of_rank);
   if (!ranks.is_first()) return {};
-  return {wanted.dimension, all.volumes.value(),
-          all.ratios.value() / static_cast<double>(all.nodes), all.min, all.max};
+  return {wanted.dimension,
+          all.volumes.value(),
+          all.ratios.value() / static_cast<double>(all.nodes),
+          all.min,
+          all.max,
+          wanted.body != nullptr};
 }
 
 }  // namespace pnpbs::tool

@@ -12,6 +12,7 @@ struct VolumeFigures {
   double total;   // of all nodes
   // Over nodes, of a node's volume over d^dimension, with d at the node. Not finite without nodes.
   double mean, min, max;
+  bool of_body;  // that is larger than the elements
 };
 
 // Which cells, and what they are measured by.

@@ -9,13 +9,15 @@
 namespace pnpbs::tool {
 namespace {
 
-std::string nodes_line(const Statistics& statistics) {
+std::string nodes_line(const Statistics& statistics, bool are_particles) {
   const auto* nodes = statistics.find<std::int64_t>("nodes");
   const auto* boundary = statistics.find<std::int64_t>("boundary_nodes");
   const auto* seconds = statistics.find<double>("seconds.total");
   if (!nodes) return "";
   std::string line = "nodes    " + grouped(*nodes);
-  if (boundary) line += ", " + grouped(*boundary) + " of them on the boundary";
+  if (boundary)
+    line += ", " + grouped(*boundary) +
+            (are_particles ? " of them outermost" : " of them on the boundary");
   if (seconds) line += ", in " + duration(*seconds);
   return line + "\n";
 }
@@ -131,9 +133,13 @@ std::string estimate_text(const RunEstimate& run) {
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
                          const std::optional<VolumeFigures>& volumes,
                          const std::vector<std::string>& files) {
-  return body_line(body) + nodes_line(statistics) + spacing_line(statistics) +
-         edge_line(statistics) + quality_line(statistics, body && body->volume > 0) +
-         volume_line(volumes) + stop_line(statistics) + memory_line(statistics) + files_line(files);
+  const bool are_particles = volumes && volumes->of_body;
+  std::string elements;  // which particles have none of
+  if (!are_particles)
+    elements = edge_line(statistics) + quality_line(statistics, body && body->volume > 0);
+  return body_line(body) + nodes_line(statistics, are_particles) + spacing_line(statistics) +
+         elements + volume_line(volumes) + stop_line(statistics) + memory_line(statistics) +
+         files_line(files);
 }
 
 }  // namespace pnpbs::tool

@@ -47,6 +47,9 @@ class CentredNodes(CommandTest):
         gaps = [table["x"], 2 - table["x"], table["y"], 1 - table["y"], table["z"], 1 - table["z"]]
         self.assertAlmostEqual(numpy.min(gaps), 0.46 * d, delta=1e-6)
         self.assertRegex(out, r"(?m)^body     2 x 1 x 1, volume 2$")
+        outermost = f"{numpy.count_nonzero(table['tag']):,} of them outermost".replace(",", " ")
+        self.assertIn(outermost, out)
+        self.assertNotRegex(out, "(?m)^(edges|quality) ")
         self.assertLess(abs(report["volumes"]["ratio"]["mean"] - 1), 0.03)
 
     # Whose elements do not conform at this d: they do not matter.
