@@ -83,6 +83,8 @@ void make(Results<Dim>& results, int layers, DistributedMesh& mesh) {
   require_fits_rank(nodes.count() + static_cast<std::int64_t>(others.size()), "nodes");
   require_fits_rank(elements.count() + static_cast<std::int64_t>(ghosts.size()), "elements");
   MeshArrays<Corners> arrays(mesh, nodes, elements);
+  arrays.reserve(static_cast<std::size_t>(nodes.count()) + node_ghosts.size(),
+                 at_nodes.own().size() + ghosts.size());
   for (std::int64_t n = nodes.first(); n < nodes.end(); ++n)
     arrays.add(mesh_node(results, nodes, n));
   for (const MeshNode& node : node_ghosts) arrays.add(node);

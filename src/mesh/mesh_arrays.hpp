@@ -28,6 +28,16 @@ class MeshArrays {
     mesh.all_elements = elements.total();
   }
 
+  // Makes room for so many, owned ones included.
+  void reserve(std::size_t nodes, std::size_t elements) {
+    mesh_.x.reserve(nodes * static_cast<std::size_t>(mesh_.dimension));
+    for (auto* array : {&mesh_.numbers, &mesh_.ids}) array->reserve(nodes);
+    for (auto* array : {&mesh_.owners, &mesh_.tags}) array->reserve(nodes);
+    mesh_.element_corners.reserve(elements * Corners);
+    mesh_.element_numbers.reserve(elements);
+    for (auto* array : {&mesh_.element_owners, &mesh_.element_tags}) array->reserve(elements);
+  }
+
   // Owned ones first, then the others by number.
   void add(const MeshNode& node) {
     for (int k = 0; k < mesh_.dimension; ++k)

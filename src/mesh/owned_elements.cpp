@@ -31,33 +31,40 @@ void for_elements_and_tags(const Results<Dim>& results, const Visit& visit) {
   }
 }
 
+// Sorts those that follow each other with the same key(row).
+template <class Row, class Key, class Less>
+void sort_runs(std::vector<Row>& rows, const Key& key, const Less& less) {
+  for (auto begin = rows.begin(), end = begin; begin != rows.end(); begin = end) {
+    end = std::find_if(begin, rows.end(), [&](const Row& row) { return key(row) != key(*begin); });
+    std::sort(begin, end, less);
+  }
+}
+
 }  // namespace
 
 template <std::size_t Corners, int Dim>
 std::vector<MeshElement<Corners>> owned_elements(const Results<Dim>& results,
                                                  const std::vector<std::int64_t>& numbers) {
-  struct Found {
-    std::array<std::int64_t, Corners> places;
-    std::int32_t tag;
-  };
+  using Element = MeshElement<Corners>;
   const NodeArray<std::int64_t>& ids = results.level().nodes.id;
   const auto id = [&](std::int64_t place) { return ids(results.node_at(place)); };
-  std::vector<Found> found;
+  std::vector<Element> elements;  // first by the places of their corners
   for_elements_and_tags<Corners>(results,
                                  [&](std::array<std::int64_t, Corners> places, std::int32_t tag) {
                                    incident::bring_least_id_first(places, id);
-                                   found.push_back({places, tag});
+                                   elements.push_back({kNoElement, places, tag});
                                  });
-  std::ranges::sort(found, [&](const Found& a, const Found& b) {
-    return std::ranges::lexicographical_compare(a.places, b.places, {}, id, id);
-  });
-  std::vector<MeshElement<Corners>> elements;
-  for (const Found& one : found) {
-    MeshElement<Corners> element{kNoElement, {}, one.tag};
-    for (std::size_t k = 0; k < Corners; ++k)
-      element.corners[k] = numbers[static_cast<std::size_t>(one.places[k])];
-    elements.push_back(element);
-  }
+  const auto by_ids = [&](const Element& a, const Element& b) {
+    return std::ranges::lexicographical_compare(a.corners, b.corners, {}, id, id);
+  };
+  // Those that fill the domain come by the place of the least id already.
+  if constexpr (Corners == Dim + 1)
+    sort_runs(
+        elements, [](const Element& element) { return element.corners[0]; }, by_ids);
+  else
+    std::ranges::sort(elements, by_ids);
+  for (Element& element : elements)
+    for (std::int64_t& corner : element.corners) corner = numbers[static_cast<std::size_t>(corner)];
   return elements;
 }
 
