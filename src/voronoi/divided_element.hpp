@@ -74,16 +74,15 @@ class DividedElement {
   }
 
   // Of the part in which a site is closest: a cone from a corner over each of its faces, and over
-  // the side opposite to this corner. visit(other, measure of the face) for each of them.
-  template <class Visit>
-  double volume(std::size_t site, const Visit& visit) {
+  // the side opposite to this corner. measure_of(other): of the face between the site and another.
+  template <class Measure>
+  double volume(std::size_t site, const Measure& measure_of) {
     const std::size_t apex = site < Corners ? site : 0;
     double sum = std::sqrt(squared(height(apex))) * part_of_side(apex, site).measure();
     for (std::size_t other = 0; other < sites_.size(); ++other) {
       if (other == site) continue;
-      const double measure = face(site, other).measure();
+      const double measure = measure_of(other);
       if (measure == 0) continue;
-      visit(other, measure);
       const double slope = 2 * std::sqrt(squared(within(way(sites_[other], sites_[site]))));
       sum += closer_by<Dim>(sites_[apex], sites_[site], sites_[other]) / slope * measure;
     }

@@ -7,7 +7,7 @@
 
 #include "base/chunked_rows.hpp"
 #include "voronoi/cells_within.hpp"
-#include "voronoi/divided_element.hpp"
+#include "voronoi/element_parts.hpp"
 #include "voronoi/elements_of_sites.hpp"
 
 namespace pnpbs {
@@ -37,8 +37,9 @@ struct CellFace {
 template <std::size_t Corners, int Dim>
 class CellMaker {
  public:
-  CellMaker(const ElementSites<Dim>& all, const ElementsOfSites<Dim>& at_nodes, VoronoiCells& cells)
-      : all_(all), at_nodes_(at_nodes), cells_(cells) {}
+  CellMaker(const ElementSites<Dim>& all, const ElementsOfSites<Dim>& at_nodes,
+            const ElementParts<Dim, Corners>& parts, VoronoiCells& cells)
+      : all_(all), at_nodes_(at_nodes), parts_(parts), cells_(cells) {}
 
   // Appends its faces to out.
   void operator()(std::int64_t node, std::vector<CellFace<Dim>>& out) {
@@ -46,8 +47,7 @@ class CellMaker {
     faces_.clear();
     for (auto& terms : boundary_) terms.clear();
     for (const auto& entry : at_nodes_.at(node))
-      add_part(all_.elements[static_cast<std::size_t>(entry.element)],
-               static_cast<std::size_t>(entry.site));
+      add_part(entry.element, static_cast<std::size_t>(entry.site));
     const std::size_t n = static_cast<std::size_t>(node);
     cells_.volumes[n] = sum_by_size(volumes_);
     cells_.at_boundary[n] = !boundary_[0].empty();
@@ -61,14 +61,18 @@ class CellMaker {
     double area;
   };
 
-  void add_part(const typename ElementSites<Dim>::Element& element, std::size_t site) {
+  void add_part(std::int32_t number, std::size_t site) {
+    const auto& element = all_.elements[static_cast<std::size_t>(number)];
     const auto sites = all_.of(element);
+    volumes_.push_back(parts_.volume(number, site));
+    for (std::size_t other = 0; other < sites.size(); ++other)
+      if (other != site)
+        if (const double area = parts_.area(number, site, other); area != 0)
+          faces_.push_back({sites[other], area});
+    if (element.boundary == 0) return;
     x_.clear();
     for (const std::int32_t s : sites) x_.push_back(all_.x[static_cast<std::size_t>(s)]);
     divided_.set(x_);
-    volumes_.push_back(divided_.volume(site, [&](std::size_t other, double area) {
-      faces_.push_back({sites[other], area});
-    }));
     for (std::size_t k = 0; k < Corners; ++k)
       if (element.boundary >> k & 1U) add_boundary(k, site);
   }
@@ -103,6 +107,7 @@ class CellMaker {
 
   const ElementSites<Dim>& all_;
   const ElementsOfSites<Dim>& at_nodes_;
+  const ElementParts<Dim, Corners>& parts_;
   VoronoiCells& cells_;
   DividedElement<Dim, Corners> divided_;
   std::vector<Point<Dim>> x_;  // of an element's sites
@@ -141,12 +146,13 @@ std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMe
   cells.dimension = Dim;
   const ElementSites<Dim> all = find_element_sites<Corners, Dim>(comm, mesh);
   const ElementsOfSites<Dim> at_nodes(all, mesh.owned_nodes);
+  const ElementParts<Dim, Corners> parts(all);
   cells.volumes.resize(static_cast<std::size_t>(mesh.owned_nodes));
   cells.boundary.resize(static_cast<std::size_t>(Dim * mesh.owned_nodes));
   cells.at_boundary.resize(static_cast<std::size_t>(mesh.owned_nodes));
   ChunkedRows<CellFace<Dim>> faces;
   faces.build("pnpbs::voronoi::cells", mesh.owned_nodes,
-              [&] { return CellMaker<Corners, Dim>(all, at_nodes, cells); });
+              [&] { return CellMaker<Corners, Dim>(all, at_nodes, parts, cells); });
   for (std::int64_t node = 0; node < mesh.owned_nodes; ++node)
     append<Dim>(all, std::as_const(faces).row(node), cells);
   if (surroundings != nullptr)
