@@ -27,7 +27,7 @@ class CentredNodes(CommandTest):
                 json.loads((self.folder / "a.json").read_text()), out.decode())
 
     def test_in_the_plane(self):
-        for spacing in ("0.02", "0.01 + 0.02*hypot(x, y)", "0.015 + 0.1*dist"):
+        for spacing in ("0.03", "0.015 + 0.03*hypot(x, y)", "0.02 + 0.1*dist"):
             table, report, _ = self.place_at_centres(spacing=spacing)
             d = table["spacing"] / 1.076
             self.assertAlmostEqual(sum(d ** 2), SQUARE_AREA, delta=0.02 * SQUARE_AREA)
@@ -40,8 +40,8 @@ class CentredNodes(CommandTest):
             self.assertLess(abs(ratios.mean() - 1), 0.02)
 
     def test_in_space(self):
-        table, report, out = self.place_at_centres(domain="box(0,0,0, 2,1,1)", spacing="0.08")
-        d = 0.08
+        table, report, out = self.place_at_centres(domain="box(0,0,0, 2,1,1)", spacing="0.1")
+        d = 0.1
         self.assertAlmostEqual(len(table["id"]) * d ** 3, 2, delta=0.06)
         self.assertAlmostEqual(math.fsum(table["volume"]), 2, delta=1e-12)
         gaps = [table["x"], 2 - table["x"], table["y"], 1 - table["y"], table["z"], 1 - table["z"]]
@@ -55,7 +55,7 @@ class CentredNodes(CommandTest):
     # Whose elements do not conform at this d: they do not matter.
     def test_in_a_bracket(self):
         for nodes_at, warned in (("centers", False), ("boundary", True)):
-            _, err = self.run_command("--domain", DATA / "bracket.stl", "--spacing", "6",
+            _, err = self.run_command("--domain", DATA / "bracket.stl", "--spacing", "7",
                                       "--nodes-at", nodes_at, "-o", "a.csv", "--set",
                                       "conforming_rounds=0")
             self.assertEqual("missing_faces" in err.decode(), warned)
