@@ -15,10 +15,10 @@ struct LevelCurve {
   std::vector<Point<2>> points;
 };
 
-// By loops: those of where f < 0, in a box that has no extent in z. Vertices are where f = 0, in distances of about
-// the resolution; a corner is where the gradient of f jumps by more than 20 degrees, but sharp ones
-// may lose so much of their tips as fits between points of the lattice. Throws
-// Error(ErrorKind::domain) if f is negative nowhere, or on the border of the box.
+// By loops: those of where f < 0, in a box that has no extent in z. Vertices are where f = 0, in
+// distances of about the resolution; a corner is where the gradient of f jumps by more than 20
+// degrees, but sharp ones may lose so much of their tips as fits between points of the lattice.
+// Throws Error(ErrorKind::domain) if f is negative nowhere, or on the border of the box.
 std::vector<std::vector<LevelCurve>> level_curves(const LevelSet& set);
 
 }  // namespace pnpbs
