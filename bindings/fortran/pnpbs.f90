@@ -1121,17 +1121,18 @@ contains
   end subroutine
 
   !> Adds the body between two distances from the boundary of another: points whose signed distance
-  !> to it, negative inside, lies between low and high times d. So particles that stand for d**dim
-  !> of matter each are placed half a spacing inside the wall: with low = -huge(low) and high =
-  !> -0.42 in the plane or -0.46 in space, and with a spacing for the nodes of 1.076 d or 1.147 d,
-  !> their number is the body's measure over d**dim, nearly; and so are layers of wall particles
-  !> outside, from 0.46 to n - 0.54 for n of them. Its boundary is found as that of a level set (add_level_set),
-  !> in the plane by curves through points about a resolution apart, with corners where it turns by
-  !> more than 20 degrees within it. What is thinner is lost. The body is checked first, and is not
-  !> needed afterwards. In space the callback is called later, too, as that of a level set is, so it
-  !> and user must outlive the placements made on the domain. Local; must be called identically on
-  !> all ranks. Errors: PNPBS_ERROR_DOMAIN as in domain%check, or if nothing is left between these
-  !> distances; PNPBS_ERROR_SPACING for a d that is zero, negative or not finite.
+  !> to it, negative inside, lies between low and high times d. Particles that each stand for d**dim
+  !> of matter lie half a spacing inside the wall: they are placed between low = -huge(low) and high
+  !> = -0.42 in the plane, -0.46 in space, as nodes with a spacing of 1.076 d or 1.147 d. Their
+  !> number is then nearly the integral of 1 / d**dim over the body. n layers of wall particles lie
+  !> outside, between 0.42 and n - 0.58 or, in space, 0.46 and n - 0.54. Its boundary is found as
+  !> that of a level set (add_level_set), in the plane by curves through points about a resolution
+  !> apart, with corners where it turns by more than 20 degrees within it. What is thinner is lost.
+  !> The body is checked first, and is not needed afterwards. In space the callback is called later,
+  !> too, as that of a level set is, so it and user must outlive the placements made on the domain.
+  !> Local; must be called identically on all ranks. Errors: PNPBS_ERROR_DOMAIN as in domain%check,
+  !> or if nothing is left between these distances; PNPBS_ERROR_SPACING for a d that is zero,
+  !> negative or not finite.
   !>   body        on the same context and with the same dimension; must have an inside
   !>   low         less than high; -huge(low) or less, which includes minus infinity, is passed on
   !>               as minus infinity: all that is deeper

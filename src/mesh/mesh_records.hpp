@@ -24,7 +24,7 @@ template <std::size_t Corners>
 struct MeshElement {
   std::int64_t number;
   std::array<std::int64_t, Corners> corners;
-  std::int32_t tag;  // of its surface, on surfaces alone; 0 elsewhere
+  std::int32_t tag;  // of its region, 0 for none; on surfaces alone, of its surface
 };
 
 // A side of an element with a tag: a part of the boundary, of which there is one element, or of an

@@ -414,18 +414,18 @@ end
 
 Adds the body between two distances from the boundary of another domain: points whose signed
 distance to it, negative inside, lies between `low` and `high` times d; without `d` they are
-lengths. So particles that stand for d^dim of matter each are placed half a spacing inside the wall:
-with `low = -Inf` and `high = -0.42` in the plane or `-0.46` in space, and with a spacing for the
-nodes of 1.076 d or 1.147 d, their number is the body's measure over d^dim, nearly; and so are
-layers of wall particles outside, from 0.46 to n - 0.54 for n of them. `d` is a number or a function as in
-[`set_spacing!`](@ref), which is evaluated in the body's bounding box, and as far around it as the
-new body reaches, and a little farther. The boundary, with the `tag`, is found as that of a level
-set ([`add_level_set!`](@ref)) with this resolution, 0 for an eighth (in space half) of the least
-d at the body's boundary, without `d` of the lesser of `abs(low)` and `abs(high)`; what is thinner is
-lost. Must be called identically on all ranks.
+lengths. Particles that each stand for d^dim of matter lie half a spacing inside the wall: they are
+placed between `low = -Inf` and `high = -0.42` in the plane, `-0.46` in space, as nodes with a
+spacing of 1.076 d or 1.147 d. Their number is then nearly the integral of 1 / d^dim over the body.
+n layers of wall particles lie outside, between 0.42 and n - 0.58 or, in space, 0.46 and n - 0.54.
+`d` is a number or a function as in [`set_spacing!`](@ref), which is evaluated in the body's
+bounding box, and as far around it as the new body reaches, and a little farther. The boundary, with
+the `tag`, is found as that of a level set ([`add_level_set!`](@ref)) with this resolution, 0 for an
+eighth (in space half) of the least d at the body's boundary, without `d` of the lesser of
+`abs(low)` and `abs(high)`; what is thinner is lost. Must be called identically on all ranks.
 
     add_offset!(x -> 0.1 .+ 0.05 .* x[1, :], inset, body, -Inf, -0.42)
-    add_offset!(0.1, walls, body, 0.46, 3.46)
+    add_offset!(0.1, walls, body, 0.42, 2.42)  # three layers
 """
 function add_offset!(d, domain::Domain, body::Domain, low::Real, high::Real; resolution::Real = 0,
                      tag::Integer = 1, per_point::Bool = false)
