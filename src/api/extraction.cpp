@@ -256,7 +256,7 @@ pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t
                   "argument placement has surfaces alone: their tags come with "
                   "pnpbs_placement_get_boundary_triangles");
     results.prepare_stars();
-    const auto copy = [&]<int Dim>(const Results<Dim>& in) {
+    pnpbs::in_its_dimension(results, [&]<int Dim>(const Results<Dim>& in) {
       *count = 0;
       in.for_elements([&](const auto&) { ++*count; });
       if (capacity == 0 && !tags) return;
@@ -264,11 +264,7 @@ pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t
       ElementRegions<Dim> region_of(in);
       std::int32_t* next = tags;
       if (tags) in.for_elements([&](const auto& places) { *next++ = region_of(places); });
-    };
-    if (results.dimension() == 2)
-      copy(require_dimension<2>(results));
-    else
-      copy(require_dimension<3>(results));
+    });
     return PNPBS_OK;
   });
 }

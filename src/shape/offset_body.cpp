@@ -57,9 +57,11 @@ template <int Dim>
 class OffsetFunction {
  public:
   OffsetFunction(const Domain<Dim>& body, Offset<Dim> offset)
-      : distance_(std::make_shared<const SignedDistance<Dim>>(body)),
-        offset_(std::move(offset)),
-        resolution_(offset_.resolution > 0 ? offset_.resolution : suitable_resolution()) {}
+      : distance_(std::make_shared<const SignedDistance<Dim>>(body)), offset_(std::move(offset)) {
+    const auto [least, most] = std::ranges::minmax(spacing_at_corners());
+    most_ = most;
+    resolution_ = offset_.resolution > 0 ? offset_.resolution : suitable_resolution(least);
+  }
 
   // Negative between the limits, and where they are not far nearly a distance.
   void operator()(std::int64_t n, const Point<Dim>* x, double* f) const {
@@ -85,22 +87,22 @@ class OffsetFunction {
   Box<Dim> box() const {
     const double room = kRoom * resolution_;
     if (offset_.high <= 0) return widened(distance_->bounds(), room);
-    const std::vector<double> d = spacing_at_corners();
-    const Box<Dim> near = widened(distance_->bounds(), offset_.high * *std::ranges::max_element(d));
+    const Box<Dim> near = widened(distance_->bounds(), offset_.high * most_);
     std::vector<Point<Dim>> corners;
     for (int corner = 0; corner < 1 << Dim; ++corner) {
       Point<Dim>& x = corners.emplace_back();
       for (int k = 0; k < Dim; ++k) x[k] = corner >> k & 1 ? near.high[k] : near.low[k];
     }
     const std::vector<double> beyond = spacing_at(1 << Dim, corners.data());
-    const double most = std::max(*std::ranges::max_element(d), *std::ranges::max_element(beyond));
+    const double most = std::max(most_, std::ranges::max(beyond));
     return widened(distance_->bounds(), offset_.high * most + room);
   }
 
  private:
-  double suitable_resolution() const {
-    if (offset_.spacing) return kFineness<Dim> * std::ranges::min(spacing_at_corners());
-    double least = kNoLimit;
+  // least: d at the boundary.
+  double suitable_resolution(double least) const {
+    if (offset_.spacing) return kFineness<Dim> * least;
+    least = kNoLimit;
     for (const double limit : {std::fabs(offset_.low), std::fabs(offset_.high)})
       if (limit > 0) least = std::min(least, limit);
     if (least == kNoLimit)
@@ -124,7 +126,7 @@ class OffsetFunction {
 
   std::shared_ptr<const SignedDistance<Dim>> distance_;
   Offset<Dim> offset_;
-  double resolution_;
+  double most_, resolution_;  // d at the boundary
 };
 
 Box<2> box_of(const std::vector<LevelCurve>& loop) {

@@ -71,19 +71,35 @@ START_TEST(areas_by_steiner) {
 }
 END_TEST
 
+/* Two domains in the plane, both empty. */
+typedef struct {
+  pnpbs_context context;
+  pnpbs_domain body, inset;
+} pair;
+
+static pair pair_begin(void) {
+  pair it;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 2, &it.body));
+  MUST(pnpbs_domain_create(it.context, 2, &it.inset));
+  return it;
+}
+
+static void pair_end(pair* it) {
+  MUST(pnpbs_domain_destroy(&it->body));
+  MUST(pnpbs_domain_destroy(&it->inset));
+  MUST(pnpbs_context_destroy(&it->context));
+}
+
 /* The four corners of the inset are corners of its boundary, all with the tag. */
 START_TEST(corners_are_kept) {
   double segments[400][4];
   int32_t tags[400];
   int64_t count, k, corners = 0;
-  pnpbs_domain body, inset;
-  pnpbs_context context;
-  MUST(pnpbs_context_create_serial(&context));
-  MUST(pnpbs_domain_create(context, 2, &body));
-  MUST(pnpbs_domain_create(context, 2, &inset));
-  add_square(body);
-  MUST(pnpbs_domain_add_offset(inset, body, -INFINITY, -0.2, NULL, NULL, 0, 7));
-  MUST(pnpbs_domain_get_segments(inset, 400, &count, segments[0], tags));
+  pair in = pair_begin();
+  add_square(in.body);
+  MUST(pnpbs_domain_add_offset(in.inset, in.body, -INFINITY, -0.2, NULL, NULL, 0, 7));
+  MUST(pnpbs_domain_get_segments(in.inset, 400, &count, segments[0], tags));
   for (k = 0; k < count; ++k) {
     const double x = segments[k][0], y = segments[k][1];
     ck_assert_double_eq_tol(fmin(fmin(x, 1 - x), fmin(y, 1 - y)), 0.2, 1e-10);
@@ -91,9 +107,7 @@ START_TEST(corners_are_kept) {
     corners += fabs(fabs(x - 0.5) - 0.3) < 1e-9 && fabs(fabs(y - 0.5) - 0.3) < 1e-9;
   }
   ck_assert_int_eq(corners, 4);
-  MUST(pnpbs_domain_destroy(&body));
-  MUST(pnpbs_domain_destroy(&inset));
-  MUST(pnpbs_context_destroy(&context));
+  pair_end(&in);
 }
 END_TEST
 
@@ -110,18 +124,37 @@ static int has_vertex(pnpbs_domain domain, double x, double y) {
 START_TEST(corners_of_curves_are_kept) {
   const double centre[2] = {0, 0}, chord[4] = {-1, 0, 1, 0}, h = 0.15;
   const double corner = sqrt((1 - h) * (1 - h) - h * h);
-  pnpbs_domain body, inset;
-  pnpbs_context context;
-  MUST(pnpbs_context_create_serial(&context));
-  MUST(pnpbs_domain_create(context, 2, &body));
-  MUST(pnpbs_domain_create(context, 2, &inset));
-  MUST(pnpbs_domain_add_arc(body, PNPBS_BOUNDARY, centre, 1, 0, PI, 1));
-  MUST(pnpbs_domain_add_polyline(body, PNPBS_BOUNDARY, 0, 2, chord, NULL, 0));
-  MUST(pnpbs_domain_add_offset(inset, body, -INFINITY, -h, NULL, NULL, 0.1, 7));
-  ck_assert(has_vertex(inset, corner, h) && has_vertex(inset, -corner, h));
-  MUST(pnpbs_domain_destroy(&body));
-  MUST(pnpbs_domain_destroy(&inset));
-  MUST(pnpbs_context_destroy(&context));
+  pair in = pair_begin();
+  MUST(pnpbs_domain_add_arc(in.body, PNPBS_BOUNDARY, centre, 1, 0, PI, 1));
+  MUST(pnpbs_domain_add_polyline(in.body, PNPBS_BOUNDARY, 0, 2, chord, NULL, 0));
+  MUST(pnpbs_domain_add_offset(in.inset, in.body, -INFINITY, -h, NULL, NULL, 0.1, 7));
+  ck_assert(has_vertex(in.inset, corner, h) && has_vertex(in.inset, -corner, h));
+  pair_end(&in);
+}
+END_TEST
+
+static int32_t constant(int64_t n, int32_t dim, const double* x, double* d, void* user);
+
+/* Of a square beside another one: smaller than twice the resolution, or than half of d. */
+START_TEST(tiny_pieces_are_left_out) {
+  const struct {
+    double side, d, depth, resolution;
+    int stays;
+  } cases[] = {{0.237, 0, 0.1, 0.02, 0},
+               {0.3, 0, 0.1, 0.02, 1},
+               {0.3, 0.25, 0.42, 0, 0},
+               {0.36, 0.25, 0.42, 0, 1}};
+  const double depth = cases[_i].d > 0 ? cases[_i].depth * cases[_i].d : cases[_i].depth;
+  const double large = 1 - 2 * depth, small = cases[_i].side - 2 * depth;
+  double d = cases[_i].d;
+  pair in = pair_begin();
+  add_square(in.body);
+  add_rectangle(in.body, PNPBS_BOUNDARY, 2, 0, 2 + cases[_i].side, cases[_i].side, 1);
+  MUST(pnpbs_domain_add_offset(in.inset, in.body, -INFINITY, -cases[_i].depth,
+                               d > 0 ? constant : NULL, &d, cases[_i].resolution, 1));
+  ck_assert_double_eq_tol(measure_of(in.inset),
+                          large * large + (cases[_i].stays ? small * small : 0), 1e-9);
+  pair_end(&in);
 }
 END_TEST
 
@@ -152,23 +185,17 @@ START_TEST(depth_follows_the_spacing) {
   cone grows = {0.02, 0.1, 0, 0};
   double segments[2000][4];
   int64_t count, k;
-  pnpbs_domain body, inset;
-  pnpbs_context context;
-  MUST(pnpbs_context_create_serial(&context));
-  MUST(pnpbs_domain_create(context, 2, &body));
-  MUST(pnpbs_domain_create(context, 2, &inset));
-  add_square(body);
-  MUST(pnpbs_domain_add_offset(inset, body, -INFINITY, -0.5, cone_spacing, &grows, 0, 1));
-  MUST(pnpbs_domain_get_segments(inset, 2000, &count, segments[0], NULL));
+  pair in = pair_begin();
+  add_square(in.body);
+  MUST(pnpbs_domain_add_offset(in.inset, in.body, -INFINITY, -0.5, cone_spacing, &grows, 0, 1));
+  MUST(pnpbs_domain_get_segments(in.inset, 2000, &count, segments[0], NULL));
   ck_assert_int_gt(count, 100);
   for (k = 0; k < count; ++k) {
     const double x = segments[k][0], y = segments[k][1];
     ck_assert_double_eq_tol(fmin(fmin(x, 1 - x), fmin(y, 1 - y)), 0.5 * (0.02 + 0.1 * hypot(x, y)),
                             1e-8);
   }
-  MUST(pnpbs_domain_destroy(&body));
-  MUST(pnpbs_domain_destroy(&inset));
-  MUST(pnpbs_context_destroy(&context));
+  pair_end(&in);
 }
 END_TEST
 
@@ -350,6 +377,7 @@ int main(void) {
   tcase_add_loop_test(good, areas_by_steiner, 0, COUNT_OF(plane_bodies));
   tcase_add_test(good, corners_are_kept);
   tcase_add_test(good, corners_of_curves_are_kept);
+  tcase_add_loop_test(good, tiny_pieces_are_left_out, 0, 4);
   tcase_add_test(good, insets_of_a_lake);
   tcase_add_test(good, depth_follows_the_spacing);
   tcase_add_test(good, volumes_by_steiner);

@@ -7,6 +7,7 @@
 
 #include "base/domain_error.hpp"
 #include "base/point_text.hpp"
+#include "domain/region_points.hpp"
 #include "geometry/plane/segments.hpp"
 #include "predicates/plane.hpp"
 #include "tree/box_tree.hpp"
@@ -52,9 +53,8 @@ class Conflicts {
     return static_cast<std::size_t>(point) >= swept_.graph.vertices.size();
   }
   std::string text_of_region_point_on(std::int32_t point, const std::string& name) const {
-    const RegionPoint<2>& it =
-        swept_.region_points[static_cast<std::size_t>(point) - swept_.graph.vertices.size()];
-    return it.name + " at " + point_text(it.point) + " lies on " + name +
+    const std::size_t k = static_cast<std::size_t>(point) - swept_.graph.vertices.size();
+    return name_and_place<2>(swept_.region_points[k]) + " lies on " + name +
            ": move it into the region it stands for";
   }
 
