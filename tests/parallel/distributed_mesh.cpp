@@ -258,6 +258,8 @@ void check_elements(const Part& p, const Reference& all, const Owners& owners, i
     expect((p.element_owners[k] == rank) == mine, "owned elements come first");
     expect(p.element_numbers[k] == owned->second.number, "number of an element");
     expect(!mine || p.element_numbers[k] == p.first_element + e, "they count up");
+    if (e > 0 && e < p.owned_elements)
+      expect(p.element(e - 1) < p.element(e), "owned elements by the ids of their corners");
     expect(p.element_tags[k] == all.elements.at(key), "tag of an element");
     expect(measure(all, corners) > 0, "orientation");
     for (std::size_t c = 0; c < corners.size(); ++c) {
