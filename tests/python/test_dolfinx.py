@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distributed meshes in DOLFINx, on the ranks of MPI: cells stay on their rank, facets keep their
-tags, and Poisson's equation has the same error on any number of ranks, before and after the spacing
-is adapted. usage: test_dolfinx.py [FILE D], instead of the square and the box. DOLFINx 0.5."""
+"""Distributed meshes in DOLFINx, on the ranks of MPI: cells stay on their rank, facets and cells
+keep their tags, and Poisson's equation has the same error on any number of ranks, before and after
+the spacing is adapted. usage: test_dolfinx.py [FILE D], instead of the square and the box.
+DOLFINx 0.5."""
 import sys
 
 import dolfinx
@@ -9,6 +10,7 @@ import numpy as np
 import pnpbs
 import ufl
 from dolfinx import fem
+from mesh_domains import blocks, blocks_with_regions, box, placed, square, surfaces_of_a_box
 from mpi4py import MPI
 
 WORLD = MPI.COMM_WORLD
@@ -68,8 +70,7 @@ def solve(placement, comm, centre, length):
 
 def run(domain, comm, d, centre, length):
     """Errors before and after adapting."""
-    placement = pnpbs.Placement(domain, steps=100)
-    placement.set_spacing(d).run()
+    placement = placed(domain, d, steps=100)
     nodes, error = solve(placement, comm, centre, length)
     away = np.linalg.norm(placement.nodes().points - centre, axis=1) / length
     placement.set_spacing(d * np.clip(0.4 + 0.6 * away, None, 1)).run()
@@ -80,21 +81,34 @@ def run(domain, comm, d, centre, length):
     return error, adapted
 
 
-def square(context):
-    domain = pnpbs.Domain(context).add_polyline([(0, 0), (1, 0), (1, 1), (0, 1)], tags=1)
-    return domain.add_arc((0.3, 0.35), 0.2, tag=2)
+def check_regions(placement, expected):
+    """Tags of all cells on this rank, ghosts among them, and the measures of regions."""
+    part = placement.mesh(ghost_layers=1)
+    mesh, tags, regions = part.to_dolfinx(WORLD, regions=True)
+    check_mesh(WORLD, part, mesh, tags)
+    tag_of = dict(zip(part.element_numbers, part.element_tags))
+    there = np.zeros(len(mesh.topology.original_cell_index), np.int32)
+    there[regions.indices] = regions.values
+    check((there == [tag_of[number] for number in mesh.topology.original_cell_index]).all(),
+          "tags of cells")
+    check((regions.values != 0).all(), "cells without a tag are in none")
+    dx = ufl.Measure("dx", domain=mesh, subdomain_data=regions)
+    one = fem.Constant(mesh, 1.0)
+    for tag, measure in expected.items():
+        np.testing.assert_allclose(total(WORLD, one * dx(tag)), measure, rtol=1e-12)
 
 
-def box(context):
-    domain = pnpbs.Domain(context, dim=3).add_box((0, 0, 0), (1, 1, 1), tag=1)
-    return domain.add_ball((0.3, 0.35, 0.5), 0.2, tag=2)
+def check_meshes_with_regions(context):
+    for dim, d in ((2, 0.1), (3, 0.3)):
+        size = 0.3 * 0.6**(dim - 1)
+        check_regions(placed(blocks(context, dim), d), {7: 0})
+        check_regions(placed(blocks_with_regions(context, dim), d), {7: size, 20: size})
+    check_regions(placed(surfaces_of_a_box(context), 0.3), {5: 6})
 
 
 def check_without_a_layer(context):
-    placement = pnpbs.Placement(square(context), steps=10)
-    placement.set_spacing(0.1).run()
     try:
-        placement.mesh().to_dolfinx(WORLD)
+        placed(square(context), 0.1).mesh().to_dolfinx(WORLD)
         told = WORLD.size == 1
     except ValueError as error:
         told = "ghost_layers=1" in str(error)
@@ -119,6 +133,7 @@ def main():
         errors = run(domain(context), WORLD, d, centre, length)
         alone = run(domain(pnpbs.Context()), MPI.COMM_SELF, d, centre, length)
         np.testing.assert_allclose(errors, alone, rtol=1e-9)
+    check_meshes_with_regions(context)
     return check_without_a_layer(context)
 
 

@@ -68,15 +68,18 @@ class MeshConversions(MeshArrays):
         return mesh.with_subdomains({f"tag_{tag}": np.flatnonzero(self.element_tags == tag)
                                      for tag in regions})
 
-    def to_dolfinx(self, comm: Any) -> Tuple[Any, Any]:
+    def to_dolfinx(self, comm: Any, regions: bool = False) -> Tuple[Any, ...]:
         """Returns the mesh for DOLFINx, and the tags of its facets (boundary and inner ones) as
-        mesh tags. Each rank keeps the elements that it owns as cells, with those across their
-        facets as ghosts: DOLFINx partitions nothing. So on several ranks the mesh must have a ghost
-        layer, `placement.mesh(ghost_layers=1)`. `input_global_indices` of the geometry are the
-        numbers of the nodes, by which fields are brought over. `comm`: mpi4py's communicator of the
-        placement's context. Collective. Tried with DOLFINx 0.5.2."""
+        mesh tags; with `regions=True` the tags of its cells as well, those of regions, on surfaces
+        alone of the surfaces. Cells without a tag are not in these. Each rank keeps the elements
+        that it owns as cells, with those across their facets as ghosts: DOLFINx partitions nothing.
+        So on several ranks the mesh must have a ghost layer, `placement.mesh(ghost_layers=1)`.
+        `input_global_indices` of the geometry are the numbers of the nodes, by which fields are
+        brought over. `comm`: mpi4py's communicator of the placement's context. Collective. Tried
+        with DOLFINx 0.5.2."""
         dolfinx = _package("dolfinx")
-        if comm.size > 1 and comm.allreduce(len(self.elements) - self.owned_elements) == 0:
+        ghosts = len(self.elements) - self.owned_elements
+        if comm.allreduce(len(self.shared_nodes)) > 0 and comm.allreduce(ghosts) == 0:
             raise ValueError("the mesh has no ghost layer, which DOLFINx needs on several ranks: "
                              "placement.mesh(ghost_layers=1) has one")
         destinations = dolfinx.cpp.graph.AdjacencyList_int32(*self._destinations(comm.rank))
@@ -85,14 +88,13 @@ class MeshConversions(MeshArrays):
             comm, dolfinx.cpp.graph.AdjacencyList_int64(cells),
             self.coordinates[:self.owned_nodes], _linear_coordinates(self.dim, cells.shape[1]),
             partitioner=lambda *_: destinations)
-        dim = mesh.topology.dim - 1
-        mine = self._owned_facets()
-        entities, values = dolfinx.cpp.io.distribute_entity_data(
-            mesh._mesh, dim, self.numbers[self.facets[mine]], self.facet_tags[mine])
-        mesh.topology.create_connectivity(dim, 0)
-        mesh.topology.create_connectivity(dim, dim + 1)
-        return mesh, dolfinx.mesh.meshtags_from_entities(
-            mesh, dim, dolfinx.cpp.graph.AdjacencyList_int32(entities), values)
+        mine, tags = self._owned_facets(), self.element_tags[:self.owned_elements]
+        of_facets = _tags_in_dolfinx(mesh, mesh.topology.dim - 1, self.numbers[self.facets[mine]],
+                                     self.facet_tags[mine])
+        if not regions:
+            return mesh, of_facets
+        return mesh, of_facets, _tags_in_dolfinx(mesh, mesh.topology.dim, cells[tags != 0],
+                                                 tags[tags != 0])
 
     def plot(self, ax: Any = None) -> Any:
         """Draws what this rank owns on `ax` or a new canvas, which it returns. In the plane:
@@ -153,3 +155,14 @@ def _linear_coordinates(dim: int, corners: int) -> Any:
     ufl = _package("ufl")
     cell = ufl.Cell("triangle" if corners == 3 else "tetrahedron", geometric_dimension=dim)
     return ufl.Mesh(ufl.VectorElement("Lagrange", cell, 1, dim=dim))
+
+
+def _tags_in_dolfinx(mesh: Any, dim: int, corners: NDArray[np.int64], tags: Int32s) -> Any:
+    """Mesh tags of entities of this dimension, of which each is given on one rank, by the numbers
+    of its nodes."""
+    dolfinx = _package("dolfinx")
+    entities, values = dolfinx.cpp.io.distribute_entity_data(mesh._mesh, dim, corners, tags)
+    mesh.topology.create_connectivity(dim, 0)
+    mesh.topology.create_connectivity(dim, mesh.topology.dim)
+    return dolfinx.mesh.meshtags_from_entities(
+        mesh, dim, dolfinx.cpp.graph.AdjacencyList_int32(entities), values)
