@@ -13,14 +13,16 @@
 
 #include "pnpbs_petsc.h"
 
-enum { OUTSIDE = 1, HOLE = 2 };
+enum { OUTSIDE = 1, HOLE = 2, BODY = 3, NO_REGION = -1 };
 
 /* ---------------------------------------------------------------- the problem ------------ */
 
-/* u = 1 / (1 + r^2), r from a point, over a length. */
+/* u = 1 / (1 + r^2), r from a point, over a length. The conductivity is 1 in the cells of a region.
+ */
 typedef struct {
   int32_t dim;
   double centre[3], length;
+  PetscInt region;
 } peak;
 
 static double square_of_r(const peak *p, const double *x) {
@@ -119,10 +121,12 @@ static PetscErrorCode assemble(DM dm, const peak *p, Mat stiffness, Vec right) {
   for (cell = begin; cell < end; ++cell) {
     PetscScalar matrix[16] = {0}, vector[4] = {0};
     const int corners = p->dim + 1;
+    PetscInt region;
     element e;
+    PetscCall(DMGetLabelValue(dm, "Cell Sets", cell, &region));
     PetscCall(element_of(dm, cell, p->dim, &e));
     for (i = 0; i < corners; ++i) {
-      for (j = 0; j < corners; ++j)
+      for (j = 0; region == p->region && j < corners; ++j)
         for (k = 0; k < p->dim; ++k)
           matrix[corners * i + j] += e.measure * e.gradient[i][k] * e.gradient[j][k];
       for (k = 0; k < corners; ++k)
@@ -286,12 +290,13 @@ static PetscErrorCode run(pnpbs_context context, pnpbs_domain domain, const peak
 
 static PetscErrorCode square_with_hole(pnpbs_context context, double errors[2]) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, centre[] = {0.3, 0.35};
-  const peak p = {2, {0.7, 0.6, 0}, 0.1};
+  const peak p = {2, {0.7, 0.6, 0}, 0.1, BODY};
   pnpbs_domain domain;
   PetscFunctionBeginUser;
   PnpbsCall(pnpbs_domain_create(context, 2, &domain));
   PnpbsCall(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, OUTSIDE));
   PnpbsCall(pnpbs_domain_add_arc(domain, PNPBS_BOUNDARY, centre, 0.2, 0, 2 * PETSC_PI, HOLE));
+  PnpbsCall(pnpbs_domain_add_region(domain, p.centre, BODY));
   PetscCall(run(context, domain, &p, 0.03, errors));
   PnpbsCall(pnpbs_domain_destroy(&domain));
   PetscFunctionReturn(0);
@@ -299,12 +304,13 @@ static PetscErrorCode square_with_hole(pnpbs_context context, double errors[2]) 
 
 static PetscErrorCode box_with_hollow(pnpbs_context context, double errors[2]) {
   const double low[] = {0, 0, 0}, high[] = {1, 1, 1}, centre[] = {0.3, 0.35, 0.5};
-  const peak p = {3, {0.7, 0.6, 0.5}, 0.2};
+  const peak p = {3, {0.7, 0.6, 0.5}, 0.2, BODY};
   pnpbs_domain domain;
   PetscFunctionBeginUser;
   PnpbsCall(pnpbs_domain_create(context, 3, &domain));
   PnpbsCall(pnpbs_domain_add_box(domain, low, high, OUTSIDE));
   PnpbsCall(pnpbs_domain_add_ball(domain, centre, 0.2, HOLE));
+  PnpbsCall(pnpbs_domain_add_region(domain, p.centre, BODY));
   PetscCall(run(context, domain, &p, 0.1, errors));
   PnpbsCall(pnpbs_domain_destroy(&domain));
   PetscFunctionReturn(0);
@@ -313,7 +319,7 @@ static PetscErrorCode box_with_hollow(pnpbs_context context, double errors[2]) {
 /* The peak is in the middle of what the file describes, and as long as ten spacings. */
 static PetscErrorCode domain_of_file(pnpbs_context context, const char *path, double d,
                                      double errors[2]) {
-  peak p = {strstr(path, ".poly") ? 2 : 3, {0, 0, 0}, 10 * d};
+  peak p = {strstr(path, ".poly") ? 2 : 3, {0, 0, 0}, 10 * d, NO_REGION};
   double low[3], high[3];
   pnpbs_domain domain;
   int k;

@@ -97,8 +97,8 @@ static inline PetscErrorCode pnpbs_petsc_numbers(pnpbs_mesh mesh, PetscSF nodes,
 
 /** Makes a plex whose cells on each rank are the elements that the rank owns: nothing is gathered,
  *  read or partitioned. The faces in it are made, too. Labels: "Face Sets" has the tags of boundary
- *  and inner facets, "marker" is 1 on the boundary, and on surfaces alone "Cell Sets" has the tags
- *  of the cells. Collective.
+ *  and inner facets, "marker" is 1 on the boundary, and "Cell Sets" has the tags of the cells: of
+ *  regions, on surfaces alone of the surfaces. Cells without a tag are not in it. Collective.
  *  @param[in] mesh    of any number of ghost layers; these are left out, and
  *                     DMPlexDistributeOverlap makes PETSc's own
  *  @param[in] comm    the communicator of the mesh's context
@@ -134,8 +134,9 @@ static inline PetscErrorCode pnpbs_petsc_plex(pnpbs_mesh mesh, MPI_Comm comm, DM
   PetscCall(PetscMalloc1(end - first, &numbers));
   PetscCall(pnpbs_petsc_numbers(mesh, sf, numbers));
   PetscCall(pnpbs_petsc_label_facets(mesh, *dm, end - first, numbers));
-  for (e = 0; corners == dim && e < owned; ++e)
-    PetscCall(DMSetLabelValue(*dm, "Cell Sets", (PetscInt)e, tags[e]));
+  PetscCall(DMCreateLabel(*dm, "Cell Sets"));
+  for (e = 0; e < owned; ++e)
+    if (tags[e] != 0) PetscCall(DMSetLabelValue(*dm, "Cell Sets", (PetscInt)e, tags[e]));
   PetscCall(PetscFree(numbers));
   PetscCall(PetscFree3(cells, x, tags));
   if (nodes)
