@@ -24,8 +24,8 @@ from .rows import CompressedRows
 @dataclass(frozen=True, eq=False, repr=False)
 class DistributedMesh(MeshConversions):
     """A rank's part of a distributed mesh, made by `placement.mesh`. Its attributes are those of
-    `MeshArrays`. `plot` draws it; `to_meshio`, `to_pyvista`, `to_skfem` and `to_dolfinx` hand it to
-    other packages."""
+    `MeshArrays`. `plot` draws it; `to_meshio`, `to_pyvista`, `to_skfem`, `to_dolfinx` and
+    `to_petsc` hand it to other packages."""
 
     def __repr__(self) -> str:
         return (f"<pnpbs.DistributedMesh, {self.dim}D, {counted(len(self.ids), 'node')}, "

@@ -10,6 +10,7 @@ from typing import Any, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ._petsc import plex_of
 from ._plots import plot_mesh
 from ._types import Int32s
 from .mesh_arrays import MeshArrays
@@ -95,6 +96,20 @@ class MeshConversions(MeshArrays):
             return mesh, of_facets
         return mesh, of_facets, _tags_in_dolfinx(mesh, mesh.topology.dim, cells[tags != 0],
                                                  tags[tags != 0])
+
+    def to_petsc(self, comm: Any) -> Tuple[Any, Any]:
+        """Returns the mesh as petsc4py's `DMPlex`, with edges and faces, and an `SF` between the
+        nodes of the placement and the vertices of the plex. The cells on each rank are the elements
+        that it owns: nothing is gathered, and PETSc partitions nothing. Ghost elements are left
+        out, and `plex.distributeOverlap` makes PETSc's own. Labels: "Face Sets" has the tags of
+        facets (boundary and inner ones), "marker" is 1 on the boundary, and "Cell Sets" has the
+        tags of cells, those of regions, on surfaces alone of the surfaces; cells without a tag are
+        not in it. The roots of the `SF` are the nodes that this rank owns, in the order of
+        `placement.nodes()`, its leaves the vertices on this rank, in the plex's order: so
+        `bcastBegin` and `bcastEnd` bring a field of the placement to the vertices, and
+        `reduceBegin` and `reduceEnd` bring it back. `comm`: mpi4py's communicator of the
+        placement's context. Collective. Tried with petsc4py 3.18.5."""
+        return plex_of(self, comm)
 
     def plot(self, ax: Any = None) -> Any:
         """Draws what this rank owns on `ax` or a new canvas, which it returns. In the plane:
