@@ -22,19 +22,28 @@ if grep -q '<petsc' "$folder"/*.c 2> /dev/null && ! pkg-config --exists petsc; t
   nothing_to_test "$name needs PETSc, and pkg-config knows none"
 fi
 
-if grep -q 'find_package(deal\.II' "$folder/CMakeLists.txt"; then
+# Whether CMake finds a package of C++ as an example needs it: the lines that say so, its name.
+require_package() {
   mkdir "$work/probe"
-  cat > "$work/probe/CMakeLists.txt" << 'EOF'
-cmake_minimum_required(VERSION 3.22)
-project(probe LANGUAGES CXX)
-find_package(deal.II 9.4 REQUIRED)
+  printf '%s\n' "cmake_minimum_required(VERSION 3.22)" "project(probe LANGUAGES C CXX)" "$1" \
+    > "$work/probe/CMakeLists.txt"
+  "$cmake" -S "$work/probe" -B "$work/probe/build" -DCMAKE_C_COMPILER="$cc" \
+    -DCMAKE_CXX_COMPILER="$cxx" > "$work/log" 2>&1 ||
+    nothing_to_test "$name needs $2, and CMake finds none"
+}
+
+if grep -q 'find_package(deal\.II' "$folder/CMakeLists.txt"; then
+  require_package 'find_package(deal.II 9.4 REQUIRED)
 if(NOT DEAL_II_WITH_MPI OR NOT DEAL_II_WITH_TRILINOS)
   message(FATAL_ERROR "without MPI or Trilinos")
-endif()
-EOF
-  "$cmake" -S "$work/probe" -B "$work/probe/build" -DCMAKE_CXX_COMPILER="$cxx" \
-    > "$work/log" 2>&1 ||
-    nothing_to_test "$name needs deal.II 9.4 with MPI and Trilinos, and CMake finds none"
+endif()' "deal.II 9.4 with MPI and Trilinos"
+fi
+
+if grep -q 'find_package(MFEM' "$folder/CMakeLists.txt"; then
+  require_package 'find_package(MFEM 4.5 REQUIRED)
+if(NOT MFEM_USE_MPI)
+  message(FATAL_ERROR "without MPI")
+endif()' "MFEM 4.5 with MPI"
 fi
 
 # Fortran traps invalid numbers; free form is checked strictly, older code has its own flags.
