@@ -17,10 +17,11 @@ import PNPBS
 Returns the mesh as a discrete model of triangles or tetrahedra, whose cells and nodes have the
 indices that elements and nodes have in `mesh`. The tag `"tag_7"` has the facets with tag 7 of the
 boundary and of inner curves or surfaces, with their edges and vertices; on surfaces alone the
-triangles of the surface as well. The tag `"boundary"` has what lies on the boundary, `"interior"`
-the rest. The corners of a cell are in the order of their indices, as Gridap's oriented simplices
-are; on surfaces alone they turn as in `mesh`. Gridap has no ranks, so all nodes must be on this
-one. Local.
+triangles of the surface as well. The tag `"region_7"` has the cells of regions with tag 7, with
+their faces, edges and vertices; those where regions meet have the tags of all. The tag `"boundary"`
+has what lies on the boundary, `"interior"` the rest. The corners of a cell are in the order of
+their indices, as Gridap's oriented simplices are; on surfaces alone they turn as in `mesh`. Gridap
+has no ranks, so all nodes must be on this one. Local.
 """
 function Gridap.Geometry.UnstructuredDiscreteModel(mesh::PNPBS.DistributedMesh)
     PNPBS.require_whole_mesh(mesh, "Gridap")
@@ -41,17 +42,28 @@ end
 
 on_surfaces(mesh) = size(mesh.elements, 1) == mesh.dim
 
-# Where a vertex, edge, triangle or cell lies: on curves or surfaces with these tags, in order, and
-# on the boundary or not. An entity of Gridap is all that lies in the same place.
-const Place = Tuple{Vector{Int32},Bool}
+# Where a vertex, edge, triangle or cell lies: on curves or surfaces with these tags, in order, in
+# regions with these tags, and on the boundary or not. An entity of Gridap is all that lies in the
+# same place.
+struct Place
+    tags::Vector{Int32}
+    regions::Vector{Int32}
+    boundary::Bool
+end
+
+Base.:(==)(a::Place, b::Place) =
+    a.tags == b.tags && a.regions == b.regions && a.boundary == b.boundary
 
 function labels_of(mesh, topology)
     entities, places = entities_of_faces(mesh, topology)
     labels = FaceLabeling(entities, Vector{Int32}[], String[])
-    add_tag!(labels, "interior", findall(place -> !place[2], places))
-    add_tag!(labels, "boundary", findall(place -> place[2], places))
-    for tag in sort!(unique!(reduce(vcat, first.(places))))
-        add_tag!(labels, PNPBS.tag_label(tag), findall(place -> tag in place[1], places))
+    add_tag!(labels, "interior", findall(place -> !place.boundary, places))
+    add_tag!(labels, "boundary", findall(place -> place.boundary, places))
+    for tag in sort!(reduce(union, (place.tags for place in places)))
+        add_tag!(labels, PNPBS.tag_label(tag), findall(place -> tag in place.tags, places))
+    end
+    for tag in sort!(reduce(union, (place.regions for place in places)))
+        add_tag!(labels, "region_$tag", findall(place -> tag in place.regions, places))
     end
     return labels
 end
@@ -59,32 +71,36 @@ end
 # The entities of the faces of each dimension, and the place of each entity.
 function entities_of_faces(mesh, topology)
     dim = num_cell_dims(topology)
-    places = Place[(Int32[], false)]
+    places = Place[Place(Int32[], Int32[], false)]
     entities = [ones(Int32, num_faces(topology, d)) for d in 0:dim]
-    known = Dict{Tuple{Int32,Int32,Bool},Int32}()
-    function add_place!(d, face, tag, boundary)
+    known = Dict{Tuple{Int32,Int32,Symbol},Int32}()
+    function add_place!(d, face, tag, kind)
         entity = entities[d + 1][face]
-        entities[d + 1][face] = get!(known, (entity, tag, boundary)) do
-            return entity_with!(places, entity, tag, boundary)
+        entities[d + 1][face] = get!(known, (entity, tag, kind)) do
+            return entity_with!(places, entity, tag, kind)
         end
     end
     for (k, facet) in enumerate(facet_numbers(mesh, topology))
         for (d, face) in faces_in(topology, dim - 1, facet)
-            add_place!(d, face, mesh.facet_tags[k], !mesh.facet_inner[k])
+            add_place!(d, face, mesh.facet_tags[k], mesh.facet_inner[k] ? :inner : :boundary)
         end
     end
-    if on_surfaces(mesh)
-        for (cell, tag) in enumerate(mesh.element_tags), (d, face) in faces_in(topology, dim, cell)
-            add_place!(d, face, tag, false)
+    kind = on_surfaces(mesh) ? :inner : :region
+    for (cell, tag) in enumerate(mesh.element_tags)
+        kind == :region && tag == 0 && continue
+        for (d, face) in faces_in(topology, dim, cell)
+            add_place!(d, face, tag, kind)
         end
     end
     return entities, places
 end
 
-# The entity whose place is on this curve or surface as well.
-function entity_with!(places, entity, tag, boundary)
-    tags, on_boundary = places[entity]
-    place = (tag in tags ? tags : sort([tags; tag]), on_boundary || boundary)
+# The entity whose place is on this curve or surface, or in this region, as well.
+function entity_with!(places, entity, tag, kind)
+    old = places[entity]
+    with(tags) = tag in tags ? tags : sort([tags; tag])
+    place = kind == :region ? Place(old.tags, with(old.regions), old.boundary) :
+            Place(with(old.tags), old.regions, old.boundary || kind == :boundary)
     found = findfirst(==(place), places)
     found === nothing || return found
     push!(places, place)

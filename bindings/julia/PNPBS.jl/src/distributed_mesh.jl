@@ -56,8 +56,8 @@ For example, what a loop over the elements of this rank needs:
 
 A mesh that is on one rank goes to Ferrite.jl by `Ferrite.Grid(mesh)`, to Gridap.jl by
 `Gridap.Geometry.UnstructuredDiscreteModel(mesh)`, with a facet set or a tag of the name `"tag_7"`
-for the facets with tag 7. In Ferrite the elements with tag 7 are the cell set of this name. Julia
-1.9 and later load these methods with the packages.
+for the facets with tag 7. The elements with tag 7 are the cell set of this name in Ferrite, and have
+the tag `"region_7"` in Gridap. Julia 1.9 and later load these methods with the packages.
 """
 Base.@kwdef struct DistributedMesh
     dim::Int

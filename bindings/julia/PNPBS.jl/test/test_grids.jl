@@ -101,8 +101,15 @@ function check_model_of_gridap(mesh)
     with(name, d) = findall(Geometry.get_face_mask(labels, name, d))
     dim = Geometry.num_cell_dims(model)
     vertices = Geometry.get_faces(topology, dim - 1, 0)
-    tags = setdiff([mesh.facet_tags; mesh.element_tags], 0)
-    @test labels.tag_to_name == ["interior"; "boundary"; ["tag_$tag" for tag in sort(tags)]]
+    # On surfaces alone the tags of elements are those of the surfaces.
+    regions = dim == mesh.dim ? setdiff(mesh.element_tags, 0) : Int32[]
+    tags = dim == mesh.dim ? unique(mesh.facet_tags) : union(mesh.facet_tags, mesh.element_tags)
+    @test labels.tag_to_name == ["interior"; "boundary"; ["tag_$tag" for tag in sort(tags)];
+                                 ["region_$tag" for tag in sort(regions)]]
+    for tag in regions
+        @test with("region_$tag", dim) == findall(==(tag), mesh.element_tags)
+        @test Set(with("region_$tag", 0)) == Set(mesh.elements[:, mesh.element_tags .== tag])
+    end
     for tag in unique(mesh.facet_tags)
         facets = facets_with(mesh, tag)
         @test Set(Set(vertices[f]) for f in with("tag_$tag", dim - 1)) == facets
@@ -122,6 +129,8 @@ end
         model = check_model_of_gridap(mesh_of(box_with_a_wall(context), 0.25))
         on, all = measures_in_gridap(model, ["tag_5", "tag_6"])
         @test on ≈ [10, 0.36] && all ≈ 2
+        # A tag of a region may be one of a curve as well.
+        check_model_of_gridap(mesh_of(square_with_regions(context), 0.1))
         model = check_model_of_gridap(mesh_of(surface_of_a_box(context), 0.3))
         @test last(measures_in_gridap(model, [])) ≈ 6
         e = thrown(() -> Gridap.Geometry.UnstructuredDiscreteModel(lacking_a_node(mesh)))
