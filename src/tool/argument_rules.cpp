@@ -15,17 +15,22 @@ void refuse(const std::string& what) { throw BadInput(what + "\nTry 'pnpbs --hel
 namespace {
 
 void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
+  if (arguments.wall_layers && !arguments.in_walls) refuse("--wall-layers needs --nodes-at walls");
   if (!arguments.at_centres) return;
+  const std::string option = arguments.in_walls ? "--nodes-at walls" : "--nodes-at centers";
   if (arguments.spacing == "auto" || spacing_file(arguments.spacing))
-    refuse("--nodes-at centers needs d as a formula or on a grid: --spacing, --spacing-grid");
+    refuse(option + " needs d as a formula or on a grid: --spacing, --spacing-grid");
   if (multiplied)
-    refuse(
-        "--nodes-at centers goes by d as given, and --nodes multiplies that: particles are as many "
-        "as d^2, or d^3 in space, goes into the domain");
+    refuse(option +
+           " goes by d as given, and --nodes multiplies that: particles are as many as "
+           "d^2, or d^3 in space, goes into the " +
+           (arguments.in_walls ? "wall" : "domain"));
   if (arguments.surfaces_only)
-    refuse("--nodes-at centers is for what is inside, and --surfaces-only leaves that empty");
+    refuse(option + " is for bodies, and --surfaces-only leaves nothing of them but surfaces");
   if (arguments.repair_if_needed)
-    refuse("--nodes-at centers needs to know the body: name the resolution of --repair");
+    refuse(option + " needs to know the body: name the resolution of --repair");
+  if (arguments.in_walls && !arguments.regions.empty())
+    refuse("--nodes-at walls is for what is outside, and --region for what is inside");
 }
 
 }  // namespace

@@ -43,9 +43,22 @@ void take_nodes(const std::string& text, Arguments& arguments) {
 }
 
 void take_places(const std::string& text, Arguments& arguments) {
-  arguments.at_centres = text == "centers" || text == "centres";
+  arguments.in_walls = text == "walls";
+  arguments.at_centres = arguments.in_walls || text == "centers" || text == "centres";
   if (!arguments.at_centres && text != "boundary")
-    refuse("--nodes-at: unknown value '" + text + "' (known: boundary, centers)");
+    refuse("--nodes-at: unknown value '" + text + "' (known: boundary, centers, walls)");
+}
+
+// With one layer nodes would have to lie on a surface that is no body.
+void take_wall_layers(const std::string& text, Arguments& arguments) {
+  constexpr int most = 1000;  // more than any kernel reaches
+  int layers = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, layers);
+  if (read.ec != std::errc() || read.ptr != end || layers < 2 || layers > most)
+    refuse("--wall-layers: expected a number of layers from 2 to " + std::to_string(most) +
+           ", found '" + text + "'");
+  arguments.wall_layers = layers;
 }
 
 namespace {

@@ -18,6 +18,7 @@ void take_bound(const std::string& option, const std::string& text, std::optiona
 void take_simplify(const std::string& text, Arguments& arguments);
 void take_nodes(const std::string& text, Arguments& arguments);
 void take_places(const std::string& text, Arguments& arguments);
+void take_wall_layers(const std::string& text, Arguments& arguments);
 void take_name(const std::string& text, Arguments& arguments);
 void take_region(const std::string& text, Arguments& arguments);
 void take_repair(const std::vector<std::string>& text, Arguments& arguments);

@@ -138,8 +138,15 @@ void add_nodes_at(CLI::App& app, Arguments& arguments) {
          "boundary, the default: nodes lie on the boundary, and elements fill\n"
          "the domain; or centers: as particles, half a spacing inside, each\n"
          "of which stands for d^2 of the domain, or d^3 in space; they are\n"
-         "written without elements and with --volumes")
+         "written without elements and with --volumes; or walls: such\n"
+         "particles in layers outside the boundary")
       ->type_name("PLACE")
+      ->group("What to fill");
+  app.add_option_function<std::string>(
+         "--wall-layers",
+         [&arguments](const std::string& text) { take_wall_layers(text, arguments); },
+         "with --nodes-at walls: the number of layers; default: 3")
+      ->type_name("NUMBER")
       ->group("What to fill");
 }
 

@@ -14,6 +14,7 @@
 namespace pnpbs::tool {
 
 constexpr double default_feature_angle = 40;  // degrees
+constexpr int default_wall_layers = 3;
 
 // Around this point, which has as many coordinates as the domain.
 struct Region {
@@ -50,7 +51,9 @@ struct Arguments {
   bool check = false;  // the results
   bool nodes_only = false;
   bool at_centres = false;  // nodes, of what they stand for
-  bool volumes = false;     // of nodes
+  bool in_walls = false;    // and that is a wall around the domain, with this many layers
+  std::optional<int> wall_layers;
+  bool volumes = false;  // of nodes
   bool dry_run = false;
   bool quiet = false;
   bool progress = false;

@@ -22,6 +22,7 @@
 #include "tool/library.hpp"
 #include "tool/node_volumes.hpp"
 #include "tool/outputs.hpp"
+#include "tool/particle_domains.hpp"
 #include "tool/progress.hpp"
 #include "tool/ranks.hpp"
 #include "tool/report.hpp"
@@ -211,10 +212,12 @@ struct Work {
   const Ranks& ranks;
   Wishes wishes;
   Context context;
-  Domain domain, inset;  // the latter with nodes at centres
+  Domain domain;
+  ParticleDomains particles;
   PictureLook look;
   std::optional<BodyFigures> body;
-  pnpbs_domain filled() const { return arguments.at_centres ? inset : domain; }  // by the nodes
+  pnpbs_domain filled() const { return arguments.at_centres ? particles.filled : domain; }
+  pnpbs_domain body_of_particles() const { return arguments.in_walls ? particles.wall : domain; }
   bool talks() const { return ranks.is_first() && !arguments.quiet; }
 };
 
@@ -224,13 +227,10 @@ void measure_body(Work& work) {
       [&] { work.body = body_figures(work.domain, !work.arguments.surfaces_only, work.context); });
 }
 
-// The nodes are to lie in what is left of the domain about half a spacing inside.
 void centre_nodes(Work& work) {
   const int dimension = work.wishes.source->dimension();
   work.ranks.agreed([&] {
-    check(pnpbs_domain_create(work.context, dimension, work.inset.out()), work.context);
-    work.wishes.spacing->centre_nodes(work.inset, work.domain, centred_nodes(dimension),
-                                      work.context);
+    work.particles.make(work.arguments, *work.wishes.spacing, work.domain, dimension, work.context);
   });
 }
 
@@ -282,14 +282,15 @@ std::optional<VolumeFigures> add_wanted_volumes(const Work& work, pnpbs_placemen
   if (!arguments.volumes && !arguments.at_centres) return std::nullopt;
   VolumesWanted wanted{arguments.surfaces_only ? 2 : work.wishes.source->dimension()};
   if (arguments.at_centres) {
-    wanted.body = work.domain;
+    wanted.body = work.body_of_particles();
+    wanted.of_wall = arguments.in_walls;
     wanted.bubbles = centred_nodes(wanted.dimension).bubbles;
   }
   return add_volumes(placement, wanted, work.context, work.ranks);
 }
 
 ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status status) {
-  auto& [arguments, ranks, wishes, context, domain, inset, look, body] = work;
+  auto& [arguments, ranks, wishes, context, domain, particles, look, body] = work;
   Outputs& outputs = *wishes.outputs;
   const GeoFile* geo = wishes.source->geo();
   Statistics statistics(placement);

@@ -80,7 +80,8 @@ VolumeFigures add_volumes(pnpbs_placement placement, const VolumesWanted& wanted
           all.ratios.value() / static_cast<double>(all.nodes),
           all.min,
           all.max,
-          wanted.body != nullptr};
+          wanted.body != nullptr,
+          wanted.of_wall};
 }
 
 }  // namespace pnpbs::tool

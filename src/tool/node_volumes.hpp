@@ -13,12 +13,14 @@ struct VolumeFigures {
   // Over nodes, of a node's volume over d^dimension, with d at the node. Not finite without nodes.
   double mean, min, max;
   bool of_body;  // that is larger than the elements
+  bool of_wall;  // and lies around the domain
 };
 
 // Which cells, and what they are measured by.
 struct VolumesWanted {
   int dimension;                // of the elements
   pnpbs_domain body = nullptr;  // that the nodes stand for, if it is larger than the elements
+  bool of_wall = false;         // is the body one?
   double bubbles = 1;           // their spacing, over d
 };
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "spacing/beside_domain.hpp"
 
@@ -109,15 +108,17 @@ std::int32_t Spacing::call_multiplied(std::int64_t n, std::int32_t dim, const do
   return status;
 }
 
-void Spacing::centre_nodes(pnpbs_domain inset, pnpbs_domain body, const CentredNodes& nodes,
-                           pnpbs_context context) {
+void Spacing::add_band(pnpbs_domain domain, pnpbs_domain body, const Band& band,
+                       pnpbs_context context) {
   if (expression_) expression_->ask_shape_of(body, context);
-  bubbles_ = callback();
+  const Multiplied d = callback();
   constexpr std::int32_t tag = 1;
-  check(pnpbs_domain_add_offset(inset, body, -std::numeric_limits<double>::infinity(), -nodes.depth,
-                                bubbles_->d, bubbles_->user, 0, tag),
-        context);
-  bubbles_->factor = nodes.bubbles;
+  check(pnpbs_domain_add_offset(domain, body, band.from, band.to, d.d, d.user, 0, tag), context);
+}
+
+void Spacing::multiply(double factor) {
+  bubbles_ = callback();
+  bubbles_->factor = factor;
 }
 
 void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,

@@ -29,11 +29,12 @@ class Spacing {
   // Leaves out of a domain in the plane what is finer than d. Local. Throws Failure.
   void simplify(pnpbs_domain domain, pnpbs_context context, double tolerance, double smallest);
 
-  // Nodes at the centres of what they stand for: see centred_nodes.hpp. Adds to an empty domain
-  // what is left of the body some way inside, and makes the bubbles larger than d. This object must
+  // Adds to an empty domain what lies in this band about the boundary of the body. This object must
   // outlive both. Local. Throws Failure.
-  void centre_nodes(pnpbs_domain inset, pnpbs_domain body, const CentredNodes& nodes,
-                    pnpbs_context context);
+  void add_band(pnpbs_domain domain, pnpbs_domain body, const Band& band, pnpbs_context context);
+
+  // Makes the bubbles larger than d. Local.
+  void multiply(double factor);
 
   // This object must outlive the placement, and the domain, whose shape a formula may ask for.
   // Collective. Throws Failure.

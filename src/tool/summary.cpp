@@ -9,15 +9,19 @@
 namespace pnpbs::tool {
 namespace {
 
-std::string nodes_line(const Statistics& statistics, bool are_particles) {
+// What are nodes of the boundary: what the tags tell.
+std::string boundary_in_words(const std::optional<VolumeFigures>& volumes) {
+  if (!volumes || !volumes->of_body) return " of them on the boundary";
+  return volumes->of_wall ? " of them in the first or last layer" : " of them outermost";
+}
+
+std::string nodes_line(const Statistics& statistics, const std::optional<VolumeFigures>& volumes) {
   const auto* nodes = statistics.find<std::int64_t>("nodes");
   const auto* boundary = statistics.find<std::int64_t>("boundary_nodes");
   const auto* seconds = statistics.find<double>("seconds.total");
   if (!nodes) return "";
   std::string line = "nodes    " + grouped(*nodes);
-  if (boundary)
-    line += ", " + grouped(*boundary) +
-            (are_particles ? " of them outermost" : " of them on the boundary");
+  if (boundary) line += ", " + grouped(*boundary) + boundary_in_words(volumes);
   if (seconds) line += ", in " + duration(*seconds);
   return line + "\n";
 }
@@ -137,9 +141,8 @@ std::string summary_text(const Statistics& statistics, const std::optional<BodyF
   std::string elements;  // which particles have none of
   if (!are_particles)
     elements = edge_line(statistics) + quality_line(statistics, body && body->volume > 0);
-  return body_line(body) + nodes_line(statistics, are_particles) + spacing_line(statistics) +
-         elements + volume_line(volumes) + stop_line(statistics) + memory_line(statistics) +
-         files_line(files);
+  return body_line(body) + nodes_line(statistics, volumes) + spacing_line(statistics) + elements +
+         volume_line(volumes) + stop_line(statistics) + memory_line(statistics) + files_line(files);
 }
 
 }  // namespace pnpbs::tool

@@ -90,7 +90,7 @@ class CentredNodes(CommandTest):
         refused("name the resolution", *ball, "--repair", "auto")
         refused("negative at none", *plane, "--spacing", "3")
         _, err = self.run_command(*plane, "--spacing", "1", "--nodes-at", "corners", code=BAD_INPUT)
-        self.assertIn("known: boundary, centers", err.decode())
+        self.assertIn("known: boundary, centers, walls", err.decode())
 
 
 if __name__ == "__main__":

@@ -189,7 +189,8 @@ class SameFiles(RanksTest):
         for domain in ((self.square, "0.003 + 0.01*x"), (self.square, "0.5"),
                        ("ball(0,0,0, 1)", "0.3"), ("ball(0,0,0, 1)", "0.3", "--surfaces-only"),
                        (self.square, "0.01 + 0.02*x", "--nodes-at", "centers"),
-                       ("box(0,0,0, 1,1,1)", "0.2 + 0.05*x", "--nodes-at", "centers")):
+                       ("box(0,0,0, 1,1,1)", "0.2 + 0.05*x", "--nodes-at", "centers"),
+                       (self.square, "0.02 + 0.02*x", "--nodes-at", "walls")):
             ask = ("--domain", domain[0], "--spacing", *domain[1:], "--volumes", *outputs,
                    "--report", "a.json")
             self.run_command(*ask)
