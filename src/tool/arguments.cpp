@@ -212,6 +212,12 @@ void add_output(CLI::App& app, Arguments& arguments) {
                "surfaces), as the field volume in .vtu, .pvtu, .vtkhdf, .xdmf,\n"
                ".msh, .msh2 and .csv; figures in the report and the summary")
       ->group(group);
+  app.add_option("--density", arguments.density,
+                 "density of the matter that nodes stand for, a number or a formula\n"
+                 "in x and y (and z): adds the fields density and mass, density\n"
+                 "times volume, and implies --volumes")
+      ->type_name("EXPR")
+      ->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
   app.add_option_function<std::string>(
          "--color", [&arguments](const std::string& name) { take_colour(name, arguments); },

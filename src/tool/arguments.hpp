@@ -53,7 +53,8 @@ struct Arguments {
   bool at_centres = false;  // nodes, of what they stand for
   bool in_walls = false;    // and that is a wall around the domain, with this many layers
   std::optional<int> wall_layers;
-  bool volumes = false;  // of nodes
+  bool volumes = false;                // of nodes
+  std::optional<std::string> density;  // a formula
   bool dry_run = false;
   bool quiet = false;
   bool progress = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/gathered_picture.hpp"
 
+#include "tool/cut.hpp"
 #include "tool/gathered_nodes.hpp"
 
 namespace pnpbs::tool {
@@ -15,6 +16,15 @@ std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
 }
 
 }  // namespace
+
+PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain domain,
+                    pnpbs_context context) {
+  using picture::ElementColour;
+  if (dimension == 2)
+    return {arguments.bubbles, arguments.colour.value_or(ElementColour::none), std::nullopt};
+  return {false, arguments.colour.value_or(ElementColour::quality),
+          cut_plane_for(arguments.cut, domain, context)};
+}
 
 GatheredPicture::GatheredPicture(pnpbs_placement placement, pnpbs_domain domain,
                                  pnpbs_context context, const Ranks& ranks, const PictureLook& look)

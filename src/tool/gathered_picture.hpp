@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "picture/picture.hpp"
+#include "tool/arguments.hpp"
 #include "tool/library.hpp"
 #include "tool/ranks.hpp"
 
@@ -15,6 +16,10 @@ struct PictureLook {
   picture::ElementColour colour = picture::ElementColour::none;
   std::optional<picture::CutPlane> cut;  // of a body; nothing: the domain is in the plane
 };
+
+// What the user wants. Local. Throws BadInput.
+PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain domain,
+                    pnpbs_context context);
 
 class GatheredPicture {
  public:

@@ -14,7 +14,7 @@
 #include "tool/body_figures.hpp"
 #include "tool/centred_nodes.hpp"
 #include "tool/checkpoints.hpp"
-#include "tool/cut.hpp"
+#include "tool/density.hpp"
 #include "tool/domain.hpp"
 #include "tool/exit.hpp"
 #include "tool/file_format.hpp"
@@ -120,7 +120,7 @@ std::int64_t statistic(pnpbs_placement placement, const char* key, pnpbs_context
 
 // Initialises, or goes on from a checkpoint; warns; runs, unless that was done already; checks.
 pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Arguments& arguments,
-                   const Ranks& ranks) {
+                   const std::optional<Density>& density, const Ranks& ranks) {
   const bool talk = ranks.is_first() && !arguments.quiet;
   Progress progress(talk, arguments.progress);
   Checkpoints checkpoints(arguments.checkpoint, arguments.checkpoint_interval, placement, context,
@@ -134,6 +134,7 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   else
     check(pnpbs_placement_read_checkpoint(placement, arguments.restart.c_str()), context);
   progress.clear();
+  if (density) density->check_at_nodes_of(placement, context, ranks);
   const std::vector<std::string> warnings = warnings_for(arguments, context, placement);
   if (talk) warn(warnings);
   pnpbs_status status = PNPBS_OK;
@@ -171,26 +172,19 @@ void tell_estimate(pnpbs_context context, pnpbs_placement placement,
         {nodes, bytes, seconds, ranks.size(), wants_picture(arguments), body});
 }
 
-PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain domain,
-                    pnpbs_context context) {
-  using picture::ElementColour;
-  if (dimension == 2)
-    return {arguments.bubbles, arguments.colour.value_or(ElementColour::none), std::nullopt};
-  return {false, arguments.colour.value_or(ElementColour::quality),
-          cut_plane_for(arguments.cut, domain, context)};
-}
-
 // What is wrong with the words of the user, before anything is done.
 struct Wishes {
   std::optional<Outputs> outputs;
   std::optional<DomainSource> source;
   std::optional<Spacing> spacing;
+  std::optional<Density> density;
   Wishes(const Arguments& arguments, const Ranks& ranks) {
     ranks.agreed([&] {
       if (!arguments.dry_run) outputs.emplace(arguments, ranks);
       source.emplace(arguments);
       refuse_other_dimension(arguments, source->dimension());
       spacing.emplace(arguments, source->dimension());
+      if (arguments.density) density.emplace(*arguments.density, source->dimension());
     });
   }
 };
@@ -279,8 +273,10 @@ bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) 
 // If the user wants volumes: see node_volumes.hpp.
 std::optional<VolumeFigures> add_wanted_volumes(const Work& work, pnpbs_placement placement) {
   const Arguments& arguments = work.arguments;
-  if (!arguments.volumes && !arguments.at_centres) return std::nullopt;
+  const auto& density = work.wishes.density;
+  if (!arguments.volumes && !arguments.at_centres && !density) return std::nullopt;
   VolumesWanted wanted{arguments.surfaces_only ? 2 : work.wishes.source->dimension()};
+  if (density) wanted.density = &*density;
   if (arguments.at_centres) {
     wanted.body = work.body_of_particles();
     wanted.of_wall = arguments.in_walls;
@@ -326,11 +322,11 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
     return ExitCode::done;
   }
   work.wishes.outputs->check_with_library(given, work.context);
-  pnpbs_status status = place(work.context, given, arguments, ranks);
+  pnpbs_status status = place(work.context, given, arguments, work.wishes.density, ranks);
   if (!repair_if_torn(work, status, given)) return write_results(work, given, status);
   check(pnpbs_placement_destroy(given.out()), work.context);
   create(work, repaired);
-  status = place(work.context, repaired, arguments, ranks);
+  status = place(work.context, repaired, arguments, work.wishes.density, ranks);
   return write_results(work, repaired, status);
 }
 

@@ -61,17 +61,26 @@ VolumeFigures add_volumes(pnpbs_placement placement, const VolumesWanted& wanted
                     : pnpbs_voronoi_create(placement, cells.out()),
         context);
   Figures own;
+  std::vector<double> volumes;
+  const AddField add = [&](const char* name, const std::vector<double>& values) {
+    check(pnpbs_placement_add_output_field(placement, name, std::ssize(values), 1, values.data()),
+          context);
+  };
   ranks.agreed([&] {
-    const std::vector<double> volumes = volumes_of(cells, context);
+    volumes = volumes_of(cells, context);
     const std::vector<double> spacing = spacing_at_nodes(placement, volumes.size(), context);
     for (std::size_t i = 0; i < volumes.size(); ++i) {
       const double d = spacing[i] / wanted.bubbles;
       own.add(volumes[i], volumes[i] / (wanted.dimension == 2 ? d * d : d * d * d));
     }
-    check(pnpbs_placement_add_output_field(
-              placement, "volume", static_cast<std::int64_t>(volumes.size()), 1, volumes.data()),
-          context);
+    add("volume", volumes);
   });
+  std::optional<double> mass;
+  if (wanted.density) {
+    std::vector<double> x;
+    ranks.agreed([&] { x = coordinates_of(placement, wanted.density->dimension(), context); });
+    mass = add_masses(*wanted.density, x, volumes, add, ranks);
+  }
   Figures all;
   for (const Figures& of_rank : ranks.gather(std::vector<Figures>{own})) all.add(of_rank);
   if (!ranks.is_first()) return {};
@@ -81,7 +90,8 @@ VolumeFigures add_volumes(pnpbs_placement placement, const VolumesWanted& wanted
           all.min,
           all.max,
           wanted.body != nullptr,
-          wanted.of_wall};
+          wanted.of_wall,
+          mass};
 }
 
 }  // namespace pnpbs::tool

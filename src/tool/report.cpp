@@ -90,6 +90,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   if (!arguments.inner.empty()) report["inner"] = arguments.inner;
   for (const Region& region : arguments.regions) report["regions"].push_back(region.text);
   if (!groups.empty()) report["groups"] = groups_of(groups);
+  if (arguments.density) report["density"] = *arguments.density;
   if (!arguments.spacing.empty()) report["spacing"] = arguments.spacing;
   if (arguments.spacing_grids.size() == 1)
     report["spacing_grid"] = arguments.spacing_grids[0];
@@ -100,6 +101,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
     insert(report, name, std::visit(AsJson(), value));
   report["edge"]["bands"] = bands_of(statistics);
   if (volumes) report["volumes"] = figures_of(*volumes);
+  if (volumes && volumes->mass) report["mass"] = *volumes->mass;
   report["warnings"] = warnings;
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -82,6 +82,11 @@ std::string volume_line(const std::optional<VolumeFigures>& volumes) {
   return line + "\n";
 }
 
+std::string mass_line(const std::optional<VolumeFigures>& volumes) {
+  if (!volumes || !volumes->mass) return "";
+  return "mass     " + measure(*volumes->mass) + " in all\n";
+}
+
 // The library says what ended the run in a word or two.
 std::string in_words(const std::string& reason) {
   if (reason == "rest") return "the bubbles rest";
@@ -142,7 +147,8 @@ std::string summary_text(const Statistics& statistics, const std::optional<BodyF
   if (!are_particles)
     elements = edge_line(statistics) + quality_line(statistics, body && body->volume > 0);
   return body_line(body) + nodes_line(statistics, volumes) + spacing_line(statistics) + elements +
-         volume_line(volumes) + stop_line(statistics) + memory_line(statistics) + files_line(files);
+         volume_line(volumes) + mass_line(volumes) + stop_line(statistics) +
+         memory_line(statistics) + files_line(files);
 }
 
 }  // namespace pnpbs::tool

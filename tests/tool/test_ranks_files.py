@@ -191,16 +191,17 @@ class SameFiles(RanksTest):
                        (self.square, "0.01 + 0.02*x", "--nodes-at", "centers"),
                        ("box(0,0,0, 1,1,1)", "0.2 + 0.05*x", "--nodes-at", "centers"),
                        (self.square, "0.02 + 0.02*x", "--nodes-at", "walls")):
-            ask = ("--domain", domain[0], "--spacing", *domain[1:], "--volumes", *outputs,
-                   "--report", "a.json")
+            ask = ("--domain", domain[0], "--spacing", *domain[1:], "--density", "3 + x/7",
+                   *outputs, "--report", "a.json")
             self.run_command(*ask)
             expected = {name: (self.folder / name).read_bytes() for name in names}
-            figures = json.loads((self.folder / "a.json").read_text())["volumes"]
+            report = json.loads((self.folder / "a.json").read_text())
             self.run_ranks(3, *ask)
             for name, content in expected.items():
                 self.assertEqual((self.folder / name).read_bytes(), content, domain)
             again = json.loads((self.folder / "a.json").read_text())
-            self.assertEqual((again["volumes"], again["ranks"]), (figures, 3))
+            self.assertEqual((again["volumes"], again["mass"], again["ranks"]),
+                             (report["volumes"], report["mass"], 3))
 
     def test_standard_streams(self):
         out, _ = self.run_command("--domain", LAKE, "--spacing", "6", "-o", "-", "--format", "vtu")
