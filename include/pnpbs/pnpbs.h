@@ -1374,19 +1374,27 @@ PNPBS_API pnpbs_status pnpbs_voronoi_get_faces(pnpbs_voronoi voronoi, int64_t no
  *    .ele   Triangle's triangles or TetGen's tetrahedra alone
  *    .face  TetGen's triangles of boundary and inner surfaces alone, in space
  *    .csv   id,x,y,tag,spacing, in space id,x,y,z,tag,spacing
+ *    .peridigm  in space, the text of Peridigm, x y z block volume, without elements; the block is
+ *           the tag of the node's region, or 1. Needs an output field "volume" with one component
+ *           (pnpbs_placement_add_output_field)
+ *    .lammps  in space, LAMMPS' data file with atom_style peri: id type volume density x y z, with
+ *           types as the blocks above and ids from 1. Needs a field "density", too
+ *    .hdf5  initial conditions of SWIFT and Gadget by HDF5, of gas at rest: PartType0 has
+ *           coordinates, masses, densities and smoothing lengths of 1.2348 times the square or
+ *           cube root of the volume. Needs the same fields
  *  Nodes are in the order of their ids, elements and boundary in the order of their corners: all
  *  formats but .pvtu have the same bytes for any number of ranks and threads. All ranks write at
  *  the same time (MPI-IO), and none holds more than its share. A file appears under its name only
  *  when it is complete; after an error, an existing file is unchanged. The folder and `path` must
  *  be the same for all ranks. The monitor is called from time to time, and with fraction 1 before
  *  files are renamed; if it stops the call, PNPBS_STOPPED is returned, and nothing changes.
- *  Collective. Errors: PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_UNSUPPORTED for .vtkhdf and
- *  .xdmf if the library was built without HDF5 or does not find it, PNPBS_ERROR_ARGUMENT, and, if
- *  none of these occurs, PNPBS_ERROR_STATE if there are no nodes yet.
+ *  Collective. Errors: PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_UNSUPPORTED for .vtkhdf,
+ *  .xdmf and .hdf5 if the library was built without HDF5 or does not find it, PNPBS_ERROR_ARGUMENT,
+ *  and, if none of these occurs, PNPBS_ERROR_STATE if there are no nodes yet.
  *  @param[in] path      - is standard output of rank 0 (pnpbs_placement_write_files sets its
  *                       format). What is not a regular file, such as a pipe, is written by rank 0,
- *                       to which the others send their parts in turn; .vtkhdf and .xdmf must be
- *                       regular files.
+ *                       to which the others send their parts in turn; .vtkhdf, .xdmf and .hdf5
+ *                       must be regular files.
  *  @param[in] elements  nonzero: triangles or tetrahedra (and the boundary) as well */
 PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path,
                                              int32_t elements);

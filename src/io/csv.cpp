@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Comma-separated values with one line of names.
+#include "io/field_columns.hpp"
 #include "io/formats.hpp"
 
 namespace pnpbs::io {
 
 namespace {
 
-// One of the caller's fields: its values at the nodes in this rank's parts of all windows. So no
-// window of nodes waits for one of a field.
-struct FieldColumns {
-  std::size_t components;
-  std::vector<double> values;
-};
-
-std::vector<FieldColumns> field_columns(const NodeSource& nodes) {
+std::vector<FieldColumns> all_columns(const NodeSource& nodes) {
   std::vector<FieldColumns> all;
-  for (std::size_t k = 0; k < nodes.contents().field_count(); ++k) {
-    const OutputField& field = (*nodes.contents().fields)[k];
-    FieldColumns& columns = all.emplace_back();
-    columns.components = static_cast<std::size_t>(field.components);
-    nodes.for_field(k, [&](const FieldRows& rows) {
-      columns.values.insert(columns.values.end(), rows.values.begin(), rows.values.end());
-    });
-  }
+  for (std::size_t k = 0; k < nodes.contents().field_count(); ++k)
+    all.push_back(field_columns(nodes, k));
   return all;
 }
 
@@ -54,7 +42,7 @@ void write_fields(const std::vector<FieldColumns>& fields, std::size_t place, Si
 
 void write_csv(const NodeSource& nodes, SharedFile& file) {
   const auto dimension = static_cast<std::size_t>(nodes.contents().dimension);
-  const std::vector<FieldColumns> fields = field_columns(nodes);
+  const std::vector<FieldColumns> fields = all_columns(nodes);
   std::size_t before = 0;  // nodes of windows that have been
   file.append_text(column_names(nodes.contents()));
   nodes.for_nodes([&](const NodeRows& rows) {

@@ -7,9 +7,13 @@
 
 #include "base/extension.hpp"
 #include "base/small_letters.hpp"
+#include "io/particle_fields.hpp"
 
 namespace pnpbs::io {
 namespace {
+
+constexpr std::array kVolumes{kVolumeField};
+constexpr std::array kMatter{kVolumeField, kDensityField};
 
 constexpr std::array table{
     Format{"vtu", "VTK unstructured grid: nodes, elements, id, tag, spacing, quality", true,
@@ -32,6 +36,12 @@ constexpr std::array table{
            Elements::always, true, false, write_face},
     Format{"csv", "id,x,y,tag,spacing, of bodies id,x,y,z,tag,spacing", false, Elements::never,
            false, false, write_csv},
+    Format{"peridigm", "Peridigm's text of particles of a body: x y z block volume", false,
+           Elements::regions, true, false, write_peridigm, kVolumes},
+    Format{"lammps", "LAMMPS' data file of a body, atom_style peri: volumes and densities", false,
+           Elements::regions, true, false, write_lammps, kMatter},
+    Format{"hdf5", "initial conditions of SWIFT and Gadget: particles of gas at rest; needs HDF5",
+           true, Elements::never, false, true, write_gadget, kMatter},
 };
 
 constexpr Format heavy_data{"h5", "arrays of a .xdmf file", true, Elements::on_request, false,

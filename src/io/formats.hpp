@@ -11,8 +11,9 @@
 
 namespace pnpbs::io {
 
-// beside: in files beside. grid: in the file, and the facets in one beside it.
-enum class Elements { never, on_request, grid, beside, always };
+// regions: never, but nodes have the tags of regions that elements have. beside: in files beside.
+// grid: in the file, and the facets in one beside it.
+enum class Elements { never, regions, on_request, grid, beside, always };
 
 struct Format {
   const char* name;  // also the extension, without its dot
@@ -23,6 +24,7 @@ struct Format {
   bool by_hdf5;      // in part at least: a file of its own, no stream
   // Collective. nullptr: in pieces, which is not one file's business.
   void (*write)(const NodeSource& nodes, SharedFile& file);
+  std::span<const std::string_view> fields{};  // of the caller's, that it cannot do without
 };
 
 std::span<const Format> formats();
@@ -47,6 +49,9 @@ void write_face(const NodeSource& nodes, SharedFile& file);
 void write_msh(const NodeSource& nodes, SharedFile& file);
 void write_msh2(const NodeSource& nodes, SharedFile& file);
 void write_csv(const NodeSource& nodes, SharedFile& file);
+void write_peridigm(const NodeSource& nodes, SharedFile& file);
+void write_lammps(const NodeSource& nodes, SharedFile& file);
+void write_gadget(const NodeSource& nodes, SharedFile& file);
 
 // The file that names the pieces. Collective. like: what any of them holds.
 void write_pvtu(const std::vector<std::string>& pieces, const Contents& like, SharedFile& file);

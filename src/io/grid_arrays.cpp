@@ -122,6 +122,18 @@ GridArray point_array(const Contents& all, int coordinates) {
           }};
 }
 
+GridArray number_array(const Contents& all) {
+  return computed<std::int64_t>("number", all.nodes, [](std::int64_t i) { return i + 1; });
+}
+
+GridArray zero_array(const Contents& all, int columns) {
+  GridArray zeros =
+      computed<double>("zeros", all.nodes * columns, [](std::int64_t) { return 0.0; });
+  zeros.rows = all.nodes;
+  zeros.columns = columns;
+  return zeros;
+}
+
 GridArray corner_array(const Contents& all) {
   const std::string name = "connectivity";
   const int corners = all.cell_corners();

@@ -30,6 +30,10 @@ std::vector<GridArray> cell_data(const Contents& all);
 // x, y and z, or so many of them.
 GridArray point_array(const Contents& all, int coordinates = 3);
 
+// What the nodes are called in a file that numbers them from 1, and zeros for each.
+GridArray number_array(const Contents& all);
+GridArray zero_array(const Contents& all, int columns);
+
 // The numbers of the cells' corners, one cell behind the other.
 GridArray corner_array(const Contents& all);
 // Where in them each cell ends; or, with one more, where each begins and the last one ends.

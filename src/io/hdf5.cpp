@@ -129,6 +129,12 @@ void NewFile::set(const std::string& object, const std::string& attribute,
 }
 
 void NewFile::set(const std::string& object, const std::string& attribute,
+                  const std::vector<double>& values) {
+  write_attribute(file_, name_, object, attribute, native(Type::real),
+                  static_cast<std::int64_t>(values.size()), values.data());
+}
+
+void NewFile::set(const std::string& object, const std::string& attribute,
                   const std::string& text) {
   hid_t type;
   {
@@ -327,7 +333,7 @@ namespace {
 [[noreturn]] void fail() {
   throw Error(ErrorKind::unsupported,
               "this library was built without HDF5, which writes and reads checkpoints and writes "
-              ".vtkhdf and .xdmf files: build it with -DPNPBS_WITH_HDF5=ON");
+              ".vtkhdf, .xdmf and .hdf5 files: build it with -DPNPBS_WITH_HDF5=ON");
 }
 
 }  // namespace
@@ -342,6 +348,7 @@ void NewFile::set(const std::string&, const std::string&, const std::string&) { 
 void NewFile::set(const std::string&, const std::string&, const std::vector<std::int64_t>&) {
   fail();
 }
+void NewFile::set(const std::string&, const std::string&, const std::vector<double>&) { fail(); }
 std::int64_t NewFile::add(const Array&) { fail(); }
 void NewFile::add(const std::string&, const std::vector<std::int64_t>&) { fail(); }
 void NewFile::add_reals(const std::string&, const std::vector<double>&) { fail(); }

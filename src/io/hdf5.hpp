@@ -50,6 +50,8 @@ class NewFile {
   void set(const std::string& object, const std::string& attribute, const std::string& text);
   void set(const std::string& object, const std::string& attribute,
            const std::vector<std::int64_t>& values);
+  void set(const std::string& object, const std::string& attribute,
+           const std::vector<double>& values);
   // Room for an array; returns where in the file it begins, of one without rows 0.
   std::int64_t add(const Array& array);
   void add(const std::string& path, const std::vector<std::int64_t>& values);

@@ -17,9 +17,10 @@ void* open_hdf5() {
   const char* reason = dlerror();
   throw Error(
       ErrorKind::unsupported,
-      std::string("HDF5, which writes and reads checkpoints and writes .vtkhdf and .xdmf files, "
-                  "cannot be opened: neither "
-                  "\"" PNPBS_HDF5_PATH "\" nor \"" PNPBS_HDF5_NAME "\" (") +
+      std::string(
+          "HDF5, which writes and reads checkpoints and writes .vtkhdf, .xdmf and .hdf5 files, "
+          "cannot be opened: neither "
+          "\"" PNPBS_HDF5_PATH "\" nor \"" PNPBS_HDF5_NAME "\" (") +
           (reason ? reason : "no reason given") +
           "): install it, or add its folder to LD_LIBRARY_PATH");
 }

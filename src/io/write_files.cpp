@@ -10,6 +10,7 @@
 #include "io/hdf5.hpp"
 #include "io/nodes_by_id.hpp"
 #include "io/own_piece.hpp"
+#include "io/particle_fields.hpp"
 #include "io/rows.hpp"
 
 namespace pnpbs::io {
@@ -67,7 +68,7 @@ void require_possible(const std::string& path, const Format& format, bool elemen
   if (!format.write && path == "-")
     refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
   if (format.by_hdf5) require_places(path, format);
-  if (elements && format.elements == Elements::never)
+  if (elements && (format.elements == Elements::never || format.elements == Elements::regions))
     refuse(std::string("a .") + format.name + " file has no place for elements: '" + path + "'");
   if (elements && format.elements == Elements::beside && path == "-")
     refuse("elements would go to a second file beside standard output: ask for ele there");
@@ -174,6 +175,15 @@ class Writing {
 
 }  // namespace
 
+void require_fields_for(const std::vector<FileWish>& wishes,
+                        const std::vector<OutputField>& fields) {
+  for (const FileWish& wish : wishes)
+    for (const std::string_view name : wish.format->fields)
+      if (!has_particle_field(fields, name))
+        refuse(std::string("a .") + wish.format->name + " file needs an output field '" +
+               std::string(name) + "' with one component: '" + wish.path + "'");
+}
+
 void add_wish(const std::string& path, const std::string& format_name, bool elements,
               const Placement& placement, std::vector<FileWish>& wishes) {
   if (path.empty()) refuse("the name of a file is empty");
@@ -181,6 +191,7 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   require_possible(path, format, elements, placement.dimension());
   const bool holds_elements =
       format.elements == Elements::always ||
+      (format.elements == Elements::regions && has_elements(placement)) ||
       (elements && (format.elements == Elements::on_request || format.elements == Elements::grid));
   std::vector<FileWish> grids{{path, &format, holds_elements}};
   if (elements && format.elements == Elements::grid && has_elements(placement) &&
@@ -209,6 +220,8 @@ void write_files(Placement& placement, const OutputFields& fields,
   agreed(comm, [&] {
     require_hdf5_for(wishes, comm);
     fields.require_current(placement.results());
+    placement.results().prepare_order();  // without nodes there is no field to ask for
+    require_fields_for(wishes, fields.all());
     in_its_dimension(placement.results(), [&]<int Dim>(Results<Dim>& results) {
       Writing<Dim> writing(placement.monitoring(), results, fields, wishes.size());
       for (const FileWish& wish : wishes) writing.add(wish);

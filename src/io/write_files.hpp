@@ -24,6 +24,11 @@ struct FileWish {
 void add_wish(const std::string& path, const std::string& format, bool elements,
               const Placement& placement, std::vector<FileWish>& wishes);
 
+// Throws Error(ErrorKind::argument) unless formats have the fields that they cannot do without.
+// Local; the fields are the same on all ranks.
+void require_fields_for(const std::vector<FileWish>& wishes,
+                        const std::vector<OutputField>& fields);
+
 // Names of the pieces of a .pvtu file.
 std::string piece_path(const std::string& path, int rank);
 

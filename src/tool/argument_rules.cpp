@@ -6,6 +6,7 @@
 #include "base/extension.hpp"
 #include "tool/cut.hpp"
 #include "tool/exit.hpp"
+#include "tool/file_format.hpp"
 #include "tool/spacing_file.hpp"
 
 namespace pnpbs::tool {
@@ -34,6 +35,20 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
 }
 
 }  // namespace
+
+void ask_for_what_files_need(Arguments& arguments) {
+  for (const std::string& path : arguments.outputs) {
+    const FileFormat* format = path == "-" ? nullptr : format_by_extension(path);
+    if (!format) format = format_by_name(arguments.format);
+    const std::string name = format ? format->name : "";
+    if (name != "peridigm" && name != "lammps" && name != "hdf5") continue;
+    if (arguments.surfaces_only)
+      refuse("a ." + name + " file is of bodies, and --surfaces-only leaves nothing inside");
+    if (name != "peridigm" && !arguments.density)
+      refuse("a ." + name + " file needs the density of particles: --density");
+    arguments.volumes = true;
+  }
+}
 
 void require_arguments_that_fit(const Arguments& arguments) {
   if (arguments.domain.empty()) refuse("--domain is missing");

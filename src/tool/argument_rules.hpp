@@ -14,6 +14,9 @@ namespace pnpbs::tool {
 // Those that are missing, and those that exclude or need one another. Throws BadInput.
 void require_arguments_that_fit(const Arguments& arguments);
 
+// Files of particles want their volumes, and some their density. Throws BadInput.
+void ask_for_what_files_need(Arguments& arguments);
+
 // What only domains of the other dimension have. Throws BadInput.
 void refuse_other_dimension(const Arguments& arguments, int dimension);
 

@@ -64,25 +64,60 @@ static job placed_square(void) {
   return it;
 }
 
+static job placed_cube(void) {
+  const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  job it;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_box(it.domain, low, high, 1));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.3));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  return it;
+}
+
 static int with_hdf5(void) { return strstr(pnpbs_build_info(), "HDF5: none") == NULL; }
 
 static int is_by_hdf5(const char* format) {
-  return strcmp(format, "vtkhdf") == 0 || strcmp(format, "xdmf") == 0;
+  return strcmp(format, "vtkhdf") == 0 || strcmp(format, "xdmf") == 0 ||
+         strcmp(format, "hdf5") == 0;
+}
+
+static int is_of_particles(const char* format) {
+  return strcmp(format, "peridigm") == 0 || strcmp(format, "lammps") == 0 ||
+         strcmp(format, "hdf5") == 0;
+}
+
+static int is_of_bodies(const char* format) {
+  return strcmp(format, "face") == 0 || strcmp(format, "peridigm") == 0 ||
+         strcmp(format, "lammps") == 0;
+}
+
+/* A field with the value 1 everywhere. */
+static void add_ones(pnpbs_placement placement, const char* name, int32_t components) {
+  int64_t n, i;
+  double* values;
+  MUST(pnpbs_placement_count(placement, &n));
+  values = malloc((size_t)(n * components) * sizeof *values);
+  for (i = 0; i < n * components; ++i) values[i] = 1;
+  MUST(pnpbs_placement_add_output_field(placement, name, n, components, values));
+  free(values);
 }
 
 /* Nodes or not: it tells so before there are any, too. */
 START_TEST(without_hdf5_there_is_an_error) {
-  const char* names[] = {"a.vtkhdf", "a.xdmf"};
+  const char* names[] = {"a.vtkhdf", "a.xdmf", "a.hdf5"};
   job it = square_job(1);
-  size_t k;
-  for (k = 0; k < 2; ++k)
+  int k;
+  for (k = 0; k < 3; ++k)
     if (with_hdf5())
-      MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_write(it.placement, in_folder(names[k]), 1),
+      MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_write(it.placement, in_folder(names[k]), k < 2),
                 "nodes", "run");
     else
       MUST_FAIL(PNPBS_ERROR_UNSUPPORTED,
-                pnpbs_placement_write(it.placement, in_folder(names[k]), 1), "built without HDF5",
-                "PNPBS_WITH_HDF5");
+                pnpbs_placement_write(it.placement, in_folder(names[k]), k < 2),
+                "built without HDF5", "PNPBS_WITH_HDF5");
   ck_assert_int_eq(empty_folder(), 0);
   job_end(&it);
 }
@@ -90,7 +125,9 @@ END_TEST
 
 START_TEST(every_format) {
   job it = placed_square();
-  int32_t count = 0, k, elements = 0, binary = 0;
+  int32_t count = 0, k, elements = 0, binary = 0, of_bodies = 0;
+  add_ones(it.placement, "volume", 1);
+  add_ones(it.placement, "density", 1);
   MUST(pnpbs_format_count(&count));
   ck_assert_int_ge(count, 6);
   for (k = 0; k < count; ++k) {
@@ -99,12 +136,14 @@ START_TEST(every_format) {
     MUST(pnpbs_format_info(k, &name, &help, &binary, &elements));
     MUST(pnpbs_format_info(k, NULL, NULL, NULL, NULL));
     ck_assert_int_gt((int)strlen(help), 10);
-    ck_assert_int_eq(binary, strcmp(name, "vtu") == 0 || strcmp(name, "vtkhdf") == 0);
+    ck_assert_int_eq(binary, strcmp(name, "vtu") == 0 || strcmp(name, "vtkhdf") == 0 ||
+                                 strcmp(name, "hdf5") == 0);
     if (is_by_hdf5(name) && !with_hdf5()) continue;
     snprintf(path, sizeof path, "a.%s", name);
-    if (strcmp(name, "face") == 0) {
+    if (is_of_bodies(name)) {
       MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 0),
-                "bodies", "a.face");
+                "bodies", path);
+      ++of_bodies;
       continue;
     }
     MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
@@ -118,11 +157,33 @@ START_TEST(every_format) {
   }
   ck_assert_int_gt(size_of("a_0.vtu"), size_of("a.pvtu"));
   if (with_hdf5()) ck_assert_int_gt(size_of("a.h5"), size_of("a.xdmf"));
-  /* a_0.vtu and no a.face; a.h5; a_facets.vtu, .pvtu and _0.vtu; .vtkhdf, .xdmf and .h5 */
-  ck_assert_int_eq(empty_folder(), with_hdf5() ? count + 7 : count + 1);
+  ck_assert_int_eq(of_bodies, 3);
+  /* a_0.vtu; a.h5; a_facets.vtu, .pvtu and _0.vtu; .vtkhdf, .xdmf and .h5 */
+  ck_assert_int_eq(empty_folder(), count - of_bodies + (with_hdf5() ? 8 : 1));
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_info(count, NULL, NULL, NULL, NULL), "index",
             "0 ..");
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_count(NULL), "count", "NULL");
+  job_end(&it);
+}
+END_TEST
+
+/* Of particles, which have a volume, and a density except for Peridigm. */
+START_TEST(fields_that_formats_need) {
+  job it = placed_cube();
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder("a.peridigm"), 0),
+            "'volume' with one component", "a.peridigm");
+  add_ones(it.placement, "volume", 3);
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder("a.peridigm"), 0),
+            "'volume' with one component", "a.peridigm");
+  MUST(pnpbs_placement_clear_output_fields(it.placement));
+  add_ones(it.placement, "volume", 1);
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.peridigm"), 0));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder("a.lammps"), 0),
+            "'density' with one component", "a.lammps");
+  if (with_hdf5())
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder("a.hdf5"), 0),
+              "'density' with one component", "a.hdf5");
+  ck_assert_int_eq(empty_folder(), 1);
   job_end(&it);
 }
 END_TEST
@@ -137,23 +198,12 @@ START_TEST(triangle_s_elements_are_beside) {
 }
 END_TEST
 
-static job placed_cube(void) {
-  const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
-  job it;
-  MUST(pnpbs_context_create_serial(&it.context));
-  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
-  MUST(pnpbs_domain_add_box(it.domain, low, high, 1));
-  job_place(&it);
-  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.3));
-  MUST_COMPUTE(pnpbs_placement_run(it.placement));
-  MUST(pnpbs_placement_check(it.placement));
-  return it;
-}
-
 START_TEST(every_format_in_space) {
   job it = placed_cube();
   int32_t count = 0, k;
   MUST(pnpbs_format_count(&count));
+  add_ones(it.placement, "volume", 1);
+  add_ones(it.placement, "density", 1);
   for (k = 0; k < count; ++k) {
     const char* name = NULL;
     char path[40];
@@ -161,7 +211,11 @@ START_TEST(every_format_in_space) {
     if (is_by_hdf5(name) && !with_hdf5()) continue;
     snprintf(path, sizeof path, "a.%s", name);
     MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
-    if (strcmp(name, "csv") != 0) MUST(pnpbs_placement_write(it.placement, in_folder(path), 1));
+    if (strcmp(name, "csv") == 0 || is_of_particles(name))
+      MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 1),
+                "no place for elements", path);
+    else
+      MUST(pnpbs_placement_write(it.placement, in_folder(path), 1));
     ck_assert_int_gt(size_of(path), 100);
   }
   ck_assert_int_eq(empty_folder(), with_hdf5() ? count + 8 : count + 2);
@@ -387,6 +441,7 @@ int main(void) {
   tcase_add_checked_fixture(tests, make_folder, remove_folder);
   tcase_add_test(tests, without_hdf5_there_is_an_error);
   tcase_add_test(tests, every_format);
+  tcase_add_test(tests, fields_that_formats_need);
   tcase_add_test(tests, triangle_s_elements_are_beside);
   tcase_add_test(tests, every_format_in_space);
   tcase_add_test(tests, several_with_formats_of_their_own);

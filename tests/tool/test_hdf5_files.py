@@ -178,10 +178,10 @@ class Refused(CommandTest):
     # Before the run, which would take hours.
     @unittest.skipUnless(NO_HDF5, "nothing is preloaded before sanitizers")
     def test_hdf5_is_not_found(self):
-        for name in ("a.vtkhdf", "a.xdmf"):
+        for name in ("a.vtkhdf", "a.xdmf", "a.hdf5"):
             message = self.refuse("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.001", "-o", name,
-                                  code=FAILED, environment={"LD_PRELOAD": NO_HDF5})
-            for words in ("HDF5", "cannot be opened", ".vtkhdf and .xdmf", "LD_LIBRARY_PATH"):
+                                  "--density", "1", code=FAILED, environment={"LD_PRELOAD": NO_HDF5})
+            for words in ("HDF5", "cannot be opened", ".vtkhdf, .xdmf and .hdf5", "LD_LIBRARY_PATH"):
                 self.assertIn(words, message)
 
     def test_no_stream_and_no_device(self):

@@ -371,8 +371,8 @@ end
 
 Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file. The
 extension selects the format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2,
-.node, .ele, .face, .csv. The file appears when it is complete. The outcome is `:ok`, or `:stopped`
-by the monitor, which keeps the old file. Collective.
+.node, .ele, .face, .csv, .peridigm, .lammps, .hdf5. The file appears when it is complete. The
+outcome is `:ok`, or `:stopped` by the monitor, which keeps the old file. Collective.
 """
 write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
     check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/particle_fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/field_columns.hpp"
+
+namespace pnpbs::io {
+
+std::size_t particle_field(const std::vector<OutputField>& fields, std::string_view name) {
+  const auto found = std::ranges::find_if(fields, [&](const OutputField& field) {
+    return field.name == name && field.components == 1;
+  });
+  return static_cast<std::size_t>(found - fields.begin());
+}
+
+bool has_particle_field(const std::vector<OutputField>& fields, std::string_view name) {
+  return particle_field(fields, name) < fields.size();
+}
+
+std::vector<double> particle_values(const NodeSource& nodes, std::string_view name) {
+  return field_columns(nodes, particle_field(*nodes.contents().fields, name)).values;
+}
+
+namespace {
+
+// No program takes an empty box.
+double size_of_particle(double volume, int dimension) {
+  if (!(volume > 0)) return 1;
+  return dimension == 2 ? std::sqrt(volume) : std::cbrt(volume);
+}
+
+}  // namespace
+
+// All of it by largest and least values alone, which no order changes.
+ParticleExtent extent_of_particles(const NodeSource& nodes, const std::vector<double>& volumes,
+                                   const Communicator& comm) {
+  double largest = 0;
+  for (const double volume : volumes) largest = std::max(largest, volume);
+  ParticleExtent extent{{},
+                        size_of_particle(comm.allreduce_max(largest), nodes.contents().dimension)};
+  const std::vector<TagGroup> groups = nodes.node_groups();
+  if (!groups.empty()) extent.box = {groups[0].low, groups[0].high};
+  for (const TagGroup& group : groups)
+    for (std::size_t k = 0; k < 3; ++k) {
+      extent.box.low[k] = std::min(extent.box.low[k], group.low[k]);
+      extent.box.high[k] = std::max(extent.box.high[k], group.high[k]);
+    }
+  return extent;
+}
+
+void write_point(const NodeRows& rows, std::size_t i, Sink& sink) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    sink.number(rows.x[3 * i + k]);
+    sink.text(" ");
+  }
+}
+
+}  // namespace pnpbs::io

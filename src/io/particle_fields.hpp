@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What files of particles need of the caller's fields, and what they say of them all.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "base/types.hpp"
+#include "io/node_source.hpp"
+#include "io/shared_file.hpp"
+
+namespace pnpbs::io {
+
+// Names of fields with one component: the volume of a particle, an area in the plane, and the
+// density of its matter.
+inline constexpr std::string_view kVolumeField = "volume", kDensityField = "density";
+
+bool has_particle_field(const std::vector<OutputField>& fields, std::string_view name);
+// One that there is.
+std::size_t particle_field(const std::vector<OutputField>& fields, std::string_view name);
+
+// Of the nodes in this rank's parts of all windows. Collective.
+std::vector<double> particle_values(const NodeSource& nodes, std::string_view name);
+
+// The same on all ranks.
+struct ParticleExtent {
+  Box<3> box;   // around the places of all; z is 0 in the plane
+  double size;  // of the largest: the side of a square or cube of its volume
+};
+
+// Collective.
+ParticleExtent extent_of_particles(const NodeSource& nodes, const std::vector<double>& volumes,
+                                   const Communicator& comm);
+
+// The block or type of a node: the tag of its region, or 1.
+inline std::int32_t block_of(const NodeRows& rows, std::size_t i) {
+  const std::int32_t tag = rows.regions.empty() ? 0 : rows.regions[i];
+  return tag != 0 ? tag : 1;
+}
+
+// x, y and z of node i of a body, each before a space.
+void write_point(const NodeRows& rows, std::size_t i, Sink& sink);
+
+}  // namespace pnpbs::io

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The text of Peridigm's TextFileDiscretization: "x y z block volume", a particle of a body a line.
+#include "io/formats.hpp"
+#include "io/particle_fields.hpp"
+
+namespace pnpbs::io {
+
+void write_peridigm(const NodeSource& nodes, SharedFile& file) {
+  const std::vector<double> volumes = particle_values(nodes, kVolumeField);
+  std::size_t before = 0;  // nodes of windows that have been
+  file.append_text("# x y z block volume\n");
+  nodes.for_nodes([&](const NodeRows& rows) {
+    file.append([&](Sink& sink) {
+      for (std::size_t i = 0; i < rows.ids.size(); ++i) {
+        write_point(rows, i, sink);
+        sink.number(block_of(rows, i));
+        sink.text(" ");
+        sink.number(volumes[before + i]);
+        sink.text("\n");
+      }
+    });
+    before += rows.ids.size();
+  });
+}
+
+}  // namespace pnpbs::io
