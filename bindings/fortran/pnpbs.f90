@@ -44,7 +44,7 @@ module pnpbs
   public :: PNPBS_VERSION_MAJOR, PNPBS_VERSION_MINOR, PNPBS_VERSION_PATCH
   public :: pnpbs_curve_fn, pnpbs_level_set_fn, pnpbs_spacing_fn, pnpbs_monitor_fn
   public :: pnpbs_context, pnpbs_domain, pnpbs_placement, pnpbs_transfer, pnpbs_mesh
-  public :: pnpbs_voronoi
+  public :: pnpbs_voronoi, pnpbs_particles
   public :: pnpbs_status_string, pnpbs_last_error, pnpbs_version, pnpbs_build_info
   public :: pnpbs_mpi_library, pnpbs_finalize, pnpbs_discard_unfinished_files
   public :: pnpbs_file_dimension
@@ -277,6 +277,25 @@ module pnpbs
     procedure :: get_faces => voronoi_get_faces
     procedure :: handle => voronoi_handle
     procedure :: from_handle => voronoi_from_handle
+  end type
+
+  !> Particles that fill a body, with their volumes: those of a rank.
+  type :: pnpbs_particles
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure :: create => particles_create
+    procedure :: destroy => particles_destroy
+    procedure :: sizes => particles_sizes
+    procedure :: figures => particles_figures
+    procedure :: get => particles_get
+    procedure, private :: particles_add_output_field
+    procedure, private :: particles_add_output_field_columns
+    generic :: add_output_field => particles_add_output_field, particles_add_output_field_columns
+    procedure :: write => particles_write
+    procedure :: write_files => particles_write_files
+    procedure :: handle => particles_handle
+    procedure :: from_handle => particles_from_handle
   end type
 
 contains
@@ -3110,30 +3129,15 @@ contains
   !> corners of all elements that touch it, so a node sees none through a gap that has no elements.
   !> The volumes add up to that of the elements to rounding. Cells are functions of the nodes alone:
   !> any number of ranks and threads gives the same bits. They are a copy: nodes may move
-  !> afterwards, and the placement may be destroyed.
-  !>
-  !> With a body that is larger than the elements, as of particles placed in what domain%add_offset
-  !> makes of it, cells at the boundary of the elements have the volume that is seen from the node,
-  !> up to the body's boundary and halfway to its neighbours, times one factor, so that all volumes
-  !> add up to the body's measure. Inner cells, and all faces and shares of the boundary, are the
-  !> same as without. Collective. Errors: PNPBS_ERROR_STATE without nodes; with a body,
-  !> PNPBS_ERROR_DOMAIN as in domain%check, if a node is not strictly inside of it, or if the factor
-  !> is not between 0.8 and 1.25: then the nodes do not fill the body.
-  !>   placement  whose nodes have the cells; with a body, not on surfaces alone
-  !>   body       optional: with the placement's dimension, on the same context
-  subroutine voronoi_create(self, placement, body, stat, errmsg)
+  !> afterwards, and the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without
+  !> nodes.
+  !>   placement  whose nodes have the cells
+  subroutine voronoi_create(self, placement, stat, errmsg)
     class(pnpbs_voronoi), intent(inout) :: self
     type(pnpbs_placement), intent(in) :: placement
-    type(pnpbs_domain), intent(in), optional :: body
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    integer(c_int) :: status
-    if (present(body)) then
-      status = c_voronoi_create_within(placement%c, body%c, self%c)
-    else
-      status = c_voronoi_create(placement%c, self%c)
-    end if
-    call conclude('voronoi%create', status, stat, errmsg)
+    call conclude('voronoi%create', c_voronoi_create(placement%c, self%c), stat, errmsg)
   end subroutine
 
   !> Destroys the cells; does nothing if there are none. Local.
@@ -3241,6 +3245,197 @@ contains
     self%c = pointer_of(handle)
   end subroutine
 
+  ! ------------------------------------------------------------ particles ---------------------
+
+  !> Makes particles that fill a body: each stands for a piece of matter of about d^2, or d^3 in
+  !> space. The nodes of the placement are the particles, placed in what domain%add_offset makes of
+  !> the body. Where two are closer than 0.5 times the mean of their d, as at creases and in thin
+  !> places, one of them is left out; then pairs closer than 0.8 are pushed apart, as far as the
+  !> wall and other particles allow, by at most 0.3 d; and of pairs still closer than 0.61, or 0.65
+  !> in the plane, one is left out. All others stay where they are. Particles have the volume that
+  !> is closer to them than to any other, as their Voronoi cells within the elements have
+  !> (voronoi%create); but those at the wall, and beside particles that have moved or are left out,
+  !> have what they see of the body, up to halfway to others, times one factor, so that all volumes
+  !> add up to the body's measure. Any number of ranks and threads gives the same bits. The
+  !> particles are a copy, and the placement stays as it is. Collective. Errors: PNPBS_ERROR_STATE
+  !> without nodes; PNPBS_ERROR_ARGUMENT for a placement on surfaces alone; PNPBS_ERROR_DOMAIN as in
+  !> domain%check, if a node is not strictly inside of the body, or if the factor is not between 0.8
+  !> and 1.25: then the nodes do not fill the body.
+  !>   placement  whose nodes become particles
+  !>   body       with the placement's dimension, on the same context
+  subroutine particles_create(self, placement, body, stat, errmsg)
+    class(pnpbs_particles), intent(inout) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    type(pnpbs_domain), intent(in) :: body
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('particles%create', c_particles_create(placement%c, body%c, self%c), stat, errmsg)
+  end subroutine
+
+  !> Destroys the particles; does nothing if there are none. Local.
+  subroutine particles_destroy(self, stat, errmsg)
+    class(pnpbs_particles), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('particles%destroy', c_particles_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> Returns how many particles there are. Local; all are optional.
+  !>   dim    coordinates of a particle, 2 or 3
+  !>   count  particles of this rank
+  !>   all    particles of all ranks
+  subroutine particles_sizes(self, dim, count, all, stat, errmsg)
+    class(pnpbs_particles), intent(in) :: self
+    integer(c_int32_t), intent(out), optional :: dim
+    integer(c_int64_t), intent(out), optional :: count, all
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: columns
+    integer(c_int64_t) :: counts(2)
+    columns = 0
+    counts = 0
+    call conclude('particles%sizes', c_particles_sizes(self%c, columns, counts(1), counts(2)), &
+                  stat, errmsg)
+    if (present(dim)) dim = columns
+    if (present(count)) count = counts(1)
+    if (present(all)) all = counts(2)
+  end subroutine
+
+  !> Returns what became of the nodes, over all ranks. Local; all are optional.
+  !>   left_out  nodes that are no particles, because others are too close
+  !>   moved     particles that were pushed away from where their nodes are
+  !>   closest   the least distance of two particles over the mean of their d; infinity if no two
+  !>             are closer than that mean
+  subroutine particles_figures(self, left_out, moved, closest, stat, errmsg)
+    class(pnpbs_particles), intent(in) :: self
+    integer(c_int64_t), intent(out), optional :: left_out, moved
+    real(c_double), intent(out), optional :: closest
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: counts(2)
+    real(c_double) :: least
+    counts = 0
+    least = 0
+    call conclude('particles%figures', c_particles_figures(self%c, counts(1), counts(2), least), &
+                  stat, errmsg)
+    if (present(left_out)) left_out = counts(1)
+    if (present(moved)) moved = counts(2)
+    if (present(closest)) closest = least
+  end subroutine
+
+  !> Copies the particles of this rank, in the order of their ids; all arrays are optional. Local.
+  !>   x        (dim, count) coordinates
+  !>   volumes  (count) areas in the plane; over all ranks they add up to the body's
+  !>   spacing  (count) d of the bubbles that they were
+  !>   ids      (count) of the nodes that they were: not without gaps
+  !>   tags     (count) of these nodes: the outermost ones have that of the offset, all others 0
+  subroutine particles_get(self, x, volumes, spacing, ids, tags, stat, errmsg)
+    class(pnpbs_particles), intent(in) :: self
+    real(c_double), intent(inout), optional :: x(:,:), volumes(:), spacing(:)
+    integer(c_int64_t), intent(inout), optional :: ids(:)
+    integer(c_int32_t), intent(inout), optional :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_x, a_volumes, a_spacing, a_ids, a_tags
+    integer(c_int64_t) :: room(5)
+    integer(c_int32_t) :: dim
+    integer(c_int) :: status
+    call self%sizes(dim=dim, stat=status)
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    call given%place_real_columns('x', x, int(dim), a_x, room(1))
+    call given%place_real('volumes', volumes, a_volumes, room(2))
+    call given%place_real('spacing', spacing, a_spacing, room(3))
+    call given%place_int64('ids', ids, a_ids, room(4))
+    call given%place_int32('tags', tags, a_tags, room(5))
+    status = c_particles_get(self%c, given%capacity(minval(room)), a_x, a_volumes, a_spacing, &
+                             a_ids, a_tags)
+    call conclude('particles%get', status, stat, errmsg, given)
+  end subroutine
+
+  !> Adds a field of the caller to files of particles written from now on, as
+  !> placement%add_output_field does to those of nodes. The values are copied. Local. Errors:
+  !> PNPBS_ERROR_ARGUMENT.
+  !>   name    as there; none of id, tag, spacing, volume, quality and vtkGhostType
+  !>   values  (n), or (components, n): of this rank's particles at least, in the order of get
+  subroutine particles_add_output_field(self, name, values, stat, errmsg)
+    class(pnpbs_particles), intent(in) :: self
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('particles%add_output_field', &
+                  c_particles_add_output_field(self%c, c_text(name), size(values, kind=c_int64_t), &
+                                               1_c_int32_t, values), stat, errmsg)
+  end subroutine
+
+  subroutine particles_add_output_field_columns(self, name, values, stat, errmsg)
+    class(pnpbs_particles), intent(in) :: self
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('particles%add_output_field', &
+                  c_particles_add_output_field(self%c, c_text(name), size(values, 2, c_int64_t), &
+                                               size(values, 1, c_int32_t), values), stat, errmsg)
+  end subroutine
+
+  !> Writes the particles of all ranks into one file, in the format of its extension: id, tag and
+  !> spacing, in the formats that have fields the field `volume` and those added, as placement%write
+  !> writes nodes without elements. Formats of elements alone and .pvtu are PNPBS_ERROR_ARGUMENT.
+  !> The file has the same bytes for any number of ranks and threads. While the placement exists,
+  !> its monitor is called, and can stop the call, as there. Collective. stat: PNPBS_OK,
+  !> PNPBS_STOPPED. Errors: as there.
+  !>   path  trailing blanks are ignored
+  subroutine particles_write(self, path, stat, errmsg)
+    class(pnpbs_particles), intent(in) :: self
+    character(len=*), intent(in) :: path
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(texts), target :: paths
+    call paths%put([path])
+    call conclude('particles%write', &
+                  c_particles_write(self%c, 1_c_int32_t, paths%addresses, c_null_ptr), stat, errmsg)
+  end subroutine
+
+  !> Writes several files, which appear together when all of them are complete. Otherwise as write.
+  !> Collective.
+  !>   paths    (n)
+  !>   formats  optional, (n): names of formats (pnpbs_format_info), ' ' for that of the extension
+  subroutine particles_write_files(self, paths, formats, stat, errmsg)
+    class(pnpbs_particles), intent(in) :: self
+    character(len=*), intent(in) :: paths(:)
+    character(len=*), intent(in), optional :: formats(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(texts), target :: c_paths, c_formats
+    type(c_ptr) :: a_formats
+    integer(c_int64_t) :: n
+    integer(c_int) :: status
+    n = size(paths, kind=c_int64_t)
+    call c_paths%put(paths)
+    call given%place_formats(formats, n, c_formats, a_formats)
+    status = c_particles_write(self%c, int(given%capacity(n), c_int32_t), c_paths%addresses, &
+                               a_formats)
+    call conclude('particles%write_files', status, stat, errmsg, given)
+  end subroutine
+
+  !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.
+  !> Local.
+  function particles_handle(self) result(handle)
+    class(pnpbs_particles), intent(in) :: self
+    integer(c_int64_t) :: handle
+    handle = integer_of(self%c)
+  end function
+
+  !> Makes these the particles with the given handle. Local; checks nothing.
+  subroutine particles_from_handle(self, handle)
+    class(pnpbs_particles), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: handle
+    self%c = pointer_of(handle)
+  end subroutine
+
   ! ------------------------------------------------------------ placement: files --------------
 
   !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
@@ -3278,32 +3473,24 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
-    character(kind=c_char, len=len(paths) + 1), target :: c_paths(size(paths) + 1)
-    character(kind=c_char, len=20), target :: c_formats(size(paths) + 1)
-    type(c_ptr), target :: a_paths(size(paths) + 1), a_formats(size(paths) + 1)
+    type(texts), target :: c_paths, c_formats
     integer(c_int32_t), target :: with_elements(size(paths) + 1)
-    type(c_ptr) :: all_formats
+    type(c_ptr) :: a_formats
     integer(c_int64_t) :: n
     integer(c_int) :: status
     integer :: k
     n = size(paths, kind=c_int64_t)
-    if (present(formats)) call given%require('formats', size(formats, kind=c_int64_t), n)
+    call c_paths%put(paths)
+    call given%place_formats(formats, n, c_formats, a_formats)
     if (present(elements)) call given%require('elements', size(elements, kind=c_int64_t), n)
-    a_formats = c_null_ptr
     with_elements = 0
-    if (.not. given%is_wrong()) then
+    if (present(elements) .and. .not. given%is_wrong()) then
       do k = 1, size(paths)
-        c_paths(k) = c_text(paths(k))
-        a_paths(k) = c_loc(c_paths(k)(1:1))
-        if (present(elements)) with_elements(k) = flag(elements(k))
-        if (.not. present(formats)) cycle
-        c_formats(k) = c_text(formats(k))
-        if (formats(k) /= ' ') a_formats(k) = c_loc(c_formats(k)(1:1))
+        with_elements(k) = flag(elements(k))
       end do
     end if
-    all_formats = c_loc(a_formats(1))
-    status = c_placement_write_files(self%c, int(given%capacity(n), c_int32_t), a_paths, &
-                                     all_formats, c_loc(with_elements(1)))
+    status = c_placement_write_files(self%c, int(given%capacity(n), c_int32_t), &
+                                     c_paths%addresses, a_formats, c_loc(with_elements(1)))
     call conclude('placement%write_files', status, stat, errmsg, given)
   end subroutine
 

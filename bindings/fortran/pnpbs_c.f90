@@ -1377,15 +1377,6 @@ module pnpbs_c
       integer(c_int) :: c_voronoi_create
     end function
 
-    function c_voronoi_create_within(placement, body, voronoi) bind(C, &
-      name="pnpbs_voronoi_create_within")
-      import
-      implicit none
-      type(c_ptr), value :: placement, body
-      type(c_ptr), intent(out) :: voronoi
-      integer(c_int) :: c_voronoi_create_within
-    end function
-
     function c_voronoi_destroy(voronoi) bind(C, name="pnpbs_voronoi_destroy")
       import
       implicit none
@@ -1426,6 +1417,76 @@ module pnpbs_c
       type(c_ptr), value :: distances ! double *
       type(c_ptr), value :: normals ! double *
       integer(c_int) :: c_voronoi_get_faces
+    end function
+
+    function c_particles_create(placement, body, particles) bind(C, name="pnpbs_particles_create")
+      import
+      implicit none
+      type(c_ptr), value :: placement, body
+      type(c_ptr), intent(out) :: particles
+      integer(c_int) :: c_particles_create
+    end function
+
+    function c_particles_destroy(particles) bind(C, name="pnpbs_particles_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: particles
+      integer(c_int) :: c_particles_destroy
+    end function
+
+    function c_particles_sizes(particles, dim, count, all) bind(C, name="pnpbs_particles_sizes")
+      import
+      implicit none
+      type(c_ptr), value :: particles
+      integer(c_int32_t), intent(out) :: dim
+      integer(c_int64_t), intent(out) :: count, all
+      integer(c_int) :: c_particles_sizes
+    end function
+
+    function c_particles_figures(particles, left_out, moved, closest) bind(C, &
+      name="pnpbs_particles_figures")
+      import
+      implicit none
+      type(c_ptr), value :: particles
+      integer(c_int64_t), intent(out) :: left_out, moved
+      real(c_double), intent(out) :: closest
+      integer(c_int) :: c_particles_figures
+    end function
+
+    function c_particles_get(particles, capacity, x, volumes, spacing, ids, tags) bind(C, &
+      name="pnpbs_particles_get")
+      import
+      implicit none
+      type(c_ptr), value :: particles
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: x ! double *
+      type(c_ptr), value :: volumes ! double *
+      type(c_ptr), value :: spacing ! double *
+      type(c_ptr), value :: ids ! int64_t *
+      type(c_ptr), value :: tags ! int32_t *
+      integer(c_int) :: c_particles_get
+    end function
+
+    function c_particles_add_output_field(particles, name, n, components, values) bind(C, &
+      name="pnpbs_particles_add_output_field")
+      import
+      implicit none
+      type(c_ptr), value :: particles
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(in) :: values(*)
+      integer(c_int) :: c_particles_add_output_field
+    end function
+
+    function c_particles_write(particles, n, paths, formats) bind(C, name="pnpbs_particles_write")
+      import
+      implicit none
+      type(c_ptr), value :: particles
+      integer(c_int32_t), value :: n
+      type(c_ptr), intent(in) :: paths(*)
+      type(c_ptr), value :: formats ! const char *const *
+      integer(c_int) :: c_particles_write
     end function
 
     function c_placement_write(placement, path, elements) bind(C, name="pnpbs_placement_write")

@@ -8,7 +8,7 @@ module pnpbs_calls
   use pnpbs_c
   implicit none
   private
-  public :: arguments, conclude, text_of, c_text, count_from_one, integer_of, pointer_of
+  public :: arguments, texts, conclude, text_of, c_text, count_from_one, integer_of, pointer_of
 
   !> The room in an absent array.
   integer(c_int64_t), parameter :: unlimited = huge(0_c_int64_t)
@@ -36,9 +36,18 @@ module pnpbs_calls
     procedure :: place_real
     procedure :: place_real_columns
     procedure :: place_real_pairs
+    procedure :: place_formats
     procedure :: check_rows
     procedure :: check_rank
     procedure, private :: check_neighbours_in_memory
+  end type
+
+  !> Texts for C, without trailing blanks, by their addresses. A variable of it is a target.
+  type :: texts
+    type(c_ptr), allocatable :: addresses(:)
+    character(kind=c_char), allocatable, private :: characters(:)
+  contains
+    procedure :: put
   end type
 
   ! The address of arrays without elements: present, but without room.
@@ -143,8 +152,8 @@ contains
   recursive function in_fortran(message) result(text)
     character(len=*), intent(in) :: message
     character(len=:), allocatable :: text
-    character(len=*), parameter :: objects(6) = &
-      ['context  ', 'domain   ', 'placement', 'transfer ', 'mesh     ', 'voronoi  ']
+    character(len=*), parameter :: objects(7) = &
+      ['context  ', 'domain   ', 'placement', 'transfer ', 'mesh     ', 'voronoi  ', 'particles']
     character(len=:), allocatable :: prefix
     integer :: i, at
     text = message
@@ -162,6 +171,22 @@ contains
     character(kind=c_char, len=len_trim(text) + 1) :: c
     c = trim(text) // c_null_char
   end function
+
+  subroutine put(self, given)
+    class(texts), intent(inout), target :: self
+    character(len=*), intent(in) :: given(:)
+    integer :: begin, i, k
+    allocate (self%addresses(size(given)), self%characters(sum(len_trim(given)) + size(given)))
+    self%characters = c_null_char
+    begin = 1
+    do k = 1, size(given)
+      self%addresses(k) = c_loc(self%characters(begin))
+      do i = 1, len_trim(given(k))
+        self%characters(begin + i - 1) = given(k)(i:i)
+      end do
+      begin = begin + len_trim(given(k)) + 1
+    end do
+  end subroutine
 
   ! ------------------------------------------------------------ handles -----------------------
 
@@ -359,6 +384,25 @@ contains
     call self%check_neighbours_in_memory(name, address, c_loc(array(1, 2, 1)), 8 * rows)
     if (room > 1) &
       call self%check_neighbours_in_memory(name, address, c_loc(array(1, 1, 2)), 16 * rows)
+  end subroutine
+
+  !> Places the optional formats of n files, NULL where one is blank.
+  subroutine place_formats(self, formats, n, c_formats, address)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in), optional :: formats(:)
+    integer(c_int64_t), intent(in) :: n
+    type(texts), intent(inout), target :: c_formats
+    type(c_ptr), intent(out) :: address
+    integer :: k
+    address = c_null_ptr
+    if (.not. present(formats)) return
+    call self%require('formats', size(formats, kind=c_int64_t), n)
+    if (size(formats) == 0) return
+    call c_formats%put(formats)
+    do k = 1, size(formats)
+      if (formats(k) == ' ') c_formats%addresses(k) = c_null_ptr
+    end do
+    address = c_loc(c_formats%addresses(1))
   end subroutine
 
   subroutine absent(address, room)

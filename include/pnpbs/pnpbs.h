@@ -107,6 +107,7 @@ typedef struct pnpbs_placement_handle *pnpbs_placement;
 typedef struct pnpbs_transfer_handle *pnpbs_transfer;
 typedef struct pnpbs_mesh_handle *pnpbs_mesh;
 typedef struct pnpbs_voronoi_handle *pnpbs_voronoi;
+typedef struct pnpbs_particles_handle *pnpbs_particles;
 
 /** Returns the meaning of a status in a few words. Local. Never NULL. */
 PNPBS_API const char *pnpbs_status_string(pnpbs_status status);
@@ -1296,20 +1297,6 @@ PNPBS_API pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
  *  @param[out] voronoi   the handle */
 PNPBS_API pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
 
-/** Makes the same cells within a body that is larger than the elements, as of particles placed in
- *  what pnpbs_domain_add_offset makes of it. Cells at the boundary of the elements have the
- *  volume that is seen from the node, up to the body's boundary and halfway to its neighbours,
- *  times one factor, so that all volumes add up to the body's measure. Inner cells, and all faces
- *  and shares of the boundary, are those of pnpbs_voronoi_create. Collective. Errors:
- *  PNPBS_ERROR_STATE without nodes, PNPBS_ERROR_DOMAIN as in pnpbs_domain_check, if a node is not
- *  strictly inside of the body, or if the factor is not between 0.8 and 1.25: then the nodes do
- *  not fill the body.
- *  @param[in] placement  whose nodes have the cells; not on surfaces alone
- *  @param[in] body       with the placement's dimension, on the same context
- *  @param[out] voronoi   the handle */
-PNPBS_API pnpbs_status pnpbs_voronoi_create_within(pnpbs_placement placement, pnpbs_domain body,
-                                                   pnpbs_voronoi *voronoi);
-
 /** Destroys the handle and sets it to NULL; accepts NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_voronoi_destroy(pnpbs_voronoi *voronoi);
 
@@ -1346,6 +1333,82 @@ PNPBS_API pnpbs_status pnpbs_voronoi_get_cells(pnpbs_voronoi voronoi, int64_t ca
 PNPBS_API pnpbs_status pnpbs_voronoi_get_faces(pnpbs_voronoi voronoi, int64_t nodes, int64_t faces,
                                                int64_t *offsets, int64_t *ids, int64_t *numbers,
                                                double *areas, double *distances, double *normals);
+
+/* ---------------------------------------------------------------- particles ------------- */
+
+/** Makes particles that fill a body: each stands for a piece of matter of about d^2, or d^3 in
+ *  space. The nodes of the placement are the particles, placed in what pnpbs_domain_add_offset makes
+ *  of the body. Where two are closer than 0.5 times the mean of their d, as at creases and in thin
+ *  places, one of them is left out; then pairs closer than 0.8 are pushed apart, as far as the wall
+ *  and other particles allow, by at most 0.3 d; and of pairs still closer than 0.61, or 0.65 in the
+ *  plane, one is left out. All others stay where they are. Particles have the volume that is closer
+ *  to them than to any other, as their Voronoi cells within the elements have (pnpbs_voronoi_create);
+ *  but those at the wall, and beside particles that have moved or are left out, have what they see
+ *  of the body, up to halfway to others, times one factor, so that all volumes add up to the body's
+ *  measure. Any number of ranks and threads gives the same bits. The particles are a copy, and the
+ *  placement stays as it is. Collective. Errors: PNPBS_ERROR_STATE without nodes;
+ *  PNPBS_ERROR_ARGUMENT for a placement on surfaces alone; PNPBS_ERROR_DOMAIN as in
+ *  pnpbs_domain_check, if a node is not strictly inside of the body, or if the factor is not between
+ *  0.8 and 1.25: then the nodes do not fill the body.
+ *  @param[in] placement   whose nodes become particles
+ *  @param[in] body        with the placement's dimension, on the same context
+ *  @param[out] particles  the handle */
+PNPBS_API pnpbs_status pnpbs_particles_create(pnpbs_placement placement, pnpbs_domain body,
+                                              pnpbs_particles *particles);
+
+/** Destroys the handle and sets it to NULL; accepts NULL. Local. */
+PNPBS_API pnpbs_status pnpbs_particles_destroy(pnpbs_particles *particles);
+
+/** Returns how many particles there are; outputs may be NULL. Local.
+ *  @param[out] dim    coordinates of a particle: 2 or 3
+ *  @param[out] count  particles of this rank
+ *  @param[out] all    particles of all ranks */
+PNPBS_API pnpbs_status pnpbs_particles_sizes(pnpbs_particles particles, int32_t *dim,
+                                             int64_t *count, int64_t *all);
+
+/** Returns what became of the nodes, over all ranks; outputs may be NULL. Local.
+ *  @param[out] left_out  nodes that are no particles, because others are too close
+ *  @param[out] moved     particles that were pushed away from where their nodes are
+ *  @param[out] closest   the least distance of two particles over the mean of their d; infinity if
+ *                        no two are closer than that mean */
+PNPBS_API pnpbs_status pnpbs_particles_figures(pnpbs_particles particles, int64_t *left_out,
+                                               int64_t *moved, double *closest);
+
+/** Copies the particles of this rank, in the order of their ids; arrays may be NULL. Local. Errors:
+ *  PNPBS_ERROR_CAPACITY.
+ *  @param[in] capacity  particles the arrays have room for
+ *  @param[out] x        [particles][dim] coordinates
+ *  @param[out] volumes  [particles] areas in the plane; over all ranks they add up to the body's
+ *  @param[out] spacing  [particles] d of the bubbles that they were
+ *  @param[out] ids      [particles] of the nodes that they were: not without gaps
+ *  @param[out] tags     [particles] of these nodes: the outermost ones have that of the offset, all
+ *                       others 0 */
+PNPBS_API pnpbs_status pnpbs_particles_get(pnpbs_particles particles, int64_t capacity, double *x,
+                                           double *volumes, double *spacing, int64_t *ids,
+                                           int32_t *tags);
+
+/** Adds a field of the caller to files of particles written from now on, as
+ *  pnpbs_placement_add_output_field does to those of nodes. Local. Errors: PNPBS_ERROR_ARGUMENT.
+ *  @param[in] name        as there; none of id, tag, spacing, volume, quality and vtkGhostType
+ *  @param[in] n           entries of the array: at least this rank's particles
+ *  @param[in] components  numbers at each particle
+ *  @param[in] values      [n][components] in the order of pnpbs_particles_get */
+PNPBS_API pnpbs_status pnpbs_particles_add_output_field(pnpbs_particles particles, const char *name,
+                                                        int64_t n, int32_t components,
+                                                        const double *values);
+
+/** Writes the particles of all ranks into files, which appear together when all are complete, or
+ *  not at all: id, tag and spacing, in the formats that have fields the field `volume` and those
+ *  added, as pnpbs_placement_write writes nodes without elements. Formats of elements alone and
+ *  .pvtu are PNPBS_ERROR_ARGUMENT. The files have the same bytes for any number of ranks and
+ *  threads. While the placement exists, its monitor is called, and can stop the call, as there.
+ *  Collective. Errors: as there.
+ *  @param[in] n        files
+ *  @param[in] paths    [n]
+ *  @param[in] formats  [n] names of formats (pnpbs_format_info); where it or an entry is NULL, the
+ *                      extension selects the format */
+PNPBS_API pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t n,
+                                             const char *const *paths, const char *const *formats);
 
 /* ---------------------------------------------------------------- files ----------------- */
 

@@ -99,9 +99,8 @@ def procedure(kind, name, given, result, body, notes, binding, c_names):
 
 def of_c_function(c_name, every):
     """The procedures that stand for a C function. One that has a namesake in C stands for that
-    alone, whatever else it asks on the way, and for those that an optional argument calls instead:
-    voronoi_create for pnpbs_voronoi_create_within."""
-    def stands_for(one):
-        namesake = one.name if one.name.startswith("pnpbs_") else "pnpbs_" + one.name
-        return namesake not in one.calls or c_name == namesake or c_name.startswith(namesake + "_")
-    return [one for one in every if c_name in one.calls and stands_for(one)]
+    alone, whatever else it asks on the way."""
+    def namesake(one):
+        return one.name if one.name.startswith("pnpbs_") else "pnpbs_" + one.name
+    return [one for one in every if c_name in one.calls
+            and (namesake(one) == c_name or namesake(one) not in one.calls)]

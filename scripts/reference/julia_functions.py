@@ -21,6 +21,11 @@ class Docstring(NamedTuple):
     text: str
     file: str
 
+    def first_object(self):
+        """What is given first: "placement"."""
+        found = re.search(r"\((\w+)", self.signatures[0])
+        return found[1] if found else ""
+
 
 def signatures_of(lines):
     """What begins further in continues the line before."""

@@ -27,11 +27,13 @@ def fortran_interface(name, text):
 
 
 def described(one, place, here, shown, text):
-    """The text of a function where it comes first, elsewhere a link to it."""
-    if one not in shown:
-        shown.add(one)
-        return [text]
-    return [f"Described at [`{re.sub(r'.*#', '', place)}`]({place})."] if place != here else []
+    """The text of a function once where its place is, elsewhere a link to it."""
+    if place not in here:
+        return [f"Described at [`{re.sub(r'.*#', '', place)}`]({place})."]
+    if one in shown:
+        return []
+    shown.add(one)
+    return [text]
 
 
 def julia_part(docstrings, here, shown, links, c_names):

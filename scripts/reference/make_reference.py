@@ -107,18 +107,24 @@ class Links:
 
     def __init__(self, sources):
         self.c, self.julia, self.python = {}, {}, {}
+        reached = {}  # by a docstring of Julia: C functions
         for section in sources.sections:
             for entry in section.entries:
                 for name in entry_names(entry):
                     self.c[name] = f"{page_name(section)}#{anchor(name)}"
                 for name in entry.functions:
                     for one in sources.julia_of(name):
-                        self.julia.setdefault(one, self.c[name])
+                        reached.setdefault(one, []).append(name)
                     for one in sources.python_of(name):
                         self.python.setdefault(one, self.c[name])
         for one in sources.julia.docstrings:
-            self.julia.setdefault(one, "README.md#beyond-c")
+            self.julia[one] = self.place_of(one, reached.get(one, []))
         self.julia_names = {name: place for one, place in self.julia.items() for name in one.names}
+
+    def place_of(self, docstring, names):
+        """That of the object that comes first in it, else the first that there is."""
+        own = [name for name in names if name.startswith(f"pnpbs_{docstring.first_object()}_")]
+        return self.c[(own or names)[0]] if names else "README.md#beyond-c"
 
     def linked(self, text):
         """Text of the header with its names as links; what is in backquotes stays."""
@@ -192,7 +198,7 @@ def entry_text(entry, section, sources, links, shown):
     lines.append(description(entry.comment, links))
     if entry.functions:
         lines.append(fortran_part([one for name in names for one in sources.fortran_of(name)]))
-        here = links.c[names[0]]
+        here = [links.c[name] for name in names]
         lines.append(julia_part([one for name in names for one in sources.julia_of(name)], here,
                                 shown, links, names))
         lines.append(python_part(list(dict.fromkeys(

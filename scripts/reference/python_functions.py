@@ -14,7 +14,8 @@ CLASSES = {"Context": ("context", "context"), "Domain": ("domain", "domain"),
            "Fields": ("placement", "placement"), "Meshes": ("placement", "placement"),
            "Tessellation": ("placement", "placement"),
            "PlacementHandle": ("placement", "placement"), "Transfer": ("transfer", "transfer"),
-           "Shapes": ("geo", "shapes"), "GeoGrid": ("geo_grid", "grid")}
+           "Particles": ("particles", "particles"), "Shapes": ("geo", "shapes"),
+           "GeoGrid": ("geo_grid", "grid")}
 # What reaches the user in another way than through a function that he calls.
 OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError",
              "pnpbs_status_string": "Status", "pnpbs_placement_write": "placement.write",

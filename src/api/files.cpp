@@ -2,6 +2,7 @@
 // Files of the C interface.
 #include <optional>
 
+#include "api/file_wishes.hpp"
 #include "api/placement_calls.hpp"
 #include "io/checkpoint.hpp"
 #include "io/temporaries.hpp"
@@ -10,39 +11,6 @@
 using namespace pnpbs;
 using namespace pnpbs::api;
 
-namespace {
-
-std::vector<io::FileWish> wishes_of(std::int32_t n, const char* const* paths,
-                                    const char* const* formats, const std::int32_t* elements,
-                                    const Placement& placement) {
-  require_count(n, "n");
-  if (n > 0) require_pointer(paths, "paths");
-  std::vector<io::FileWish> wishes;
-  for (std::int32_t k = 0; k < n; ++k) {
-    const std::string at = "[" + std::to_string(k) + "]";
-    require_pointer(paths[k], ("paths" + at).c_str());
-    const char* format = formats && formats[k] ? formats[k] : "";
-    io::add_wish(paths[k], format, elements && elements[k], placement, wishes);
-  }
-  return wishes;
-}
-
-// Ranks that want other files would wait for each other for ever.
-void require_same_wishes(const Communicator& comm, const std::vector<io::FileWish>& wishes) {
-  std::string mine;
-  for (const io::FileWish& wish : wishes)
-    mine += std::string(wish.format->name) + (wish.elements ? "+ " : " ") + wish.path + "\n";
-  Bytes theirs(mine.begin(), mine.end());
-  comm.broadcast(theirs, 0);
-  agreed(comm, [&] {
-    if (std::string(theirs.begin(), theirs.end()) == mine) return;
-    throw Error(ErrorKind::argument,
-                "the files to write are not those of rank 0: name the same ones on all ranks");
-  });
-}
-
-}  // namespace
-
 pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
                                          const char* const* paths, const char* const* formats,
                                          const int32_t* elements) {
@@ -50,7 +18,9 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const Computing computing(*object.context);
     const Communicator& comm = object.placement->communicator();
     std::vector<io::FileWish> wishes;
-    agreed(comm, [&] { wishes = wishes_of(n, paths, formats, elements, *object.placement); });
+    agreed(comm, [&] {
+      wishes = wishes_of(n, paths, formats, elements, io::wished_of(*object.placement));
+    });
     require_same_wishes(comm, wishes);
     io::write_files(*object.placement, object.output_fields, wishes);
     return PNPBS_OK;

@@ -37,6 +37,10 @@ Registry<VoronoiObject, pnpbs_voronoi>& voronois() {
   static auto* registry = new Registry<VoronoiObject, pnpbs_voronoi>;
   return *registry;
 }
+Registry<ParticlesObject, pnpbs_particles>& all_particles() {
+  static auto* registry = new Registry<ParticlesObject, pnpbs_particles>;
+  return *registry;
+}
 
 namespace {
 
@@ -68,6 +72,9 @@ std::shared_ptr<MeshObject> require(pnpbs_mesh handle) {
 }
 std::shared_ptr<VoronoiObject> require(pnpbs_voronoi handle) {
   return require_live(voronois().find(handle), "voronoi");
+}
+std::shared_ptr<ParticlesObject> require(pnpbs_particles handle) {
+  return require_live(all_particles().find(handle), "particles");
 }
 
 }  // namespace pnpbs::api

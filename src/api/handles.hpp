@@ -15,6 +15,7 @@
 #include "domain/domain.hpp"
 #include "io/output_fields.hpp"
 #include "mesh/distributed_mesh.hpp"
+#include "particles/particles.hpp"
 #include "placement/field_transfer.hpp"
 #include "placement/placement_of.hpp"
 #include "pnpbs/pnpbs.h"
@@ -62,6 +63,14 @@ struct VoronoiObject {
   std::unique_ptr<const VoronoiCells> cells;
 };
 
+struct ParticlesObject {
+  std::shared_ptr<Context> context;
+  std::unique_ptr<const Particles> particles;
+  std::weak_ptr<PlacementObject> placement;      // whose monitor is asked while there is one
+  GroupNames names{};                            // of tags
+  std::vector<io::OutputField> output_fields{};  // their volumes first
+};
+
 // One for each kind of object. All keys of the process come from one counter, so that a handle of
 // another kind is recognised, too.
 std::uintptr_t next_key();
@@ -105,6 +114,7 @@ Registry<PlacementObject, pnpbs_placement>& placements();
 Registry<TransferObject, pnpbs_transfer>& transfers();
 Registry<MeshObject, pnpbs_mesh>& meshes();
 Registry<VoronoiObject, pnpbs_voronoi>& voronois();
+Registry<ParticlesObject, pnpbs_particles>& all_particles();
 
 std::shared_ptr<Context> require(pnpbs_context handle);
 std::shared_ptr<DomainObject> require(pnpbs_domain handle);
@@ -112,5 +122,6 @@ std::shared_ptr<PlacementObject> require(pnpbs_placement handle);
 std::shared_ptr<TransferObject> require(pnpbs_transfer handle);
 std::shared_ptr<MeshObject> require(pnpbs_mesh handle);
 std::shared_ptr<VoronoiObject> require(pnpbs_voronoi handle);
+std::shared_ptr<ParticlesObject> require(pnpbs_particles handle);
 
 }  // namespace pnpbs::api

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Voronoi cells, handed out through the C interface.
 #include "api/copy_out.hpp"
-#include "api/domain_calls.hpp"
 #include "api/placement_calls.hpp"
 #include "voronoi/voronoi_cells.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
 
-namespace {
-
-// make(results): the cells.
-template <class Make>
-pnpbs_status create(pnpbs_placement placement, pnpbs_voronoi* voronoi, const Make& make) {
+pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi* voronoi) {
   if (voronoi) *voronoi = nullptr;
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
@@ -21,30 +16,10 @@ pnpbs_status create(pnpbs_placement placement, pnpbs_voronoi* voronoi, const Mak
     agreed(results.communicator(), [&] {
       auto made = std::make_shared<VoronoiObject>();
       made->context = object.context;
-      made->cells = make(*object.context, results);
+      made->cells = make_voronoi_cells(results);
       *voronoi = voronois().add(std::move(made));
     });
     return PNPBS_OK;
-  });
-}
-
-}  // namespace
-
-pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi* voronoi) {
-  return create(placement, voronoi,
-                [](const Context&, NodalResults& results) { return make_voronoi_cells(results); });
-}
-
-pnpbs_status pnpbs_voronoi_create_within(pnpbs_placement placement, pnpbs_domain body,
-                                         pnpbs_voronoi* voronoi) {
-  return create(placement, voronoi, [&](const Context& context, NodalResults& results) {
-    std::shared_ptr<DomainObject> within;
-    agreed(results.communicator(), [&] {
-      within = body_with(context, results.dimension() == 2, body);
-      in_its_dimension(*within, [](auto& domain) { domain.check(); });
-    });
-    if (within->plane) return make_voronoi_cells_within<2>(results, *within->plane);
-    return make_voronoi_cells_within<3>(results, *within->volume);
   });
 }
 

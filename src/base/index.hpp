@@ -6,7 +6,8 @@
 
 namespace pnpbs {
 
-// A number of 32 bits as the index of a std::vector.
+// Numbers as indices of a std::vector.
 inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+inline std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace pnpbs

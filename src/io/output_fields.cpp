@@ -52,23 +52,39 @@ std::uint64_t hash_of_nodes(NodalResults& results) {
 
 }  // namespace
 
-void OutputFields::add(NodalResults& results, const std::string& name, std::int64_t n,
-                       std::int64_t components, const double* values) {
+void require_new_field(const std::vector<OutputField>& all, const std::string& name, std::int64_t n,
+                       std::int64_t owners, const char* called, std::int64_t components,
+                       const double* values) {
   require_name(name);
-  if (std::ranges::find(all_, name, &OutputField::name) != all_.end())
+  if (std::ranges::find(all, name, &OutputField::name) != all.end())
     refuse_field("argument name = \"" + name +
                  "\": there is an output field of that name; clear the output fields first");
   if (components < 1 || components > kMaxComponents)
     refuse_field("argument components = " + std::to_string(components) +
                  "; an output field has 1 to " + std::to_string(kMaxComponents));
-  const std::uint64_t hash = hash_of_nodes(results);
+  if (n < owners)
+    refuse_field("argument n = " + std::to_string(n) + "; this rank has " + std::to_string(owners) +
+                 " " + called + ", and every one has its values");
+  if (owners > 0 && !values) refuse_field("argument values is NULL");
+}
+
+void require_same_fields(const Communicator& comm, const std::vector<OutputField>& all) {
+  std::uint64_t kinds = 0;
+  for (const OutputField& field : all) {
+    for (const char c : field.name) kinds = mixed(kinds ^ static_cast<unsigned char>(c));
+    kinds = mixed(kinds ^ static_cast<std::uint64_t>(field.components + 256));
+  }
+  if (!comm.same_on_all(kinds))
+    refuse_field(
+        "the output fields differ between ranks: add the same ones in the same order on all");
+}
+
+void OutputFields::add(NodalResults& results, const std::string& name, std::int64_t n,
+                       std::int64_t components, const double* values) {
   const std::int64_t owned = results.count();
-  if (n < owned)
-    refuse_field("argument n = " + std::to_string(n) + "; this rank has " + std::to_string(owned) +
-                 " nodes, and every one has its values");
-  if (owned > 0 && !values) refuse_field("argument values is NULL");
-  all_.push_back(
-      {name, components, std::vector<double>(values, values + owned * components), hash});
+  require_new_field(all_, name, n, owned, "nodes", components, values);
+  all_.push_back({name, components, std::vector<double>(values, values + owned * components),
+                  hash_of_nodes(results)});
 }
 
 void OutputFields::require_current(NodalResults& results) const {
@@ -82,14 +98,7 @@ void OutputFields::require_current(NodalResults& results) const {
                         "' belongs to nodes that have moved or changed their ranks since it was "
                         "added: clear the output fields, and add it again");
   });
-  std::uint64_t kinds = 0;
-  for (const OutputField& field : all_) {
-    for (const char c : field.name) kinds = mixed(kinds ^ static_cast<unsigned char>(c));
-    kinds = mixed(kinds ^ static_cast<std::uint64_t>(field.components + 256));
-  }
-  if (!comm.same_on_all(kinds))
-    refuse_field(
-        "the output fields differ between ranks: add the same ones in the same order on all");
+  require_same_fields(comm, all_);
 }
 
 std::vector<OutputField> OutputFields::with_ghosts(NodalResults& results) const {

@@ -17,6 +17,14 @@ struct OutputField {
   std::uint64_t nodes_hash = 0;  // of the nodes that it belongs to
 };
 
+// Throws Error(ErrorKind::argument) unless such a field can be added to those there are, with n
+// values for so many owners, as messages call them: nodes, particles.
+void require_new_field(const std::vector<OutputField>& all, const std::string& name, std::int64_t n,
+                       std::int64_t owners, const char* called, std::int64_t components,
+                       const double* values);
+// Throws it unless all ranks have added the same fields in the same order. Collective.
+void require_same_fields(const Communicator& comm, const std::vector<OutputField>& all);
+
 class OutputFields {
  public:
   // values: [n][components], in places; those of ghosts are left out. Throws

@@ -41,15 +41,6 @@ void require_places(const std::string& path, const Format& format) {
     refuse(what + "is a file of its own, no stream and no device: '" + path + "'");
 }
 
-// On the rank that will ask it.
-void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& comm) {
-  if (std::ranges::none_of(wishes, [](const FileWish& wish) { return wish.format->by_hdf5; }))
-    return;
-  agreed(comm, [&] {
-    if (comm.rank() == 0) hdf5::require_hdf5();
-  });
-}
-
 // XDMF names a file and what is in it with a colon between.
 // DOLFINx takes the file of arrays for one of the same name.
 void add_heavy_data(const FileWish& of, std::vector<FileWish>& wishes) {
@@ -73,8 +64,6 @@ void require_possible(const std::string& path, const Format& format, bool elemen
   if (elements && format.elements == Elements::beside && path == "-")
     refuse("elements would go to a second file beside standard output: ask for ele there");
 }
-
-bool has_elements(const Placement& placement) { return !placement.results().surfaces_alone(); }
 
 // Not for streams and devices, which have no files beside them.
 bool has_room_beside(const std::string& path) {
@@ -103,10 +92,7 @@ class Writing {
   // All ranks' files or none.
   void publish() {
     agreed(*comm(), [&] { give_up_if_asked(); });
-    std::vector<OutputFile*> own;
-    for (const auto& file : files_)
-      if (file->own()) own.push_back(file->own());
-    publish_together(own, [this](const std::function<void()>& step) { agreed(*comm(), step); });
+    io::publish(*comm(), files_);
   }
 
  private:
@@ -184,18 +170,36 @@ void require_fields_for(const std::vector<FileWish>& wishes,
                std::string(name) + "' with one component: '" + wish.path + "'");
 }
 
+void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& comm) {
+  if (std::ranges::none_of(wishes, [](const FileWish& wish) { return wish.format->by_hdf5; }))
+    return;
+  agreed(comm, [&] {
+    if (comm.rank() == 0) hdf5::require_hdf5();  // it will ask it
+  });
+}
+
+Wished wished_of(const Placement& placement) {
+  return {placement.dimension(), !placement.results().surfaces_alone()};
+}
+
+void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFile>> files) {
+  std::vector<OutputFile*> own;
+  for (const auto& file : files)
+    if (file->own()) own.push_back(file->own());
+  publish_together(own, [&](const std::function<void()>& step) { agreed(comm, step); });
+}
+
 void add_wish(const std::string& path, const std::string& format_name, bool elements,
-              const Placement& placement, std::vector<FileWish>& wishes) {
+              const Wished& of, std::vector<FileWish>& wishes) {
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
-  require_possible(path, format, elements, placement.dimension());
+  require_possible(path, format, elements, of.dimension);
   const bool holds_elements =
       format.elements == Elements::always ||
-      (format.elements == Elements::regions && has_elements(placement)) ||
+      (format.elements == Elements::regions && of.has_elements) ||
       (elements && (format.elements == Elements::on_request || format.elements == Elements::grid));
   std::vector<FileWish> grids{{path, &format, holds_elements}};
-  if (elements && format.elements == Elements::grid && has_elements(placement) &&
-      has_room_beside(path))
+  if (elements && format.elements == Elements::grid && of.has_elements && has_room_beside(path))
     grids.push_back({facets_path(path), &format, true, true});
   for (const FileWish& grid : grids) {
     wishes.push_back(grid);
@@ -203,7 +207,7 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   }
   if (!elements || format.elements != Elements::beside) return;
   wishes.push_back({with_extension(path, "ele"), format_by_name("ele"), true});
-  if (placement.dimension() == 3)
+  if (of.dimension == 3)
     wishes.push_back({with_extension(path, "face"), format_by_name("face"), true});
 }
 

@@ -2,6 +2,8 @@
 // Several files of one placement, which appear together.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,11 +20,23 @@ struct FileWish {
   bool facets = false;  // of a grid, in a file beside that of its elements
 };
 
-// What is wanted of one file of a placement: in its format by name, or by extension if that is
-// empty. Where elements or facets are in files beside it, these are wishes of their own. Throws
+// Of what files are wanted.
+struct Wished {
+  int dimension = 2;
+  bool has_elements = false;  // else nodes, and maybe surfaces alone
+};
+
+Wished wished_of(const Placement& placement);
+
+// What is wanted of one file: in its format by name, or by extension if that is empty. Where
+// elements or facets are in files beside it, these are wishes of their own. Throws
 // Error(ErrorKind::argument).
-void add_wish(const std::string& path, const std::string& format, bool elements,
-              const Placement& placement, std::vector<FileWish>& wishes);
+void add_wish(const std::string& path, const std::string& format, bool elements, const Wished& of,
+              std::vector<FileWish>& wishes);
+// Throws unless HDF5 is there for those that need it. Collective, and agreed.
+void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& comm);
+// The files of all ranks appear together, or none. Collective, and agreed.
+void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFile>> files);
 
 // Throws Error(ErrorKind::argument) unless formats have the fields that they cannot do without.
 // Local; the fields are the same on all ranks.

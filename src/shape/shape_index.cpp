@@ -106,16 +106,20 @@ std::vector<std::int32_t> ShapeIndex<Dim>::tags() const {
 }
 
 template <int Dim>
-double ShapeIndex<Dim>::distance_to(const Selection& selection, const Point<Dim>& x) const {
+Point<Dim> ShapeIndex<Dim>::nearest_of(const Selection& selection, const Point<Dim>& x) const {
   constexpr double kRounding = 1 + 1e-12;  // lest one equally near is missed
   double best = kInfinity;
+  Point<Dim> nearest;
+  nearest.fill(kInfinity);
   selection.tree.for_near(
       x, [&] { return kRounding * best * best; },
       [&](std::int32_t i) {
         const ShapePiece<Dim>& piece = shape_[selection.pieces[static_cast<std::size_t>(i)]];
-        best = std::min(best, distance<Dim>(nearest_on(piece.corners, x), x));
+        const Point<Dim> point = nearest_on(piece.corners, x);
+        const double gap = distance<Dim>(point, x);
+        if (gap < best) best = gap, nearest = point;
       });
-  return best;
+  return nearest;
 }
 
 // Balls grow until one touches, and shrink again: first while a part of some size can be gained,

@@ -28,12 +28,15 @@ class ShapeIndex {
   double size() const { return size_; }  // of a box around all
 
   // To what bounds the domain, or if nothing does, to all of it.
-  double distance_to_boundary(const Point<Dim>& x) const { return distance_to(boundary_, x); }
+  double distance_to_boundary(const Point<Dim>& x) const {
+    return distance<Dim>(nearest_on_boundary(x), x);
+  }
+  Point<Dim> nearest_on_boundary(const Point<Dim>& x) const { return nearest_of(boundary_, x); }
   bool has_tag(std::int32_t tag) const { return tagged_.contains(tag); }
   std::vector<std::int32_t> tags() const;
   // To the pieces with that tag, of which there are some.
   double distance_to_tag(std::int32_t tag, const Point<Dim>& x) const {
-    return distance_to(tagged_.at(tag), x);
+    return distance<Dim>(nearest_of(tagged_.at(tag), x), x);
   }
 
   // The diameter of the largest ball that touches the shape at the place, lies ahead of it, and
@@ -62,7 +65,8 @@ class ShapeIndex {
 
   template <class Wanted>
   Selection select(const Wanted& wanted) const;
-  double distance_to(const Selection& selection, const Point<Dim>& x) const;
+  // Infinitely far away if nothing is selected.
+  Point<Dim> nearest_of(const Selection& selection, const Point<Dim>& x) const;
   bool is_empty(const Point<Dim>& centre, double radius) const;
   double width_below(const Place& place, const FacetCorners<Dim>& facet, double max) const;
 

@@ -25,6 +25,8 @@ class SignedDistance {
     const double gap = index_.distance_to_boundary(x);
     return inside(x) ? -gap : gap;
   }
+  // The nearest point of what bounds the domain.
+  Point<Dim> foot(const Point<Dim>& x) const { return index_.nearest_on_boundary(x); }
   // Strictly; exact for the facets.
   bool inside(const Point<Dim>& x) const { return sides_.inside(x); }
 

@@ -29,6 +29,7 @@ using Context = Owned<pnpbs_context, pnpbs_context_destroy>;
 using Domain = Owned<pnpbs_domain, pnpbs_domain_destroy>;
 using Placement = Owned<pnpbs_placement, pnpbs_placement_destroy>;
 using Voronoi = Owned<pnpbs_voronoi, pnpbs_voronoi_destroy>;
+using Particles = Owned<pnpbs_particles, pnpbs_particles_destroy>;
 
 // How the command ends after an error of the library.
 ExitCode exit_code_of(pnpbs_status error);

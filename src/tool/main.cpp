@@ -20,9 +20,9 @@
 #include "tool/file_format.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/library.hpp"
-#include "tool/node_volumes.hpp"
 #include "tool/outputs.hpp"
 #include "tool/particle_domains.hpp"
+#include "tool/particles.hpp"
 #include "tool/progress.hpp"
 #include "tool/ranks.hpp"
 #include "tool/report.hpp"
@@ -69,7 +69,8 @@ std::vector<std::string> warnings_for(const Arguments& arguments, pnpbs_context 
   std::vector<std::string> warnings = warnings_of(context, placement);
   if (arguments.at_centres)
     std::erase_if(warnings, [](const std::string& warning) {
-      return warning.find("missing_faces") != std::string::npos;
+      return warning.find("missing_faces") != std::string::npos ||
+             warning.starts_with("dihedral angles");
     });
   return warnings;
 }
@@ -270,21 +271,6 @@ bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) 
   return true;
 }
 
-// If the user wants volumes: see node_volumes.hpp.
-std::optional<VolumeFigures> add_wanted_volumes(const Work& work, pnpbs_placement placement) {
-  const Arguments& arguments = work.arguments;
-  const auto& density = work.wishes.density;
-  if (!arguments.volumes && !arguments.at_centres && !density) return std::nullopt;
-  VolumesWanted wanted{arguments.surfaces_only ? 2 : work.wishes.source->dimension()};
-  if (density) wanted.density = &*density;
-  if (arguments.at_centres) {
-    wanted.body = work.body_of_particles();
-    wanted.of_wall = arguments.in_walls;
-    wanted.bubbles = centred_nodes(wanted.dimension).bubbles;
-  }
-  return add_volumes(placement, wanted, work.context, work.ranks);
-}
-
 ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status status) {
   auto& [arguments, ranks, wishes, context, domain, particles, look, body] = work;
   Outputs& outputs = *wishes.outputs;
@@ -292,7 +278,8 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   Statistics statistics(placement);
   if (outputs.has_pictures()) outputs.write_pictures({placement, domain, context, ranks, look});
   if (body && !arguments.at_centres) body->area = boundary_area(placement, context, ranks);
-  const std::optional<VolumeFigures> volumes = add_wanted_volumes(work, placement);
+  const Matter matter(arguments, wishes.density, wishes.source->dimension(), placement,
+                      work.body_of_particles(), context, ranks);
   const std::vector<std::string> of_grids =
       wishes.spacing->warnings(placement, domain, context, ranks);
   if (work.talks()) warn(of_grids);
@@ -300,14 +287,19 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
       for_report(arguments, geo, context, placement, of_grids);
   if (geo) outputs.write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
-  outputs.write_report(report_text(arguments, geo, statistics, volumes, groups, warnings));
+  const auto report = [&] {
+    return report_text(arguments, geo, statistics, matter.volumes, matter.figures, groups,
+                       warnings);
+  };
+  outputs.write_report(report());
   give_up_if_any_is_interrupted(ranks);
-  outputs.write_nodes(placement, context);
+  outputs.write_nodes(placement, matter.particles, context);
   statistics.renew_memory(placement);  // files take some, too
-  outputs.replace_report(report_text(arguments, geo, statistics, volumes, groups, warnings));
+  outputs.replace_report(report());
   if (work.talks() && !outputs.use_standard_output())
-    std::cout << summary_text(statistics, body, volumes, outputs.files());
-  if (arguments.at_centres && status == PNPBS_NOT_CONFORMING) status = PNPBS_OK;
+    std::cout << summary_text(statistics, body, matter.volumes, matter.figures, outputs.files());
+  const bool of_elements = status == PNPBS_NOT_CONFORMING || status == PNPBS_SPACING_MISSED;
+  if (arguments.at_centres && of_elements) status = PNPBS_OK;
   return geo && leave_out_shapes(warnings) ? ExitCode::input_left_out : exit_code_of_run(status);
 }
 

@@ -54,44 +54,39 @@ std::vector<double> volumes_of(pnpbs_voronoi cells, pnpbs_context context) {
 
 }  // namespace
 
-VolumeFigures add_volumes(pnpbs_placement placement, const VolumesWanted& wanted,
-                          pnpbs_context context, const Ranks& ranks) {
+VolumeFigures volume_figures(int dimension, std::span<const double> volumes,
+                             std::span<const double> spacing, const Ranks& ranks) {
+  Figures own, all;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    const double d = spacing[i];
+    own.add(volumes[i], volumes[i] / (dimension == 2 ? d * d : d * d * d));
+  }
+  for (const Figures& of_rank : ranks.gather(std::vector<Figures>{own})) all.add(of_rank);
+  if (!ranks.is_first()) return {};
+  return {
+      dimension, all.volumes.value(), all.ratios.value() / static_cast<double>(all.nodes), all.min,
+      all.max,   std::nullopt};
+}
+
+VolumeFigures add_volumes(pnpbs_placement placement, int dimension,
+                          const std::optional<Density>& density, pnpbs_context context,
+                          const Ranks& ranks) {
   Voronoi cells;
-  check(wanted.body ? pnpbs_voronoi_create_within(placement, wanted.body, cells.out())
-                    : pnpbs_voronoi_create(placement, cells.out()),
-        context);
-  Figures own;
-  std::vector<double> volumes;
+  std::vector<double> volumes, spacing, x;
   const AddField add = [&](const char* name, const std::vector<double>& values) {
     check(pnpbs_placement_add_output_field(placement, name, std::ssize(values), 1, values.data()),
           context);
   };
+  check(pnpbs_voronoi_create(placement, cells.out()), context);
   ranks.agreed([&] {
     volumes = volumes_of(cells, context);
-    const std::vector<double> spacing = spacing_at_nodes(placement, volumes.size(), context);
-    for (std::size_t i = 0; i < volumes.size(); ++i) {
-      const double d = spacing[i] / wanted.bubbles;
-      own.add(volumes[i], volumes[i] / (wanted.dimension == 2 ? d * d : d * d * d));
-    }
+    spacing = spacing_at_nodes(placement, volumes.size(), context);
     add("volume", volumes);
+    if (density) x = coordinates_of(placement, density->dimension(), context);
   });
-  std::optional<double> mass;
-  if (wanted.density) {
-    std::vector<double> x;
-    ranks.agreed([&] { x = coordinates_of(placement, wanted.density->dimension(), context); });
-    mass = add_masses(*wanted.density, x, volumes, add, ranks);
-  }
-  Figures all;
-  for (const Figures& of_rank : ranks.gather(std::vector<Figures>{own})) all.add(of_rank);
-  if (!ranks.is_first()) return {};
-  return {wanted.dimension,
-          all.volumes.value(),
-          all.ratios.value() / static_cast<double>(all.nodes),
-          all.min,
-          all.max,
-          wanted.body != nullptr,
-          wanted.of_wall,
-          mass};
+  VolumeFigures figures = volume_figures(dimension, volumes, spacing, ranks);
+  if (density) figures.mass = add_masses(*density, x, volumes, add, ranks);
+  return figures;
 }
 
 }  // namespace pnpbs::tool

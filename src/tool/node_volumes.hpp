@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "tool/density.hpp"
 #include "tool/library.hpp"
@@ -10,29 +11,25 @@
 
 namespace pnpbs::tool {
 
+// Over all nodes, or particles.
 struct VolumeFigures {
-  int dimension;  // of the elements: volumes are areas if it is 2
-  double total;   // of all nodes
-  // Over nodes, of a node's volume over d^dimension, with d at the node. Not finite without nodes.
+  int dimension;  // volumes are areas if it is 2
+  double total;
+  // Of the volume over d^dimension, with d at the node. Not finite without nodes.
   double mean, min, max;
-  bool of_body;                  // that is larger than the elements
-  bool of_wall;                  // and lies around the domain
-  std::optional<double> mass{};  // of all nodes, if there is a density
+  std::optional<double> mass{};  // of all, if there is a density
 };
 
-// Which cells, and what they are measured by.
-struct VolumesWanted {
-  int dimension;                // of the elements
-  pnpbs_domain body = nullptr;  // that the nodes stand for, if it is larger than the elements
-  bool of_wall = false;         // is the body one?
-  double bubbles = 1;           // their spacing, over d
-  const Density* density = nullptr;
-};
+// Of those of this rank, with these d. Returns the figures on the first rank, which are the same
+// for any number of ranks; zeros on the others. Collective.
+VolumeFigures volume_figures(int dimension, std::span<const double> volumes,
+                             std::span<const double> spacing, const Ranks& ranks);
 
-// Makes the cells, and adds their volumes as the field "volume" to what files of the placement
-// will have, and with a density the fields of that. Returns the figures on the first rank, which
-// are the same for any number of ranks; zeros on the others. Collective. Throws Failure.
-VolumeFigures add_volumes(pnpbs_placement placement, const VolumesWanted& wanted,
-                          pnpbs_context context, const Ranks& ranks);
+// Makes the Voronoi cells of the nodes, and adds their volumes as the field "volume" to what files
+// of the placement will have, and with a density the fields of that. dimension: of the elements.
+// Figures as above. Collective. Throws Failure.
+VolumeFigures add_volumes(pnpbs_placement placement, int dimension,
+                          const std::optional<Density>& density, pnpbs_context context,
+                          const Ranks& ranks);
 
 }  // namespace pnpbs::tool

@@ -73,6 +73,7 @@ Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
     for (const std::string& input : inputs) refuse_to_replace(input, output.file.path());
   for (const std::string& path : {arguments.checkpoint, arguments.restart}) refuse_checkpoint(path);
   check_pictures(arguments);
+  if (arguments.at_centres) check_particles();
   if (ranks_.is_first()) check_writable();
 }
 
@@ -114,6 +115,16 @@ void Outputs::check_pictures(const Arguments& arguments) const {
   if (arguments.colour.value_or(picture::ElementColour::none) != picture::ElementColour::none)
     throw BadInput("--color: there is no picture to colour" + add);
   if (!arguments.cut.empty()) throw BadInput("--cut: there is no picture of a body" + add);
+}
+
+void Outputs::check_particles() const {
+  for (const Output& output : outputs_)
+    if (output.is_nodes())
+      for (const std::string_view name : {"pvtu", "ele", "face"})
+        if (output.format->name == name)
+          throw BadInput("--output: a ." + output.format->name +
+                         " file has no place for particles, which have no elements: '" +
+                         output.file.path() + "'");
 }
 
 bool Outputs::has_pictures() const { return std::ranges::any_of(outputs_, &Output::is_picture); }
@@ -168,7 +179,7 @@ void Outputs::write_projection(const std::string& text) {
     write_text(true, text);
 }
 
-pnpbs_status Outputs::ask_for_nodes(pnpbs_placement placement) const {
+pnpbs_status Outputs::ask_for_nodes(pnpbs_placement placement, pnpbs_particles particles) const {
   std::vector<const char*> paths, formats;
   std::vector<std::int32_t> elements;
   for (const Output& output : outputs_) {
@@ -177,19 +188,21 @@ pnpbs_status Outputs::ask_for_nodes(pnpbs_placement placement) const {
     formats.push_back(output.format->name.c_str());
     elements.push_back(elements_ && output.format->elements);
   }
-  return pnpbs_placement_write_files(placement, static_cast<std::int32_t>(paths.size()),
-                                     paths.data(), formats.data(), elements.data());
+  const auto n = static_cast<std::int32_t>(paths.size());
+  if (particles) return pnpbs_particles_write(particles, n, paths.data(), formats.data());
+  return pnpbs_placement_write_files(placement, n, paths.data(), formats.data(), elements.data());
 }
 
 // What the library would refuse to write it refuses before there are nodes, too.
 void Outputs::check_with_library(pnpbs_placement placement, pnpbs_context context) const {
-  const pnpbs_status status = ask_for_nodes(placement);
+  const pnpbs_status status = ask_for_nodes(placement, nullptr);
   if (status != PNPBS_ERROR_STATE) check(status, context);
 }
 
-void Outputs::write_nodes(pnpbs_placement placement, pnpbs_context context) {
+void Outputs::write_nodes(pnpbs_placement placement, pnpbs_particles particles,
+                          pnpbs_context context) {
   pnpbs_placement_set_monitor(placement, monitor, this);
-  const pnpbs_status status = ask_for_nodes(placement);
+  const pnpbs_status status = ask_for_nodes(placement, particles);
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
   settle_own(status >= 0 && status != PNPBS_STOPPED);
   ranks_.agreed([&] {

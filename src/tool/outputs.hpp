@@ -36,7 +36,8 @@ class Outputs {
   // In a .prj file beside each file of nodes, as shapefiles have it. Without a text there are none.
   // Before the others; of domains that GDAL reads alone.
   void write_projection(const std::string& text);
-  void write_nodes(pnpbs_placement placement, pnpbs_context context);
+  // Or the particles that were made of them, unless these are null.
+  void write_nodes(pnpbs_placement placement, pnpbs_particles particles, pnpbs_context context);
   // Afterwards: puts another text into the report, unless that has gone where nothing can be taken
   // back. If it cannot be written the text there is stays, as all files are there already.
   void replace_report(const std::string& text);
@@ -59,7 +60,8 @@ class Outputs {
   void refuse_checkpoint(const std::string& path) const;
   void check_pictures(const Arguments& arguments) const;
   void check_writable() const;
-  pnpbs_status ask_for_nodes(pnpbs_placement placement) const;
+  void check_particles() const;
+  pnpbs_status ask_for_nodes(pnpbs_placement placement, pnpbs_particles particles) const;
   static std::int32_t monitor(double fraction, std::int64_t, std::int64_t, double, void* user);
   bool publish_own();
   void settle_own(bool published);

@@ -74,10 +74,19 @@ Json figures_of(const VolumeFigures& volumes) {
           {"ratio", {{"mean", volumes.mean}, {"min", volumes.min}, {"max", volumes.max}}}};
 }
 
+Json figures_of(const ParticleFigures& particles) {
+  return {{"count", particles.count},
+          {"outermost", particles.outermost},
+          {"left_out", particles.left_out},
+          {"moved", particles.moved},
+          {"closest", particles.closest}};  // null if not finite
+}
+
 }  // namespace
 
 std::string report_text(const Arguments& arguments, const GeoFile* geo,
                         const Statistics& statistics, const std::optional<VolumeFigures>& volumes,
+                        const std::optional<ParticleFigures>& particles,
                         const std::vector<GroupName>& groups,
                         const std::vector<std::string>& warnings) {
   Json report;
@@ -102,6 +111,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   report["edge"]["bands"] = bands_of(statistics);
   if (volumes) report["volumes"] = figures_of(*volumes);
   if (volumes && volumes->mass) report["mass"] = *volumes->mass;
+  if (particles) report["particles"] = figures_of(*particles);
   report["warnings"] = warnings;
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -9,7 +9,7 @@
 #include "tool/arguments.hpp"
 #include "tool/geo_file.hpp"
 #include "tool/library.hpp"
-#include "tool/node_volumes.hpp"
+#include "tool/particles.hpp"
 #include "tool/statistics.hpp"
 
 namespace pnpbs::tool {
@@ -17,6 +17,7 @@ namespace pnpbs::tool {
 // `geo` is nullptr for domains from other files.
 std::string report_text(const Arguments& arguments, const GeoFile* geo,
                         const Statistics& statistics, const std::optional<VolumeFigures>& volumes,
+                        const std::optional<ParticleFigures>& particles,
                         const std::vector<GroupName>& groups,
                         const std::vector<std::string>& warnings);
 

@@ -9,21 +9,32 @@
 namespace pnpbs::tool {
 namespace {
 
-// What are nodes of the boundary: what the tags tell.
-std::string boundary_in_words(const std::optional<VolumeFigures>& volumes) {
-  if (!volumes || !volumes->of_body) return " of them on the boundary";
-  return volumes->of_wall ? " of them in the first or last layer" : " of them outermost";
-}
-
-std::string nodes_line(const Statistics& statistics, const std::optional<VolumeFigures>& volumes) {
+std::string nodes_line(const Statistics& statistics) {
   const auto* nodes = statistics.find<std::int64_t>("nodes");
   const auto* boundary = statistics.find<std::int64_t>("boundary_nodes");
   const auto* seconds = statistics.find<double>("seconds.total");
   if (!nodes) return "";
   std::string line = "nodes    " + grouped(*nodes);
-  if (boundary) line += ", " + grouped(*boundary) + boundary_in_words(volumes);
+  if (boundary) line += ", " + grouped(*boundary) + " of them on the boundary";
   if (seconds) line += ", in " + duration(*seconds);
   return line + "\n";
+}
+
+std::string particles_line(const Statistics& statistics, const ParticleFigures& particles) {
+  const auto* seconds = statistics.find<double>("seconds.total");
+  std::string line =
+      "nodes    " + grouped(particles.count) + " particles, " + grouped(particles.outermost) +
+      (particles.of_wall ? " of them in the first or last layer" : " of them outermost");
+  if (seconds) line += ", in " + duration(*seconds);
+  return line + "\n";
+}
+
+std::string spacing_of_particles_line(const ParticleFigures& particles) {
+  std::string line = "spacing  ";
+  if (std::isfinite(particles.closest))
+    line += "closest pair at " + short_number(particles.closest, 3) + " d; ";
+  return line + "too close to others and left out: " + grouped(particles.left_out) +
+         ", pushed apart: " + grouped(particles.moved) + "\n";
 }
 
 std::string spacing_line(const Statistics& statistics) {
@@ -141,14 +152,16 @@ std::string estimate_text(const RunEstimate& run) {
 
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
                          const std::optional<VolumeFigures>& volumes,
+                         const std::optional<ParticleFigures>& particles,
                          const std::vector<std::string>& files) {
-  const bool are_particles = volumes && volumes->of_body;
-  std::string elements;  // which particles have none of
-  if (!are_particles)
-    elements = edge_line(statistics) + quality_line(statistics, body && body->volume > 0);
-  return body_line(body) + nodes_line(statistics, volumes) + spacing_line(statistics) + elements +
-         volume_line(volumes) + mass_line(volumes) + stop_line(statistics) +
-         memory_line(statistics) + files_line(files);
+  std::string nodes;
+  if (particles)  // which have no elements
+    nodes = particles_line(statistics, *particles) + spacing_of_particles_line(*particles);
+  else
+    nodes = nodes_line(statistics) + spacing_line(statistics) + edge_line(statistics) +
+            quality_line(statistics, body && body->volume > 0);
+  return body_line(body) + nodes + volume_line(volumes) + mass_line(volumes) +
+         stop_line(statistics) + memory_line(statistics) + files_line(files);
 }
 
 }  // namespace pnpbs::tool

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tool/body_figures.hpp"
-#include "tool/node_volumes.hpp"
+#include "tool/particles.hpp"
 #include "tool/statistics.hpp"
 
 namespace pnpbs::tool {
@@ -26,6 +26,7 @@ std::string estimate_text(const RunEstimate& run);
 
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
                          const std::optional<VolumeFigures>& volumes,
+                         const std::optional<ParticleFigures>& particles,
                          const std::vector<std::string>& files);
 
 }  // namespace pnpbs::tool

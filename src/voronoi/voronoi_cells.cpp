@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/chunked_rows.hpp"
-#include "voronoi/cells_within.hpp"
 #include "voronoi/element_parts.hpp"
 #include "voronoi/elements_of_sites.hpp"
 
@@ -50,7 +49,7 @@ class CellMaker {
       add_part(entry.element, static_cast<std::size_t>(entry.site));
     const std::size_t n = static_cast<std::size_t>(node);
     cells_.volumes[n] = sum_by_size(volumes_);
-    cells_.at_boundary[n] = !boundary_[0].empty();
+    cells_.at_boundary[n] = !boundary_[0].empty() || volumes_.empty();
     for (std::size_t k = 0; k < Dim; ++k) cells_.boundary[Dim * n + k] = sum_by_size(boundary_[k]);
     append_faces(all_.x[n], out);
   }
@@ -130,17 +129,8 @@ void append(const ElementSites<Dim>& all, std::span<const CellFace<Dim>> faces,
   cells.offsets.push_back(static_cast<std::int64_t>(cells.ids.size()));
 }
 
-// What cells of a body larger than the elements are made with.
-template <int Dim>
-struct Surroundings {
-  const Domain<Dim>& body;
-  std::vector<double> d;  // of the owned nodes
-};
-
-// surroundings: null if the elements are all there is.
 template <std::size_t Corners, int Dim>
-std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMesh& mesh,
-                                   const Surroundings<Dim>* surroundings) {
+std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMesh& mesh) {
   auto made = std::make_unique<VoronoiCells>();
   VoronoiCells& cells = *made;
   cells.dimension = Dim;
@@ -155,8 +145,6 @@ std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMe
               [&] { return CellMaker<Corners, Dim>(all, at_nodes, parts, cells); });
   for (std::int64_t node = 0; node < mesh.owned_nodes; ++node)
     append<Dim>(all, std::as_const(faces).row(node), cells);
-  if (surroundings != nullptr)
-    extend_to_wall<Dim>(comm, all, at_nodes, surroundings->body, surroundings->d, cells);
   return made;
 }
 
@@ -165,28 +153,9 @@ std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMe
 std::unique_ptr<VoronoiCells> make_voronoi_cells(NodalResults& results) {
   const std::unique_ptr<DistributedMesh> mesh = make_distributed_mesh(results, 1);
   const Communicator& comm = results.communicator();
-  if (mesh->dimension == 2) return make<3, 2>(comm, *mesh, nullptr);
-  if (mesh->corners == 3) return make<3, 3>(comm, *mesh, nullptr);
-  return make<4, 3>(comm, *mesh, nullptr);
+  if (mesh->dimension == 2) return make<3, 2>(comm, *mesh);
+  if (mesh->corners == 3) return make<3, 3>(comm, *mesh);
+  return make<4, 3>(comm, *mesh);
 }
-
-template <int Dim>
-std::unique_ptr<VoronoiCells> make_voronoi_cells_within(NodalResults& results,
-                                                        const Domain<Dim>& body) {
-  const std::unique_ptr<DistributedMesh> mesh = make_distributed_mesh(results, 1);
-  if (mesh->corners != Dim + 1)
-    throw Error(ErrorKind::argument,
-                "argument placement has nodes on surfaces alone: no body is around them");
-  Surroundings<Dim> surroundings{body, {}};
-  const NodeColumns nodes = results.nodes();
-  for (std::int64_t place = 0; place < mesh->owned_nodes; ++place)
-    surroundings.d.push_back(nodes.d(results.node_at(place)));
-  return make<Dim + 1, Dim>(results.communicator(), *mesh, &surroundings);
-}
-
-template std::unique_ptr<VoronoiCells> make_voronoi_cells_within<2>(NodalResults&,
-                                                                    const PlaneDomain&);
-template std::unique_ptr<VoronoiCells> make_voronoi_cells_within<3>(NodalResults&,
-                                                                    const VolumeDomain&);
 
 }  // namespace pnpbs

@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "domain/domain.hpp"
 #include "placement/nodal_results.hpp"
 
 namespace pnpbs {
@@ -18,7 +17,7 @@ struct VoronoiCells {
   int dimension = 0;
   std::vector<double> volumes;
   std::vector<double> boundary;   // [nodes][dimension]: outward normals, integrated over the share
-  std::vector<char> at_boundary;  // has the cell a share of the boundary?
+  std::vector<char> at_boundary;  // has the cell a share of the boundary, or no element at all?
   std::vector<std::int64_t> offsets{0};    // of faces, by node; within one by the neighbour's id
   std::vector<std::int64_t> ids, numbers;  // of the neighbours
   std::vector<double> areas, distances;
@@ -29,11 +28,5 @@ struct VoronoiCells {
 // up to that of the elements; each of a cell's parts is a function of the nodes alone, and they are
 // added by size: any number of ranks and threads gives the same bits. Collective.
 std::unique_ptr<VoronoiCells> make_voronoi_cells(NodalResults& results);
-
-// The same, but the cells at the boundary of the elements have their volume within a body that is
-// larger (extend_to_wall). The body has been checked. Collective.
-template <int Dim>
-std::unique_ptr<VoronoiCells> make_voronoi_cells_within(NodalResults& results,
-                                                        const Domain<Dim>& body);
 
 }  // namespace pnpbs

@@ -16,6 +16,7 @@ static union {
   pnpbs_domain domain;
   pnpbs_placement placement;
   pnpbs_transfer transfer;
+  pnpbs_particles particles;
 } out;
 
 static void prepare_outputs(void) {
@@ -168,6 +169,14 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(transfer_at_nodes, (handle, target, 0, 1, out.reals + 1))  \
   X(transfer_at_points, (handle, 1, grid, out.reals + 1))
 
+#define PARTICLES_CALLS(X)                                                                      \
+  X(particles_sizes, (handle, out.small + 2, out.integers + 2, out.integers + 3))               \
+  X(particles_figures, (handle, out.integers + 1, out.integers + 2, out.reals + 3))             \
+  X(particles_get,                                                                              \
+    (handle, 1, out.reals + 1, out.reals + 4, out.reals + 5, out.integers + 6, out.small + 14)) \
+  X(particles_add_output_field, (handle, "mass", 1, 1, grid))                                   \
+  X(particles_write, (handle, 0, NULL, NULL))
+
 /* Where fields are carried to. */
 static pnpbs_placement target;
 
@@ -181,13 +190,15 @@ static pnpbs_placement target;
 #define CALL_DOMAIN(name, arguments) CALL_IT(pnpbs_domain, name, arguments)
 #define CALL_PLACEMENT(name, arguments) CALL_IT(pnpbs_placement, name, arguments)
 #define CALL_TRANSFER(name, arguments) CALL_IT(pnpbs_transfer, name, arguments)
+#define CALL_PARTICLES(name, arguments) CALL_IT(pnpbs_particles, name, arguments)
 CONTEXT_CALLS(CALL_CONTEXT)
 DOMAIN_CALLS(CALL_DOMAIN)
 PLACEMENT_CALLS(CALL_PLACEMENT)
 TRANSFER_CALLS(CALL_TRANSFER)
+PARTICLES_CALLS(CALL_PARTICLES)
 
 /* What these functions take first. */
-typedef enum { CONTEXT, DOMAIN, PLACEMENT, TRANSFER } kind;
+typedef enum { CONTEXT, DOMAIN, PLACEMENT, TRANSFER, PARTICLES } kind;
 
 static const struct {
   const char* name;
@@ -198,8 +209,9 @@ static const struct {
 #define ROW_DOMAIN(name, arguments) {"pnpbs_" #name, DOMAIN, call_##name},
 #define ROW_PLACEMENT(name, arguments) {"pnpbs_" #name, PLACEMENT, call_##name},
 #define ROW_TRANSFER(name, arguments) {"pnpbs_" #name, TRANSFER, call_##name},
+#define ROW_PARTICLES(name, arguments) {"pnpbs_" #name, PARTICLES, call_##name},
     CONTEXT_CALLS(ROW_CONTEXT) DOMAIN_CALLS(ROW_DOMAIN) PLACEMENT_CALLS(ROW_PLACEMENT)
-        TRANSFER_CALLS(ROW_TRANSFER)};
+        TRANSFER_CALLS(ROW_TRANSFER) PARTICLES_CALLS(ROW_PARTICLES)};
 
 /* Nothing that the header declares is missing above, but for what creates and destroys. */
 START_TEST(every_function_is_here) {
@@ -213,7 +225,8 @@ START_TEST(every_function_is_here) {
     if (sscanf(line, "PNPBS_API pnpbs_status %99[a-z0-9_](pnpbs_", name) != 1) continue;
     if (strstr(name, "_create") != NULL || strstr(name, "_destroy") != NULL) continue;
     if (strncmp(name, "pnpbs_context_", 14) != 0 && strncmp(name, "pnpbs_domain_", 13) != 0 &&
-        strncmp(name, "pnpbs_placement_", 16) != 0 && strncmp(name, "pnpbs_transfer_", 15) != 0) {
+        strncmp(name, "pnpbs_placement_", 16) != 0 && strncmp(name, "pnpbs_transfer_", 15) != 0 &&
+        strncmp(name, "pnpbs_particles_", 16) != 0) {
       continue;
     }
     ++found;
@@ -230,7 +243,7 @@ END_TEST
 
 static void must_be_refused(int row, void* handle, const char* what) {
   pnpbs_status status;
-  const char* kinds[] = {"context", "domain", "placement", "transfer"};
+  const char* kinds[] = {"context", "domain", "placement", "transfer", "particles"};
   prepare_outputs();
   MUST_BE(PNPBS_ERROR_ARGUMENT, pnpbs_option_count(NULL)); /* leaves another message behind */
   status = calls[row].call(handle);
@@ -257,15 +270,37 @@ static pnpbs_transfer some_transfer(const job* it) {
   return transfer;
 }
 
+/* A square around that of a job, by half of the 0.3 that its nodes are apart. */
+static pnpbs_domain body_around(const job* it) {
+  static const double corners[8] = {-0.15, -0.15, 1.15, -0.15, 1.15, 1.15, -0.15, 1.15};
+  pnpbs_domain body = NULL;
+  MUST(pnpbs_domain_create(it->context, 2, &body));
+  MUST(pnpbs_domain_add_polyline(body, PNPBS_BOUNDARY, 1, 4, corners, NULL, 0.0));
+  return body;
+}
+
+/* Of the nodes of some_transfer. */
+static pnpbs_particles some_particles(const job* it) {
+  pnpbs_domain body = body_around(it);
+  pnpbs_particles particles = NULL;
+  MUST(pnpbs_particles_create(it->placement, body, &particles));
+  MUST(pnpbs_domain_destroy(&body));
+  return particles;
+}
+
 START_TEST(handles_that_are_not_live) {
   job live = square_job(1), dead = square_job(1);
   job copy = dead;
   pnpbs_transfer transfer = some_transfer(&live), dead_transfer = some_transfer(&live);
   const pnpbs_transfer dead_copy = dead_transfer;
+  pnpbs_particles particles = some_particles(&live), dead_particles = some_particles(&live);
+  const pnpbs_particles copy_of_particles = dead_particles;
   int never = 0;
   job_end(&dead);
   MUST(pnpbs_transfer_destroy(&dead_transfer));
   ck_assert_ptr_null(dead_transfer);
+  MUST(pnpbs_particles_destroy(&dead_particles));
+  ck_assert_ptr_null(dead_particles);
   target = live.placement;
   must_be_refused(_i, NULL, "NULL");
   must_be_refused(_i, &never, "an address");
@@ -275,11 +310,14 @@ START_TEST(handles_that_are_not_live) {
   must_be_refused(_i, copy.domain, "a destroyed domain");
   must_be_refused(_i, copy.placement, "a destroyed placement");
   must_be_refused(_i, dead_copy, "a destroyed transfer");
+  must_be_refused(_i, copy_of_particles, "destroyed particles");
   if (calls[_i].takes != CONTEXT) must_be_refused(_i, live.context, "a context");
   if (calls[_i].takes != DOMAIN) must_be_refused(_i, live.domain, "a domain");
   if (calls[_i].takes != PLACEMENT) must_be_refused(_i, live.placement, "a placement");
   if (calls[_i].takes != TRANSFER) must_be_refused(_i, transfer, "a transfer");
+  if (calls[_i].takes != PARTICLES) must_be_refused(_i, particles, "particles");
   MUST(pnpbs_transfer_destroy(&transfer));
+  MUST(pnpbs_particles_destroy(&particles));
   job_end(&live);
 }
 END_TEST
@@ -344,6 +382,38 @@ START_TEST(transfers_to_nothing) {
 }
 END_TEST
 
+/* They need a placement and a body that are live, of the same context. */
+START_TEST(particles_of_nothing) {
+  job one = square_job(1), other = square_job(1);
+  pnpbs_transfer transfer = some_transfer(&one); /* places the nodes */
+  pnpbs_domain body = body_around(&one), elsewhere = body_around(&other);
+  pnpbs_particles particles = NULL;
+  int64_t count = 0;
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_particles_create(NULL, body, &particles), "placement",
+            "not live");
+  MUST_FAIL(PNPBS_ERROR_HANDLE,
+            pnpbs_particles_create((pnpbs_placement)(void*)body, body, &particles), "placement",
+            "not live");
+  ck_assert(pnpbs_particles_create(one.placement, NULL, &particles) < 0);
+  ck_assert_ptr_nonnull(strstr(MESSAGE(), "body"));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_particles_create(one.placement, elsewhere, &particles),
+            "body", "context");
+  ck_assert_ptr_null(particles);
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_particles_create(one.placement, body, NULL), "particles",
+            "NULL");
+  /* What they were made from may go, and even its context. */
+  MUST(pnpbs_particles_create(one.placement, body, &particles));
+  MUST(pnpbs_transfer_destroy(&transfer));
+  MUST(pnpbs_domain_destroy(&body));
+  job_end(&one);
+  MUST(pnpbs_particles_sizes(particles, NULL, &count, NULL));
+  ck_assert_int_gt(count, 0);
+  MUST(pnpbs_particles_destroy(&particles));
+  MUST(pnpbs_domain_destroy(&elsewhere));
+  job_end(&other);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- destroying ------------ */
 
 START_TEST(destroying_nothing) {
@@ -351,8 +421,11 @@ START_TEST(destroying_nothing) {
   pnpbs_domain domain = NULL;
   pnpbs_placement placement = NULL;
   pnpbs_transfer transfer = NULL;
+  pnpbs_particles particles = NULL;
   MUST(pnpbs_transfer_destroy(NULL));
   MUST(pnpbs_transfer_destroy(&transfer));
+  MUST(pnpbs_particles_destroy(NULL));
+  MUST(pnpbs_particles_destroy(&particles));
   MUST(pnpbs_context_destroy(NULL));
   MUST(pnpbs_context_destroy(&context));
   MUST(pnpbs_domain_destroy(NULL));
@@ -471,6 +544,7 @@ int main(void) {
   tcase_add_test(live, placements_of_nothing);
   tcase_add_test(live, a_domain_of_another_context);
   tcase_add_test(live, transfers_to_nothing);
+  tcase_add_test(live, particles_of_nothing);
   suite_add_tcase(suite, live);
   tcase_add_test(ends_of, destroying_nothing);
   tcase_add_test(ends_of, destroying_twice);

@@ -245,7 +245,7 @@ START_TEST(particles_stand_for_the_body) {
   double sum = 0, wanted = 0, *x, *volumes;
   int64_t i, n;
   pnpbs_domain body;
-  pnpbs_voronoi cells;
+  pnpbs_particles particles;
   job it = {NULL, NULL, NULL};
   MUST(pnpbs_context_create_serial(&it.context));
   MUST(pnpbs_domain_create(it.context, dim, &it.domain));
@@ -259,22 +259,22 @@ START_TEST(particles_stand_for_the_body) {
   job_place(&it);
   MUST(pnpbs_placement_set_spacing_callback(it.placement, larger_bubbles, &grows));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
-  MUST(pnpbs_voronoi_create_within(it.placement, body, &cells));
-  MUST(pnpbs_domain_destroy(&body)); /* the cells keep nothing of it */
-  MUST(pnpbs_voronoi_sizes(cells, NULL, &n, NULL));
+  MUST(pnpbs_particles_create(it.placement, body, &particles));
+  MUST(pnpbs_domain_destroy(&body)); /* the particles keep nothing of it */
+  MUST(pnpbs_particles_sizes(particles, NULL, &n, NULL));
   x = malloc((size_t)n * 3 * sizeof *x);
   volumes = malloc((size_t)n * sizeof *volumes);
   ck_assert(x && volumes);
-  MUST(pnpbs_placement_get_nodes(it.placement, n, x, NULL, NULL, NULL));
-  MUST(pnpbs_voronoi_get_cells(cells, n, volumes, NULL));
+  MUST(pnpbs_particles_get(particles, n, x, volumes, NULL, NULL, NULL));
   for (i = 0; i < n; ++i) {
     double d, share, nearest = 1;
     int k;
     cone_spacing(1, dim, x + dim * i, &d, &grows);
     share = volumes[i] / pow(d, dim);
     for (k = 0; k < dim; ++k) nearest = fmin(nearest, fmin(x[dim * i + k], 1 - x[dim * i + k]));
-    ck_assert_double_ge(nearest, (dim == 2 ? 0.42 : 0.46) * d * (1 - 1e-6));
-    ck_assert(share > 0.4 && share < 2);
+    /* Some were pushed along the wall, to where d is another. */
+    ck_assert_double_ge(nearest, (dim == 2 ? 0.42 : 0.46) * d * (1 - 0.01));
+    ck_assert(share > 0.5 && share < 1.6);
     sum += volumes[i];
     wanted += pow(d, dim);
   }
@@ -282,7 +282,7 @@ START_TEST(particles_stand_for_the_body) {
   ck_assert_double_eq_tol(wanted, 1, 0.05);
   free(x);
   free(volumes);
-  MUST(pnpbs_voronoi_destroy(&cells));
+  MUST(pnpbs_particles_destroy(&particles));
   job_end(&it);
 }
 END_TEST
@@ -349,22 +349,22 @@ END_TEST
 START_TEST(bad_bodies) {
   job it = square_job(1);
   pnpbs_domain body;
-  pnpbs_voronoi cells;
+  pnpbs_particles particles;
   MUST(pnpbs_domain_create(it.context, 2, &body));
-  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_voronoi_create_within(it.placement, it.domain, &cells),
-            "nodes", "");
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_particles_create(it.placement, it.domain, &particles), "nodes",
+            "");
   MUST(pnpbs_placement_set(it.placement, "steps", "5"));
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
-  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_voronoi_create_within(it.placement, NULL, &cells), "body",
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_particles_create(it.placement, NULL, &particles), "body",
             "NULL");
-  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_voronoi_create_within(it.placement, body, &cells), "", "");
-  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_voronoi_create_within(it.placement, it.domain, &cells),
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_particles_create(it.placement, body, &particles), "", "");
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_particles_create(it.placement, it.domain, &particles),
             "on its wall or outside", "pnpbs_domain_add_offset");
   add_rectangle(body, PNPBS_BOUNDARY, -3, -3, 4, 4, 1);
-  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_voronoi_create_within(it.placement, body, &cells),
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_particles_create(it.placement, body, &particles),
             "do not fill this body", "");
-  ck_assert_ptr_null(cells);
+  ck_assert_ptr_null(particles);
   MUST(pnpbs_domain_destroy(&body));
   job_end(&it);
 }

@@ -93,7 +93,9 @@ CASES = {
     "cube-graded": cube("0.02 to 0.09", lambda x: 0.02 + 0.04 * from_corner(x)),
     "ball": Case("0.07", 3, lambda domain: domain.add_ball((0, 0, 0), 1), 0.07,
                  lambda x: from_corner(x) < 1),
+    "islands": Case("4", 2, lambda domain: domain.read_poly(DATA / "great_lakes_islands.poly"), 4.0),
     "bracket": of_file("bracket.stl", "2", 2.0),
+    "kleopatra": of_file("kleopatra.obj", "4", 4.0),
     "eros": of_file("eros.off", "0.03", 0.03),
     "eros-graded": of_file("eros.off", "0.02 to 0.06",
                            lambda x: np.clip(0.02 + 0.025 * (x[:, 0] + 0.76), 0.02, 0.06)),
@@ -108,6 +110,8 @@ class Particles:
     volumes: np.ndarray
     d: np.ndarray
     seconds: float = math.nan
+    left_out: int = 0  # nodes that are none
+    moved: int = 0
 
 
 def constants(dim):
@@ -125,8 +129,10 @@ def placed(pnpbs, context, case, body, scale):
     placement = pnpbs.Placement(inset)
     placement.set_spacing((lambda x: bubbles * spacing(x)) if callable(spacing) else bubbles * spacing)
     placement.run()
-    points, volumes = placement.nodes().points, placement.voronoi(body).volumes
-    return Particles(points, volumes, case.d(points, scale), time.process_time() - start)
+    made = pnpbs.Particles(placement, body)
+    seconds = time.process_time() - start
+    return Particles(made.points, made.volumes, case.d(made.points, scale), seconds, made.left_out,
+                     made.moved)
 
 
 def contains(case, body, points):
@@ -223,7 +229,8 @@ def endless_lattice(dim):
 # ------------------------------------------------------------------ tables ------------------------
 
 TITLES = ["case", "d", "particles", "d^dim over measure", "volumes over measure, less 1",
-          "volume over d^dim", "least depth over d", "closest pair over d", f"pairs below {NEAR} d", "CPU s"]
+          "volume over d^dim", "least depth over d", "closest pair over d", f"pairs below {NEAR} d",
+          "left out", "moved", "CPU s"]
 SUM_TITLES = ["case", "h over d", "particles",
               *(f"{kernel} {title}" for kernel in KERNELS
                 for title in ("mean", "largest error", "beyond 1 %", "gradient"))]
@@ -249,7 +256,9 @@ def row(name, shown, particles, body):
         f"{particles.volumes.sum() / measure - 1:.1e}",
         f"{ratios.min():.2f} to {ratios.max():.2f}" if np.ptp(ratios) > 1e-9 else "1",
         f"{(depths / particles.d).min():.2f}",
-        f"{close.min():.2f}", grouped((close < NEAR).sum()), seconds])
+        f"{close.min():.2f}", grouped((close < NEAR).sum()),
+        *([""] * 2 if math.isnan(particles.seconds) else map(grouped, (particles.left_out, particles.moved))),
+        seconds])
 
 
 def sum_row(name, ratio, sums):

@@ -84,7 +84,7 @@ void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
       if (elements && format.elements == pnpbs::io::Elements::never) continue;
       const auto kernels_to_write = [&](pnpbs::Placement& placement) {
         std::vector<pnpbs::io::FileWish> wishes;
-        pnpbs::io::add_wish(path, "", elements, placement, wishes);
+        pnpbs::io::add_wish(path, "", elements, pnpbs::io::wished_of(placement), wishes);
         return kernels_of([&] { pnpbs::io::write_files(placement, {}, wishes); });
       };
       const std::int64_t of_few = kernels_to_write(few), of_more = kernels_to_write(more);

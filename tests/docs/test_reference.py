@@ -86,10 +86,9 @@ class Changes(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "rebalance: no procedure of the Fortran module"):
             self.found()
 
-    def test_function_of_an_optional_argument_without_fortran(self):
-        self.change(FORTRAN, "c_voronoi_create_within(placement%c, body%c, self%c)",
-                    "c_voronoi_create(placement%c, self%c)")
-        with self.assertRaisesRegex(ValueError, "create_within: no procedure of the Fortran module"):
+    def test_procedure_that_calls_another_function(self):
+        self.change(FORTRAN, "c_particles_figures(", "c_particles_sizes(")
+        with self.assertRaisesRegex(ValueError, "figures: no procedure of the Fortran module"):
             self.found()
 
     def test_function_without_julia(self):

@@ -13,7 +13,6 @@ program test_voronoi
   call context%create_serial
   call about_the_plane
   call about_a_box
-  call about_a_body
   call about_wrong_arguments
   call context%destroy
   call finish
@@ -43,51 +42,6 @@ contains
     call placement%destroy
     call domain%destroy
   end subroutine
-
-  !> Cells of nodes placed in an inset of the square, up to its wall.
-  subroutine about_a_body
-    type(pnpbs_domain) :: body, inset, box
-    type(pnpbs_placement) :: placement, unused
-    type(pnpbs_voronoi) :: voronoi
-    real(c_double) :: deep
-    deep = -huge(deep)
-    call square(context, body, unused, 0.1d0)
-    call inset%create(context)
-    call inset%add_offset(body, deep, -0.042d0, resolution=0.05d0)
-    call placement%create(context, inset)
-    call placement%set_spacing_constant(0.1076d0)
-    call placement%run
-    call voronoi%create(placement)
-    call expect(abs(measure_of(voronoi) - 0.916d0**2) < 1d-9, 'cells fill the elements')
-    call voronoi%destroy
-    call voronoi%create(placement, body)
-    call expect(abs(measure_of(voronoi) - 1) < 1d-12, 'cells fill the body')
-    call voronoi%destroy
-    call voronoi%create(placement, inset, stat, errmsg)
-    call expect(stat == PNPBS_ERROR_DOMAIN .and. voronoi%handle() == 0, 'nodes on the boundary')
-    call box%create(context, 3)
-    call box%add_box([0d0, 0d0, 0d0], [1d0, 1d0, 1d0])
-    call voronoi%create(placement, box, stat, errmsg)
-    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'body has three dimensions')
-    call box%destroy
-    call voronoi%create(placement, box, stat, errmsg)
-    call expect(stat < 0, 'a dead body')
-    call placement%destroy
-    call unused%destroy
-    call inset%destroy
-    call body%destroy
-  end subroutine
-
-  function measure_of(voronoi)
-    type(pnpbs_voronoi), intent(in) :: voronoi
-    real(c_double) :: measure_of
-    real(c_double), allocatable :: volumes(:)
-    integer(c_int64_t) :: nodes
-    call voronoi%sizes(nodes=nodes)
-    allocate (volumes(nodes))
-    call voronoi%get_cells(volumes)
-    measure_of = sum(volumes)
-  end function
 
   !> The measure of the domain is 1.
   subroutine look_at(placement, dim)

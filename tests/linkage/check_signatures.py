@@ -17,7 +17,7 @@ NUMBERS = {
     "pnpbs_status": "integer(c_int)",  # an enumeration
 }
 HANDLES = {"pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer", "pnpbs_mesh", "pnpbs_voronoi",
-           "pnpbs_geo_shapes", "pnpbs_geo_grid"}
+           "pnpbs_particles", "pnpbs_geo_shapes", "pnpbs_geo_grid"}
 
 
 def difference(c, fortran):

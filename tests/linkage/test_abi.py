@@ -50,7 +50,7 @@ class Promise(unittest.TestCase):
         kinds = [line.split(" ")[0] for line in BEFORE]
         self.assertEqual(kinds.count("function"), len(VERSIONS))
         self.assertEqual(kinds.count("callback"), 4)
-        self.assertEqual(kinds.count("handle"), 6)
+        self.assertEqual(kinds.count("handle"), 7)
         for kind, least in (("constant", 19), ("option", 10), ("choice", 2), ("statistic", 20),
                             ("format", 5)):
             self.assertGreaterEqual(kinds.count(kind), least, kind)

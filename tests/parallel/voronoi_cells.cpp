@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Voronoi cells against cells that are cut by brute force out of a square and a cube, and what
 // holds for all of them: volumes add up to that of the elements, faces and boundary of a cell add
-// up to 0, both sides know the same face, and any number of ranks gives the bits of one. The same
-// of cells within a body that is larger than the elements. Nothing but the public interface is
-// asked. Usage: voronoi_cells
+// up to 0, both sides know the same face, and any number of ranks gives the bits of one. Nothing
+// but the public interface is asked. Usage: voronoi_cells
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,21 +15,12 @@
 extern "C" {
 #include "rank_program.h"
 }
+#include "parallel/brute_cells.hpp"
 #include "volume_cases.h"
 
 namespace {
 
-using Point = std::array<double, 3>;
-using Polygon = std::vector<Point>;
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point operator*(double t, const Point& a) { return {t * a[0], t * a[1], t * a[2]}; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
+using namespace brute;
 
 // ------------------------------------------------------------------ cases ----------------------
 
@@ -106,15 +96,11 @@ struct Cell {
 };
 using Cells = std::map<std::int64_t, Cell>;  // by id
 
-// body: that they fill; null: the elements.
-Cells cells_of(pnpbs_placement placement, std::int32_t dim, pnpbs_domain body = nullptr) {
+Cells cells_of(pnpbs_placement placement, std::int32_t dim) {
   pnpbs_voronoi voronoi;
   std::int64_t n = 0, m = 0;
   std::int32_t told_dim = 0;
-  if (body)
-    expect(pnpbs_voronoi_create_within(placement, body, &voronoi) == PNPBS_OK, "cells in a body");
-  else
-    expect(pnpbs_voronoi_create(placement, &voronoi) == PNPBS_OK, "cells");
+  expect(pnpbs_voronoi_create(placement, &voronoi) == PNPBS_OK, "cells");
   expect(pnpbs_voronoi_sizes(voronoi, &told_dim, &n, &m) == PNPBS_OK && told_dim == dim, "sizes");
   const auto nodes = static_cast<std::size_t>(n), faces = static_cast<std::size_t>(m),
              width = static_cast<std::size_t>(dim);
@@ -172,66 +158,6 @@ double measure_of_elements(pnpbs_placement placement, std::int32_t dim) {
 }
 
 // ------------------------------------------------------------------ by brute force -------------
-
-struct HalfSpace {
-  Point normal;
-  double limit;  // normal . x <= limit
-};
-
-Polygon cut(const Polygon& polygon, const HalfSpace& by) {
-  Polygon kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double in_a = by.limit - dot(by.normal, a), in_b = by.limit - dot(by.normal, b);
-    if (in_a >= 0) kept.push_back(a);
-    if ((in_a > 0 && in_b < 0) || (in_a < 0 && in_b > 0))
-      kept.push_back(a + in_a / (in_a - in_b) * (b - a));
-  }
-  return kept;
-}
-
-double area(const Polygon& polygon) {
-  Point sum{};
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    sum = sum + cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
-  return length(sum) / 2;
-}
-
-// A square in the plane at which a half space ends, far larger than all cells.
-Polygon large_square(const HalfSpace& at) {
-  const Point middle = at.limit / dot(at.normal, at.normal) * at.normal;
-  const Point aside =
-      std::abs(at.normal[0]) < 0.6 * length(at.normal) ? Point{1, 0, 0} : Point{0, 1, 0};
-  Point u = cross(at.normal, aside), v = cross(at.normal, u);
-  u = 9 / length(u) * u;
-  v = 9 / length(v) * v;
-  return {middle + u + v, middle + u - v, middle - u - v, middle - u + v};
-}
-
-// The volume of the cell, and the area of its face to each of `others`. In the plane both are
-// those of a slab of thickness 1.
-double brute_cell(const Point& x, const std::vector<Point>& others, std::vector<double>& areas) {
-  std::vector<HalfSpace> spaces;
-  for (const Point& other : others)
-    spaces.push_back({other - x, (dot(other, other) - dot(x, x)) / 2});
-  for (std::size_t k = 0; k < 3; ++k) {
-    Point axis{};
-    axis[k] = 1;
-    spaces.push_back({axis, 1});
-    spaces.push_back({-1. * axis, 0});
-  }
-  double volume = 0;
-  areas.clear();
-  for (std::size_t s = 0; s < spaces.size(); ++s) {
-    Polygon face = large_square(spaces[s]);
-    for (std::size_t r = 0; r < spaces.size() && !face.empty(); ++r)
-      if (r != s) face = cut(face, spaces[r]);
-    areas.push_back(area(face));
-    volume +=
-        areas.back() * (spaces[s].limit - dot(spaces[s].normal, x)) / length(spaces[s].normal) / 3;
-  }
-  return volume;
-}
 
 // The nodes that are closest to one, itself left out: more than its cell has neighbours.
 std::vector<std::int64_t> closest(const Cells& cells, std::int64_t id, std::size_t count) {
@@ -358,85 +284,7 @@ void check_case(const Case& it) {
   if (failures > before) std::printf("rank %d, %s: WRONG\n", rank, it.name);
 }
 
-// ------------------------------------------------------------------ within a body --------------
-
-// Nodes some way off the walls of the unit square, or cube, or of a plane with a slit and a hole.
-struct BodyCase {
-  const char* name;
-  std::int32_t dim;
-  volume_body body;
-  double d;
-  double tolerance;  // of a volume, against brute force; 0: not known
-};
-const BodyCase kBodyCases[] = {{"in a square", 2, unit_square, 0.08, 1e-4},
-                               {"in a plane with a slit", 2, slotted_plane, 0.04, 0},
-                               {"in a cube", 3, volume_unit_box, 0.15, 3e-3}};
-
-struct PlacedInBody {
-  pnpbs_domain body;
-  pnpbs_placement placement;
-};
-
-PlacedInBody placed_in_body(const BodyCase& it, pnpbs_context in) {
-  PlacedInBody made;
-  pnpbs_domain inset = nullptr;
-  expect(pnpbs_domain_create(in, it.dim, &made.body) == PNPBS_OK &&
-             pnpbs_domain_create(in, it.dim, &inset) == PNPBS_OK &&
-             it.body(made.body, nullptr) >= 0,
-         "domains");
-  expect(pnpbs_domain_add_offset(inset, made.body, -INFINITY, -0.45 * it.d, nullptr, nullptr, 0,
-                                 1) == PNPBS_OK,
-         "inset");
-  expect(pnpbs_placement_create(in, inset, &made.placement) == PNPBS_OK, "placement");
-  pnpbs_placement_set_int64(made.placement, "steps", 60);
-  pnpbs_placement_set_spacing_constant(made.placement, it.d);
-  expect(pnpbs_placement_run(made.placement) >= 0, "run");
-  pnpbs_domain_destroy(&inset);
-  return made;
-}
-
-void destroy(PlacedInBody& made) {
-  pnpbs_placement_destroy(&made.placement);
-  pnpbs_domain_destroy(&made.body);
-}
-
-void check_body_case(const BodyCase& it) {
-  const int before = failures;
-  pnpbs_context serial;
-  expect(pnpbs_context_create_serial(&serial) == PNPBS_OK, "context of one rank");
-  PlacedInBody alone = placed_in_body(it, serial);
-  const Cells all = cells_of(alone.placement, it.dim, alone.body);
-  const Cells elements = cells_of(alone.placement, it.dim);
-  double sum = 0, measure = 0;
-  for (const auto& [id, cell] : all) {
-    const Cell& same = elements.at(id);
-    sum += cell.volume;
-    // Inner cells, faces and shares are those of the elements.
-    expect(cell.boundary == same.boundary && cell.faces.size() == same.faces.size(), "faces");
-    if (length(cell.boundary) == 0 && it.tolerance > 0)
-      expect(cell.volume == same.volume, "an inner cell");
-  }
-  expect(pnpbs_domain_measure(alone.body, &measure) == PNPBS_OK, "measure");
-  if (rank == 0)
-    std::printf("%s: %zu nodes, volume off by %.2g\n", it.name, all.size(), sum / measure - 1);
-  expect(std::abs(sum / measure - 1) < 1e-13, "volumes add up to that of the body");
-  if (it.tolerance > 0 && rank == 0)
-    expect(off_brute_force(all, it.dim).volume < it.tolerance, "volumes by brute force");
-  destroy(alone);
-  pnpbs_context_destroy(&serial);
-
-  PlacedInBody made = placed_in_body(it, context);
-  check_bits(cells_of(made.placement, it.dim, made.body), all);
-  // On one rank that does not name the body.
-  pnpbs_voronoi voronoi;
-  if (size > 1)
-    expect(pnpbs_voronoi_create_within(made.placement, rank == 1 ? nullptr : made.body, &voronoi) ==
-                   PNPBS_ERROR_ARGUMENT &&
-               !voronoi,
-           "no body on a rank");
-  destroy(made);
-  if (failures > before) std::printf("rank %d, %s: WRONG\n", rank, it.name);
-}
+// ------------------------------------------------------------------ errors ---------------------
 
 // What fails on one rank fails on all.
 void check_errors() {
@@ -478,7 +326,6 @@ void check_errors() {
 int main(int argc, char** argv) {
   begin_ranks(&argc, &argv);
   for (const Case& it : kCases) check_case(it);
-  for (const BodyCase& it : kBodyCases) check_body_case(it);
   check_errors();
   return end_ranks();
 }

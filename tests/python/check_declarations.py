@@ -19,7 +19,7 @@ CALLBACK_TYPES = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "double"
                   "const double *": ctypes.POINTER(ctypes.c_double), "void *": ctypes.c_void_p}
 
 HANDLES = ("pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer", "pnpbs_mesh",
-           "pnpbs_voronoi")
+           "pnpbs_voronoi", "pnpbs_particles")
 
 
 def function_differences(functions, declared):

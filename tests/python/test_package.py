@@ -530,15 +530,73 @@ class Meshes(Case):
             self.assertIn(f"{len(nodes.ids)} cells, {len(rows)} faces", repr(cells))
         self.assert_status(Status.ERROR_STATE, pnpbs.Placement(box).voronoi)
 
-    def test_voronoi_cells_within_a_body(self):
+    def check_particles(self, placement, body):
+        """The measure of the body is 1."""
+        particles = pnpbs.Particles(placement, body)
+        self.assertEqual(particles.points.shape, (particles.count, body.dim))
+        self.assertEqual(particles.count + particles.left_out, placement.node_count)
+        self.assertEqual(set(particles.tags), {0, 7})
+        np.testing.assert_array_equal(particles.ids, np.unique(particles.ids))
+        self.assertAlmostEqual(particles.volumes.sum(), 1, 12)
+        self.assertTrue(((particles.points > 0) & (particles.points < 1)).all())
+        i, j = np.triu_indices(particles.count, 1)
+        distances = np.linalg.norm(particles.points[i] - particles.points[j], axis=1)
+        closest = (2 * distances / (particles.spacing[i] + particles.spacing[j])).min()
+        self.assertAlmostEqual(particles.closest, closest, 12)
+        self.assertGreater(particles.closest, 0.6)
+        self.assertIn(f"{particles.count} here, {particles.count} in all", repr(particles))
+        return particles
+
+    def check_files_of_particles(self, particles):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "particles.csv")
+            particles.write(path)
+            self.assertEqual(len(path.read_text().splitlines()), particles.count + 1)
+            particles.add_output_field("mass", 2 * particles.volumes)
+            particles.add_output_field("velocity", particles.points)
+            particles.write(path, os.path.join(folder, "a.vtu"))
+            table = np.genfromtxt(path, delimiter=",", names=True, deletechars="")
+            for name, values in (("id", particles.ids), ("x", particles.points[:, 0]),
+                                 ("tag", particles.tags), ("spacing", particles.spacing),
+                                 ("volume", particles.volumes), ("mass", 2 * particles.volumes),
+                                 ("velocity:1", particles.points[:, 1])):
+                np.testing.assert_array_equal(table[name], values, name)
+            self.assertTrue(os.path.isfile(os.path.join(folder, "a.vtu")))
+            elements = os.path.join(folder, "a.ele")
+            self.assert_status(Status.ERROR_ARGUMENT, particles.write, elements)
+            self.assert_status(Status.ERROR_FILE, particles.write, "/nowhere/particles.csv")
+        self.assertIn("mass", self.assert_status(Status.ERROR_ARGUMENT, particles.add_output_field,
+                                                 "mass", particles.volumes))
+
+    def test_particles(self):
+        body = pnpbs.Domain(self.context).add_polyline(SQUARE)
+        box = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
+        for one, high, d, factor in (body, -0.42, 0.1, 1.076), (box, -0.46, 0.2, 1.147):
+            inset = pnpbs.Domain(self.context, dim=one.dim).add_offset(one, -np.inf, high, d, tag=7)
+            placement = self.placed(inset, factor * d)
+            particles = self.check_particles(placement, one)
+            placement.close()
+            self.check_files_of_particles(particles)
+            particles.close()
+            particles.close()
+            self.assertAlmostEqual(particles.volumes.sum(), 1, 12)
+            self.assert_status(Status.ERROR_HANDLE, particles.write, "particles.csv")
+
+    def test_bodies_without_particles(self):
         body = pnpbs.Domain(self.context).add_polyline(SQUARE)
         inset = pnpbs.Domain(self.context).add_offset(body, -np.inf, -0.42, 0.1)
+        self.assert_status(Status.ERROR_STATE, pnpbs.Particles, pnpbs.Placement(inset), body)
         placement = self.placed(inset, 0.1076)
-        self.assertAlmostEqual(placement.voronoi().volumes.sum(), 0.916**2, 9)
-        self.assertAlmostEqual(placement.voronoi(body).volumes.sum(), 1, 12)
-        self.assert_status(Status.ERROR_DOMAIN, placement.voronoi, inset)
+        wide = pnpbs.Domain(self.context).add_polyline([(-1, -1), (2, -1), (2, 2), (-1, 2)])
+        message = self.assert_status(Status.ERROR_DOMAIN, pnpbs.Particles, placement, wide)
+        self.assertIn("fill", message)
+        # Nodes on its boundary fill it, but are not strictly inside.
+        self.assert_status(Status.ERROR_DOMAIN, pnpbs.Particles, placement, inset)
         box = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
-        self.assertIn("body", self.assert_status(Status.ERROR_ARGUMENT, placement.voronoi, box))
+        message = self.assert_status(Status.ERROR_ARGUMENT, pnpbs.Particles, placement, box)
+        self.assertIn("body", message)
+        body.close()
+        self.assert_status(Status.ERROR_HANDLE, pnpbs.Particles, placement, body)
 
     def test_for_other_packages_in_the_plane(self):
         domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=4)

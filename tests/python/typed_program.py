@@ -44,10 +44,13 @@ def in_the_plane(context: pnpbs.Context) -> Tuple[pnpbs.Domain, pnpbs.Placement]
     low, high = domain.bounds()
     assert isinstance(low + high, np.ndarray) and domain.measure() > 3
     inset = pnpbs.Domain(context).add_offset(domain, -math.inf, -0.42, spacing, 0.05)
-    particles = pnpbs.Placement(inset).set_spacing(lambda x: 1.076 * spacing(x))
-    particles.run()
-    volumes: Doubles = particles.voronoi(domain).volumes
-    assert math.isclose(volumes.sum(), domain.measure()) and len(particles.voronoi().volumes)
+    placed = pnpbs.Placement(inset).set_spacing(lambda x: 1.076 * spacing(x))
+    placed.run()
+    particles: pnpbs.Particles = pnpbs.Particles(placed, domain)
+    volumes: Doubles = particles.add_output_field("mass", 2 * particles.volumes).volumes
+    assert math.isclose(volumes.sum(), domain.measure()) and len(placed.voronoi().volumes)
+    count: int = particles.count + particles.left_out + particles.moved
+    assert count >= len(particles) and particles.closest > 0.6
     watch = Watch()
     placement = pnpbs.Placement(domain, steps=30, method="paper")
     outcome: pnpbs.Status = placement.set_spacing(spacing).set_monitor(watch).run(progress=False)
@@ -115,7 +118,8 @@ def mistakes(context: pnpbs.Context, domain: pnpbs.Domain, placement: pnpbs.Plac
     placement.mesh().dim = 3  # type: ignore[misc]
     domain.add_offset(0.1, 0, 1)  # type: ignore[arg-type]
     domain.add_region((0, 0), "steel")  # type: ignore[arg-type]
-    placement.voronoi(placement)  # type: ignore[arg-type]
+    placement.voronoi(placement)  # type: ignore[call-arg]
+    pnpbs.Particles(placement, placement)  # type: ignore[arg-type]
     pnpbs.Status.FINE  # type: ignore[attr-defined]
 
 

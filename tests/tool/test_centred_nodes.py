@@ -74,7 +74,8 @@ class CentredNodes(CommandTest):
                                   "centers", "-o", "a.csv")
         table = read_csv(self.folder / "a.csv")
         d = 0.02 + 0.02 * table["x"]
-        numpy.testing.assert_allclose(table["spacing"], 1.076 * d, rtol=1e-3)
+        # Of nodes, some of which were pushed to where d is another.
+        numpy.testing.assert_allclose(table["spacing"], 1.076 * d, rtol=0.01)
         self.assertAlmostEqual(sum(d ** 2), SQUARE_AREA, delta=0.03 * SQUARE_AREA)
 
     def test_what_does_not_go_with_it(self):

@@ -67,8 +67,8 @@ class Walls(CommandTest):
             self.assertAlmostEqual(self.report["volumes"]["ratio"]["mean"], ratios.mean(),
                                    delta=1e-9)
         tagged = int(wall["tag"].sum())
-        self.assertRegex(self.out, rf"(?m)^nodes +{len(gap)}, {tagged} of them in the first or "
-                                   "last layer, in ")
+        self.assertRegex(self.out, rf"(?m)^nodes +{len(gap)} particles, {tagged} of them in the "
+                                   "first or last layer, in ")
         self.assertNotRegex(self.out, "(?m)^(edges|quality) ")
 
     def test_around_particles(self):

@@ -24,6 +24,7 @@ from .errors import PNPBSError, Status
 from .fields import Transfer
 from .mesh import DistributedMesh
 from .mesh_arrays import MeshArrays
+from .particles import Particles
 from .placement import Estimate, Placement, PopulationChange
 from .results import EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering, Stars
 from .rows import CompressedRows
@@ -36,9 +37,9 @@ from .voronoi import VoronoiCells
 __all__ = [
     "CompressedRows", "Context", "DistributedMesh", "Domain", "EdgeBands", "Estimate",
     "ExchangePattern", "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "MeshArrays",
-    "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError", "Placement", "PopulationChange",
-    "Projection", "ShapeCounts", "Shapes", "Stars", "StatisticRow", "Status", "Transfer",
-    "VoronoiCells", "build_info", "discard_unfinished_files", "file_dimension", "format_table",
-    "geo_build_info", "library_path", "library_version", "mpi_library", "option_table",
-    "shutdown", "statistic_table",
+    "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError", "Particles", "Placement",
+    "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars", "StatisticRow", "Status",
+    "Transfer", "VoronoiCells", "build_info", "discard_unfinished_files", "file_dimension",
+    "format_table", "geo_build_info", "library_path", "library_version", "mpi_library",
+    "option_table", "shutdown", "statistic_table",
 ]

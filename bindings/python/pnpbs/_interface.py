@@ -227,8 +227,6 @@ pnpbs_status pnpbs_mesh_get_sharing(pnpbs_mesh mesh, int64_t nodes, int64_t entr
     int32_t *shared, int64_t *offsets, int32_t *ranks);
 pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
 pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
-pnpbs_status pnpbs_voronoi_create_within(pnpbs_placement placement, pnpbs_domain body,
-    pnpbs_voronoi *voronoi);
 pnpbs_status pnpbs_voronoi_destroy(pnpbs_voronoi *voronoi);
 pnpbs_status pnpbs_voronoi_sizes(pnpbs_voronoi voronoi, int32_t *dim, int64_t *nodes,
     int64_t *faces);
@@ -237,6 +235,19 @@ pnpbs_status pnpbs_voronoi_get_cells(pnpbs_voronoi voronoi, int64_t capacity, do
 pnpbs_status pnpbs_voronoi_get_faces(pnpbs_voronoi voronoi, int64_t nodes, int64_t faces,
     int64_t *offsets, int64_t *ids, int64_t *numbers, double *areas, double *distances,
     double *normals);
+pnpbs_status pnpbs_particles_create(pnpbs_placement placement, pnpbs_domain body,
+    pnpbs_particles *particles);
+pnpbs_status pnpbs_particles_destroy(pnpbs_particles *particles);
+pnpbs_status pnpbs_particles_sizes(pnpbs_particles particles, int32_t *dim, int64_t *count,
+    int64_t *all);
+pnpbs_status pnpbs_particles_figures(pnpbs_particles particles, int64_t *left_out, int64_t *moved,
+    double *closest);
+pnpbs_status pnpbs_particles_get(pnpbs_particles particles, int64_t capacity, double *x,
+    double *volumes, double *spacing, int64_t *ids, int32_t *tags);
+pnpbs_status pnpbs_particles_add_output_field(pnpbs_particles particles, const char *name,
+    int64_t n, int32_t components, const double *values);
+pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t n, const char *const *paths,
+    const char *const *formats);
 pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path, int32_t elements);
 pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const char *const *paths, const char *const *formats, const int32_t *elements);

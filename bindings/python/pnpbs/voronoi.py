@@ -5,14 +5,12 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
-from typing import Optional
 
 import numpy as np
 
 from ._interface import library
 from ._types import Doubles, Ids
 from .context import Context
-from .domain import Domain
 from .placement_handle import PlacementHandle
 from .rows import CompressedRows
 
@@ -67,26 +65,16 @@ class VoronoiCells:
 class Tessellation(PlacementHandle):
     """The part of `Placement` that makes Voronoi cells."""
 
-    def voronoi(self, body: Optional[Domain] = None) -> VoronoiCells:
+    def voronoi(self) -> VoronoiCells:
         """Makes the Voronoi cells of the current nodes: for each node the part of the elements of
         the placement that is closer to it than to any other, with its volume, its faces to
         neighbours and its share of the boundary. Each element is divided among the corners of all
         elements that touch it, so a node sees none through a gap that has no elements. The volumes
         add up to that of the elements to rounding. Cells are functions of the nodes alone: any
         number of ranks and threads gives the same bits. They are a copy: nodes may move afterwards,
-        and the placement may be closed. Collective.
-
-        With a `body` that is larger than the elements, as of particles placed in what
-        `Domain.add_offset` makes of it, cells at the boundary of the elements have the volume that
-        is seen from the node, up to the body's boundary and halfway to its neighbours, times one
-        factor, so that all volumes add up to the body's measure. All else stays as it is."""
+        and the placement may be closed. Collective."""
         handle = ctypes.c_void_p()
-        if body is None:
-            made = library().pnpbs_voronoi_create(self._live(), ctypes.byref(handle))
-        else:
-            made = library().pnpbs_voronoi_create_within(self._live(), body._live(),
-                                                         ctypes.byref(handle))
-        self.context._check(made)
+        self.context._check(library().pnpbs_voronoi_create(self._live(), ctypes.byref(handle)))
         try:
             return VoronoiCells._copied(self.context, handle)
         finally:

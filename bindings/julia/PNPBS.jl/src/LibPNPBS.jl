@@ -17,6 +17,7 @@ const pnpbs_placement = Ptr{Cvoid}
 const pnpbs_transfer = Ptr{Cvoid}
 const pnpbs_mesh = Ptr{Cvoid}
 const pnpbs_voronoi = Ptr{Cvoid}
+const pnpbs_particles = Ptr{Cvoid}
 const pnpbs_curve_fn = Ptr{Cvoid}
 const pnpbs_level_set_fn = Ptr{Cvoid}
 const pnpbs_spacing_fn = Ptr{Cvoid}
@@ -617,11 +618,6 @@ pnpbs_voronoi_create(placement, voronoi) =
     @ccall $(symbol(:pnpbs_voronoi_create))(
         placement::pnpbs_placement, voronoi::Ptr{pnpbs_voronoi})::pnpbs_status
 
-pnpbs_voronoi_create_within(placement, body, voronoi) =
-    @ccall $(symbol(:pnpbs_voronoi_create_within))(
-        placement::pnpbs_placement, body::pnpbs_domain,
-        voronoi::Ptr{pnpbs_voronoi})::pnpbs_status
-
 pnpbs_voronoi_destroy(voronoi) =
     @ccall $(symbol(:pnpbs_voronoi_destroy))(voronoi::Ptr{pnpbs_voronoi})::pnpbs_status
 
@@ -640,6 +636,40 @@ pnpbs_voronoi_get_faces(voronoi, nodes, faces, offsets, ids, numbers, areas, dis
         voronoi::pnpbs_voronoi, nodes::Int64, faces::Int64, offsets::Ptr{Int64}, ids::Ptr{Int64},
         numbers::Ptr{Int64}, areas::Ptr{Cdouble}, distances::Ptr{Cdouble},
         normals::Ptr{Cdouble})::pnpbs_status
+
+# ---------------------------------------------------------------- particles ------------------
+pnpbs_particles_create(placement, body, particles) =
+    @ccall $(symbol(:pnpbs_particles_create))(
+        placement::pnpbs_placement, body::pnpbs_domain,
+        particles::Ptr{pnpbs_particles})::pnpbs_status
+
+pnpbs_particles_destroy(particles) =
+    @ccall $(symbol(:pnpbs_particles_destroy))(particles::Ptr{pnpbs_particles})::pnpbs_status
+
+pnpbs_particles_sizes(particles, dim, count, all) =
+    @ccall $(symbol(:pnpbs_particles_sizes))(
+        particles::pnpbs_particles, dim::Ptr{Int32}, count::Ptr{Int64},
+        all::Ptr{Int64})::pnpbs_status
+
+pnpbs_particles_figures(particles, left_out, moved, closest) =
+    @ccall $(symbol(:pnpbs_particles_figures))(
+        particles::pnpbs_particles, left_out::Ptr{Int64}, moved::Ptr{Int64},
+        closest::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_particles_get(particles, capacity, x, volumes, spacing, ids, tags) =
+    @ccall $(symbol(:pnpbs_particles_get))(
+        particles::pnpbs_particles, capacity::Int64, x::Ptr{Cdouble}, volumes::Ptr{Cdouble},
+        spacing::Ptr{Cdouble}, ids::Ptr{Int64}, tags::Ptr{Int32})::pnpbs_status
+
+pnpbs_particles_add_output_field(particles, name, n, components, values) =
+    @ccall $(symbol(:pnpbs_particles_add_output_field))(
+        particles::pnpbs_particles, name::Cstring, n::Int64, components::Int32,
+        values::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_particles_write(particles, n, paths, formats) =
+    @ccall $(symbol(:pnpbs_particles_write))(
+        particles::pnpbs_particles, n::Int32, paths::Ptr{Cstring},
+        formats::Ptr{Cstring})::pnpbs_status
 
 # ---------------------------------------------------------------- files ----------------------
 pnpbs_placement_write(placement, path, elements) =

@@ -41,7 +41,7 @@ export exchange_pattern, numbering, reinterpret_columns
 export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes
 export add_from_ghosts!, incident_elements, incident_elements!
 export Transfer, at_nodes, at_points, linear_nodes
-export DistributedMesh, write_mesh, VoronoiCells
+export DistributedMesh, write_mesh, VoronoiCells, Particles
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
 export element_tags, boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
@@ -71,6 +71,7 @@ include("transfer.jl")
 include("distributed_mesh.jl")
 include("mesh_conversions.jl")
 include("voronoi_cells.jl")
+include("particles.jl")
 include("shapes.jl")
 include("tables.jl")
 include("mpi.jl")

@@ -28,8 +28,8 @@ context on several ranks is not closed, because the others might never close the
 mutable struct Context
     handle::LibPNPBS.pnpbs_context
     on_ranks::Bool
-    # Open domains, placements and transfers. They are kept here because the library holds pointers to their
-    # callbacks until they are closed.
+    # Open domains, placements, transfers and particles. They are kept here because the library
+    # holds pointers to their callbacks until they are closed.
     children::Vector{Any}
     # What a callback has thrown during the call in progress, and where.
     thrown::Union{CapturedException,Nothing}
@@ -71,11 +71,12 @@ end
     close(domain::Domain)
     close(placement::Placement)
     close(transfer::Transfer)
+    close(particles::Particles)
 
 Releases the resources of the library. Closing twice is allowed; using a closed object is a
 [`PNPBSError`](@ref) with status `:error_handle`. Closing a context is collective and closes the
-domains, placements and transfers made on it; closing those is local. A placement keeps what it
-needs of its domain, so the domain may be closed first.
+domains, placements, transfers and particles made on it; closing those is local. A placement keeps
+what it needs of its domain, so the domain may be closed first. The arrays of particles remain.
 """
 function Base.close(context::Context)
     isopen(context) || return nothing
@@ -87,7 +88,7 @@ function Base.close(context::Context)
 end
 
 """
-    isopen(context), isopen(domain), isopen(placement), isopen(transfer)
+    isopen(context), isopen(domain), isopen(placement), isopen(transfer), isopen(particles)
 
 Returns whether the object has not been closed.
 """

@@ -368,17 +368,21 @@ end
 # ---------------------------------------------------------------- files -------------------------
 """
     write_file(placement, path; elements = false) -> Symbol
+    write_file(particles, path) -> Symbol
 
 Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file. The
 extension selects the format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2,
 .node, .ele, .face, .csv, .peridigm, .lammps, .hdf5. The file appears when it is complete. The
-outcome is `:ok`, or `:stopped` by the monitor, which keeps the old file. Collective.
+outcome is `:ok`, or `:stopped` by the monitor, which keeps the old file. Files of
+[`Particles`](@ref) have their `volume` as well, in the formats that have fields, and no elements;
+.pvtu, .ele and .face are a `:error_argument`. Collective.
 """
 write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
     check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))
 
 """
     write_files(placement, paths; formats = nothing, elements = false) -> Symbol
+    write_files(particles, paths; formats = nothing) -> Symbol
 
 Writes several files, which appear together when all are complete. `formats` are names of formats,
 or `nothing` (also for single ones) for those of the extensions; `elements` is one for all or one
@@ -386,25 +390,30 @@ for each. Collective.
 """
 function write_files(placement::Placement, paths::AbstractVector{<:AbstractString};
                      formats::Union{Nothing,AbstractVector} = nothing, elements = false)
-    n = length(paths)
-    formats === nothing || require_length(formats, n, "formats")
-    elements isa Bool || require_length(elements, n, "elements")
+    elements isa Bool || require_length(elements, length(paths), "elements")
+    code = with_file_names(paths, formats) do n, c_paths, c_formats
+        with_elements = elements isa Bool ? fill(Int32(elements), n) : Vector{Int32}(elements)
+        LibPNPBS.pnpbs_placement_write_files(live(placement), n, c_paths, c_formats, with_elements)
+    end
+    return check(placement, code)
+end
+
+# Returns call(n, paths, formats) with what the library takes for them.
+function with_file_names(call, paths, formats)
+    formats === nothing || require_length(formats, length(paths), "formats")
     # Strings of ours, kept alive while the library reads through the pointers to them.
     own_paths = String.(paths)
     own_formats = formats === nothing ? nothing :
                   Union{String,Nothing}[f === nothing ? f : string(f) for f in formats]
     GC.@preserve own_paths own_formats begin
-        code = LibPNPBS.pnpbs_placement_write_files(live(placement), n, c_strings(own_paths),
-                                                    own_formats === nothing ? C_NULL :
-                                                    c_strings(own_formats),
-                                                    elements isa Bool ? fill(Int32(elements), n) :
-                                                    Vector{Int32}(elements))
+        return call(length(paths), c_strings(own_paths),
+                    own_formats === nothing ? C_NULL : c_strings(own_formats))
     end
-    return check(placement, code)
 end
 
 """
     add_output_field(placement, name, values) -> Placement
+    add_output_field(particles, name, values) -> Particles
 
 Adds a field of the caller to files written from now on: beside `id`, `tag` and `spacing` in .vtu,
 .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `\$NodeData`, and in .csv as a column `name`, or
@@ -412,7 +421,8 @@ Adds a field of the caller to files written from now on: beside `id`, `tag` and 
 array with that last index, with up to 9 components; entries after them, for its ghosts, are
 ignored. The values are copied. They belong to the current nodes: once these have moved, writing
 fails until [`clear_output_fields`](@ref). All ranks add the same fields in the same order. A name
-has 1 to 63 letters, digits, `_` and `-`. Local.
+has 1 to 63 letters, digits, `_` and `-`. Fields of [`Particles`](@ref), such as masses, are in the
+order of these, and `volume` is there already. Local.
 """
 function add_output_field(placement::Placement, name::AbstractString,
                           values::AbstractArray{<:Real})

@@ -2,7 +2,7 @@
 # Voronoi cells in plain arrays: nothing of the library's is left to be closed.
 
 """
-    VoronoiCells(placement; body = nothing)
+    VoronoiCells(placement)
 
 Makes the Voronoi cells of the current nodes: for each node the part of the elements of the
 placement that is closer to it than to any other, with its volume, its faces to neighbours and its
@@ -12,12 +12,6 @@ that touch it, so a node sees none through a gap that has no elements. The volum
 the elements to rounding. Cells are functions of the nodes alone: any number of ranks and threads
 gives the same bits. They are a copy: nodes may move afterwards, and the placement may be closed.
 Collective.
-
-With a `body`, a [`Domain`](@ref) that is larger than the elements, as of particles placed in what
-[`add_offset!`](@ref) makes of it, cells at the boundary of the elements have the volume that is
-seen from the node, up to the body's boundary and halfway to its neighbours, times one factor, so
-that all volumes add up to the body's measure. All else stays as it is. A `:error_domain` says that
-a node is not strictly inside of the body, or that the nodes do not fill it.
 
 Cells are in the order of [`nodes`](@ref).
 
@@ -44,12 +38,10 @@ Base.@kwdef struct VoronoiCells
     normals::Matrix{Float64}
 end
 
-function VoronoiCells(placement::Placement; body::Union{Nothing,Domain} = nothing)
+function VoronoiCells(placement::Placement)
     context = placement.context
     handle = Ref{LibPNPBS.pnpbs_voronoi}(C_NULL)
-    code = body === nothing ? LibPNPBS.pnpbs_voronoi_create(live(placement), handle) :
-           LibPNPBS.pnpbs_voronoi_create_within(live(placement), live(body), handle)
-    check(context, code)
+    check(context, LibPNPBS.pnpbs_voronoi_create(live(placement), handle))
     try
         return copy_of_cells(context, handle[])
     finally

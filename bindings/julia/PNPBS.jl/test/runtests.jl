@@ -7,8 +7,8 @@ using Test
 include("support.jl")
 
 const FILES = ["package", "domains", "placements", "space", "callbacks", "interrupts", "handles",
-               "adapting", "arrays", "sparse", "meshes", "grids", "voronoi", "shapes",
-               "pictures"]
+               "adapting", "arrays", "sparse", "meshes", "grids", "voronoi", "particles",
+               "shapes", "pictures"]
 
 @testset "PNPBS" begin
     for name in (isempty(ARGS) ? FILES : ARGS)

@@ -39,16 +39,3 @@ end
         @test fails(() -> VoronoiCells(block), :error_handle, "Placement")
     end
 end
-
-@testset "Voronoi cells within a body" begin
-    Context() do context
-        body = square_domain(context)
-        inset = Placement(add_offset!(0.1, Domain(context), body, -Inf, -0.42); steps = 40)
-        run!(set_spacing!(inset, 0.1076))
-        @test sum(VoronoiCells(inset).volumes) ≈ 0.916^2
-        @test sum(VoronoiCells(inset; body = body).volumes) ≈ 1 rtol = 0 atol = 1e-12
-        box = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
-        @test fails(() -> VoronoiCells(inset; body = box), :error_argument, "body")
-        @test fails(() -> VoronoiCells(inset; body = inset.domain), :error_domain)
-    end
-end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "voronoi/cell_in_body.hpp"
+#include "particles/cell_in_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,13 +68,14 @@ void append_directions(std::vector<Point<3>>& directions) {
 template <int Dim>
 CellInBody<Dim>::CellInBody(const SignedDistance<Dim>& body) : body_(body) {
   append_directions(directions_);
+  for (const Point<Dim>& direction : directions_)
+    for (std::size_t k = 0; k < Dim; ++k) along_[k].push_back(direction[k]);
 }
 
 template <int Dim>
 double CellInBody<Dim>::volume(const Point<Dim>& x, double reach,
                                std::span<const Point<Dim>> neighbours) const {
-  std::vector<double> ends(directions_.size(), reach);
-  end_at_bisectors(x, neighbours, ends);
+  std::vector<double> ends = ends_at_bisectors(x, reach, neighbours);
   // Mostly the wall is much nearer.
   double near = reach / 8;
   do {
@@ -85,19 +86,6 @@ double CellInBody<Dim>::volume(const Point<Dim>& x, double reach,
   for (const double end : ends) sum += Dim == 2 ? end * end : end * end * end;
   constexpr double kWhole = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
   return kWhole / static_cast<double>(ends.size()) * sum;
-}
-
-template <int Dim>
-void CellInBody<Dim>::end_at_bisectors(const Point<Dim>& x, std::span<const Point<Dim>> neighbours,
-                                       std::vector<double>& ends) const {
-  for (const Point<Dim>& neighbour : neighbours) {
-    const Point<Dim> to = way(x, neighbour);
-    const double half = 0.5 * dot(to, to);
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-      const double along = dot(to, directions_[k]);
-      if (ends[k] * along > half) ends[k] = half / along;
-    }
-  }
 }
 
 // Does a ball around a facet meet the way into a direction?
@@ -126,14 +114,81 @@ class FacetBall {
   double least_;  // square of what the way from x to the ball's edge is long
 };
 
+// facets: of the wall near x.
+template <int Dim>
+bool CellInBody<Dim>::sees(const Point<Dim>& x, const Point<Dim>& neighbour,
+                           std::span<const std::int32_t> facets) const {
+  const double far = distance<Dim>(x, neighbour);
+  Point<Dim> direction = way(x, neighbour);
+  for (double& component : direction) component /= far;
+  return std::ranges::none_of(facets, [&](std::int32_t f) {
+    const FacetCorners<Dim>& facet = body_.corners(f);
+    return FacetBall<Dim>(x, facet).meets(direction) && distance_along(direction, x, facet) < far;
+  });
+}
+
+template <int Dim>
+void CellInBody<Dim>::products_with_directions(const Point<Dim>& vector,
+                                               std::vector<double>& products) const {
+  std::array<const double*, Dim> along;
+  for (std::size_t c = 0; c < Dim; ++c) along[c] = along_[c].data();
+  double* const to = products.data();
+#pragma omp simd
+  for (std::size_t k = 0; k < products.size(); ++k) {
+    double product = 0;
+    for (std::size_t c = 0; c < Dim; ++c) product += vector[c] * along[c][k];
+    to[k] = product;
+  }
+}
+
+// A bisector is 1 / t away in a direction, where t is linear in it. Most of them are behind others,
+// and whether these are seen does not matter.
+template <int Dim>
+std::vector<double> CellInBody<Dim>::ends_at_bisectors(
+    const Point<Dim>& x, double reach, std::span<const Point<Dim>> neighbours) const {
+  const std::vector<std::int32_t> facets = body_.facets_near(x, reach);
+  const std::size_t n = directions_.size();
+  std::vector<double> nearness(n, 1 / reach), candidate(n);
+  for (const Point<Dim>& neighbour : neighbours) {
+    Point<Dim> slope = way(x, neighbour);
+    const double half = 0.5 * dot(slope, slope);
+    for (double& component : slope) component /= half;
+    products_with_directions(slope, candidate);
+    double gain = -1;
+#pragma omp simd reduction(max : gain)
+    for (std::size_t k = 0; k < n; ++k) gain = std::max(gain, candidate[k] - nearness[k]);
+    if (gain <= 0 || !sees(x, neighbour, facets)) continue;
+    for (std::size_t k = 0; k < n; ++k) nearness[k] = std::max(nearness[k], candidate[k]);
+  }
+  for (double& t : nearness) t = 1 / t;
+  return nearness;
+}
+
+Point<2> normal_of(const FacetCorners<2>& edge) {
+  const Point<2> along = way(edge[0], edge[1]);
+  return {-along[1], along[0]};
+}
+Point<3> normal_of(const FacetCorners<3>& facet) {
+  return cross(way(facet[0], facet[1]), way(facet[0], facet[2]));
+}
+
+// A facet can end only those ways that come to its plane sooner than they end.
 template <int Dim>
 void CellInBody<Dim>::end_at_wall(const Point<Dim>& x, double reach,
                                   std::vector<double>& ends) const {
+  constexpr double kRounding = 1 + 1e-9;
+  std::vector<double> along(ends.size());
   for (const std::int32_t f : body_.facets_near(x, reach)) {
     const FacetCorners<Dim>& facet = body_.corners(f);
-    const FacetBall<Dim> ball(x, facet);
+    Point<Dim> normal = normal_of(facet);
+    double height = dot(normal, way(x, facet[0]));
+    if (height < 0) {
+      height = -height;
+      for (double& component : normal) component = -component;
+    }
+    products_with_directions(normal, along);
     for (std::size_t k = 0; k < ends.size(); ++k)
-      if (ball.meets(directions_[k]))
+      if (height <= kRounding * ends[k] * along[k])
         ends[k] = std::min(ends[k], distance_along(directions_[k], x, facet));
   }
 }

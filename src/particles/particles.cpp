@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "particles/particles.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/index.hpp"
+#include "particles/near_nodes.hpp"
+#include "particles/separation.hpp"
+#include "particles/thinning.hpp"
+#include "particles/volumes.hpp"
+#include "particles/wall.hpp"
+#include "voronoi/voronoi_cells.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// In units of d. Closer ones cannot be pushed apart far enough, and one of them goes at once.
+constexpr double kTooClose = 0.5;
+// What pushing tries to reach.
+constexpr double kPushed = 0.8;
+
+template <int Dim>
+KnownParticles<Dim> known_particles(NodalResults& results) {
+  KnownParticles<Dim> known;
+  known.pattern = results.exchange_pattern();
+  agreed(results.communicator(), [&] {
+    const NodeColumns nodes = results.nodes();
+    known.owned = results.count();
+    for (std::int64_t place = 0; place < nodes.count; ++place) {
+      const std::int64_t i = results.node_at(place);
+      Point<Dim>& x = known.x.emplace_back();
+      for (std::size_t k = 0; k < Dim; ++k) x[k] = nodes.x[k](i);
+      known.d.push_back(nodes.d(i));
+      known.ids.push_back(nodes.id(i));
+    }
+    known.kept.assign(known.x.size(), 1);
+  });
+  return known;
+}
+
+// Over the mean of their d, of all ranks.
+template <int Dim>
+double closest_pair(const Communicator& comm, const KnownParticles<Dim>& particles) {
+  double closest = std::numeric_limits<double>::infinity();
+  agreed(comm, [&] {
+    const NearNodes<Dim> near(particles.x, particles.d, particles.kept, 1);
+    for (std::int64_t i = 0; i < particles.owned; ++i) {
+      const std::size_t n = index(i);
+      if (particles.kept[n] == 0) continue;
+      near.for_near(i, [&](std::int32_t other) {
+        const std::size_t j = static_cast<std::size_t>(other);
+        closest = std::min(closest, distance<Dim>(particles.x[n], particles.x[j]) /
+                                        (0.5 * (particles.d[n] + particles.d[j])));
+      });
+    }
+  });
+  return -comm.allreduce_max(-closest);
+}
+
+template <int Dim>
+std::unique_ptr<Particles> collected(NodalResults& results, const KnownParticles<Dim>& known,
+                                     std::span<const Point<Dim>> first,
+                                     std::span<const double> volumes) {
+  auto particles = std::make_unique<Particles>();
+  particles->dimension = Dim;
+  const NodeColumns nodes = results.nodes();
+  for (std::int64_t place = 0; place < known.owned; ++place) {
+    const std::size_t n = static_cast<std::size_t>(place);
+    if (known.kept[n] == 0) continue;
+    particles->x.insert(particles->x.end(), known.x[n].begin(), known.x[n].end());
+    particles->ids.push_back(known.ids[n]);
+    particles->tags.push_back(static_cast<std::int32_t>(nodes.tag(results.node_at(place))));
+    particles->spacing.push_back(known.d[n]);
+    particles->volumes.push_back(volumes[n]);
+    particles->moved += known.x[n] != first[n];
+  }
+  return particles;
+}
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<Particles> make_particles(NodalResults& results, const Domain<Dim>& body) {
+  const Communicator& comm = results.communicator();
+  const std::unique_ptr<VoronoiCells> cells = make_voronoi_cells(results);
+  KnownParticles<Dim> known = known_particles<Dim>(results);
+  const std::vector<Point<Dim>> first = known.x;
+  const SignedDistance<Dim> within(body);
+  const Wall<Dim> wall(comm, within, known, cells->at_boundary);
+
+  leave_out_close_ones(comm, kTooClose, known);
+  push_apart(comm, kPushed, wall, known);
+  leave_out_close_ones(comm, kClosestPair<Dim>, known);
+
+  const std::vector<double> volumes =
+      volumes_within<Dim>(comm, within, measure_of(body), *cells, first, known);
+  std::unique_ptr<Particles> particles;
+  agreed(comm, [&] { particles = collected<Dim>(results, known, first, volumes); });
+  particles->all = static_cast<std::int64_t>(
+      comm.allreduce_sum(static_cast<std::uint64_t>(particles->ids.size())));
+  particles->left_out = results.global_count() - particles->all;
+  particles->moved =
+      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(particles->moved)));
+  particles->closest = closest_pair(comm, known);
+  return particles;
+}
+
+template std::unique_ptr<Particles> make_particles<2>(NodalResults&, const PlaneDomain&);
+template std::unique_ptr<Particles> make_particles<3>(NodalResults&, const VolumeDomain&);
+
+}  // namespace pnpbs
