@@ -60,19 +60,11 @@ class Separation {
         push[k] += kPart * 0.5 * (wanted - apart) / apart * (x[k] - other[k]);
     }
     if (!any) return x;
-    const Point<Dim> next = wall_.held_off(i, x, within_reach(i, x, push));
-    const bool too_far =
-        distance<Dim>(first_[index(i)], next) > kAboveRounding * kFarthestPush * particles_.d[index(i)];
+    for (std::size_t k = 0; k < Dim; ++k) push[k] += x[k];
+    const Point<Dim> next = wall_.held_off(i, x, push);
+    const bool too_far = distance<Dim>(first_[index(i)], next) >
+                         kAboveRounding * kFarthestPush * particles_.d[index(i)];
     return too_far ? x : next;
-  }
-
-  Point<Dim> within_reach(std::int64_t i, Point<Dim> x, const Point<Dim>& push) const {
-    const Point<Dim>& first = first_[index(i)];
-    for (std::size_t k = 0; k < Dim; ++k) x[k] += push[k];
-    const double far = distance<Dim>(first, x), most = kFarthestPush * particles_.d[index(i)];
-    if (far > most)
-      for (std::size_t k = 0; k < Dim; ++k) x[k] = first[k] + most / far * (x[k] - first[k]);
-    return x;
   }
 
   const Communicator& comm_;

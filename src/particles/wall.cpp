@@ -13,8 +13,6 @@ namespace pnpbs {
 
 namespace {
 
-// Of the outermost ones that tell how deep others must be.
-constexpr double kRadius = 1.6;
 constexpr double kRounding = 1e-9, kTolerance = 1e-3;  // of the depth
 
 template <int Dim>
@@ -35,34 +33,23 @@ double depth_of(const SignedDistance<Dim>& body, const KnownParticles<Dim>& part
 template <int Dim>
 Wall<Dim>::Wall(const Communicator& comm, const SignedDistance<Dim>& body,
                 const KnownParticles<Dim>& particles, std::span<const char> outermost)
-    : body_(body) {
-  std::vector<double> depths(particles.x.size());
-  std::vector<char> is_outermost(particles.x.size());
+    : body_(body), least_depths_(particles.owned) {
   agreed(comm, [&] {
     for_each("pnpbs::particles::depths", particles.owned,
-             [&](std::int64_t i) { depths[index(i)] = depth_of(body, particles, i); });
-    std::ranges::copy(outermost, is_outermost.begin());
+             [&](std::int64_t i) { least_depths_[index(i)] = depth_of(body, particles, i); });
   });
-  fill_ghosts(comm, *particles.pattern, depths);
-  fill_ghosts(comm, *particles.pattern, is_outermost);
-  agreed(comm, [&] {
-    const NearNodes<Dim> near(particles.x, particles.d, is_outermost, kRadius);
-    depths_.assign(depths.begin(), depths.begin() + particles.owned);
-    for_each("pnpbs::particles::least_depths", particles.owned, [&](std::int64_t i) {
-      if (is_outermost[index(i)] != 0) return;
-      double least = std::numeric_limits<double>::infinity();  // over d
-      near.for_near(i, [&](std::int32_t j) {
-        least = std::min(least, depths[index(j)] / particles.d[index(j)]);
-      });
-      if (std::isinf(least)) least = 0;  // far from the wall
-      depths_[index(i)] = std::min(depths[index(i)], least * particles.d[index(i)]);
-    });
-  });
+  double shallowest = std::numeric_limits<double>::infinity();  // over d
+  for (std::size_t i = 0; i < outermost.size(); ++i)
+    if (outermost[i] != 0) shallowest = std::min(shallowest, least_depths_[i] / particles.d[i]);
+  shallowest = -comm.allreduce_max(-shallowest);
+  for (std::size_t i = 0; i < outermost.size(); ++i)
+    if (outermost[i] == 0)
+      least_depths_[i] = std::min(least_depths_[i], shallowest * particles.d[i]);
 }
 
 template <int Dim>
 Point<Dim> Wall<Dim>::held_off(std::int64_t i, const Point<Dim>& from, Point<Dim> to) const {
-  const double least = depths_[index(i)];
+  const double least = least_depths_[index(i)];
   const double depth = -body_(to);
   if (depth >= least * (1 - kRounding)) return to;
   if (depth <= 0) return from;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "particles/known_particles.hpp"
-#include "particles/near_nodes.hpp"
 #include "shape/signed_distance.hpp"
 
 namespace pnpbs {
@@ -15,8 +14,9 @@ namespace pnpbs {
 template <int Dim>
 class Wall {
  public:
-  // `outermost`: of the owned ones. The body must outlive it. Throws Error(ErrorKind::domain) if a
-  // particle is not strictly inside. Collective, and agreed.
+  // `outermost`: which of the owned ones are; these may come no nearer to the wall than they are,
+  // and all others no nearer, over d, than the nearest of these. The body must outlive it. Throws
+  // Error(ErrorKind::domain) if a particle is not strictly inside. Collective, and agreed.
   Wall(const Communicator& comm, const SignedDistance<Dim>& body,
        const KnownParticles<Dim>& particles, std::span<const char> outermost);
 
@@ -26,7 +26,7 @@ class Wall {
 
  private:
   const SignedDistance<Dim>& body_;
-  std::vector<double> depths_;  // the least ones, of owned particles
+  std::vector<double> least_depths_;  // of owned particles
 };
 
 extern template class Wall<2>;
