@@ -7,6 +7,7 @@
 
 #include "base/execution.hpp"
 #include "base/index.hpp"
+#include "comm/ghost_update.hpp"
 #include "particles/near_nodes.hpp"
 
 namespace pnpbs {
@@ -38,9 +39,12 @@ class Separation {
       agreed(comm_, [&] {
         for_each("pnpbs::particles::push", particles_.owned,
                  [&](std::int64_t i) { next_[index(i)] = pushed(i); });
+        particles_.x.swap(next_);
+        ghosts_.pack(comm_, particles_.pattern, Dim, coordinates());
       });
-      particles_.x.swap(next_);
-      fill_ghosts(comm_, *particles_.pattern, particles_.x);
+      ghosts_.start();
+      ghosts_.wait();
+      ghosts_.unpack(coordinates());
     }
   }
 
@@ -67,12 +71,15 @@ class Separation {
     return too_far ? x : next;
   }
 
+  double* coordinates() { return particles_.x.empty() ? nullptr : particles_.x[0].data(); }
+
   const Communicator& comm_;
   double least_;
   const Wall<Dim>& wall_;
   KnownParticles<Dim>& particles_;
   ChunkedRows<std::int32_t> near_;
   std::vector<Point<Dim>> first_, next_;
+  GhostUpdate ghosts_;
 };
 
 }  // namespace

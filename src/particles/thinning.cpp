@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "particles/thinning.hpp"
 
+#include <algorithm>
 #include <tuple>
 #include <vector>
 
@@ -24,6 +25,7 @@ class Contest {
       const NearNodes<Dim> near(particles.x, particles.d, particles.kept, least);
       close_ = near_rows(near, particles.owned, particles.ids);
       fates_.assign(particles.x.size(), Fate::open);
+      before_ = fates_;
       rivals_.assign(particles.x.size(), 0);
       for (std::size_t i = 0; i < fates_.size(); ++i)
         if (particles.kept[i] == 0) fates_[i] = Fate::left_out;
@@ -35,11 +37,11 @@ class Contest {
 
   std::vector<Fate> run() {
     for (std::uint64_t open = 1; open > 0;) {
-      const std::vector<Fate> before = fates_;
+      std::ranges::copy(fates_, before_.begin());
       open = 0;
       for (std::int64_t i = 0; i < particles_.owned; ++i) {
-        if (before[index(i)] != Fate::open) continue;
-        fates_[index(i)] = fate_of(i, before);
+        if (before_[index(i)] != Fate::open) continue;
+        fates_[index(i)] = fate_of(i);
         open += fates_[index(i)] == Fate::open;
       }
       open = comm_.allreduce_sum(open);
@@ -49,10 +51,10 @@ class Contest {
   }
 
  private:
-  Fate fate_of(std::int64_t i, const std::vector<Fate>& before) const {
+  Fate fate_of(std::int64_t i) const {
     bool first = true;
     for (const std::int32_t j : close_.row(i)) {
-      const Fate other = before[index(j)];
+      const Fate other = before_[index(j)];
       if (other == Fate::kept) return Fate::left_out;
       if (other == Fate::open && precedence(j) < precedence(i)) first = false;
     }
@@ -65,7 +67,7 @@ class Contest {
   const Communicator& comm_;
   const KnownParticles<Dim>& particles_;
   ChunkedRows<std::int32_t> close_;
-  std::vector<Fate> fates_;
+  std::vector<Fate> fates_, before_;
   std::vector<std::int32_t> rivals_;
 };
 
