@@ -21,17 +21,35 @@ class ChunkedRows {
   // entries of a row to out. Writers may throw.
   template <class MakeWriter>
   void build(const char* label, std::int64_t rows, const MakeWriter& make_writer) {
-    chunks_.resize(static_cast<std::size_t>((rows + ChunkRows - 1) / ChunkRows));
+    make_chunks(rows);
     for_each(label, static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t c) {
       Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-      chunk.entries.clear();
       auto writer = make_writer();
       for (std::int64_t k = 0; k < ChunkRows; ++k) {
-        chunk.offset[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk.entries.size());
+        chunk.begin_row(k);
         if (c * ChunkRows + k < rows) writer(c * ChunkRows + k, chunk.entries);
       }
-      chunk.offset[ChunkRows] = static_cast<std::int32_t>(chunk.entries.size());
-      give_back(chunk.entries);
+      chunk.end();
+    });
+  }
+
+  // The same with a second row each, of what comes with the first: writer(row, out, out of others).
+  template <class U, class MakeWriter>
+  void build_with(ChunkedRows<U, ChunkRows>& others, const char* label, std::int64_t rows,
+                  const MakeWriter& make_writer) {
+    make_chunks(rows);
+    others.make_chunks(rows);
+    for_each(label, static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t c) {
+      Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+      auto& other = others.chunks_[static_cast<std::size_t>(c)];
+      auto writer = make_writer();
+      for (std::int64_t k = 0; k < ChunkRows; ++k) {
+        chunk.begin_row(k);
+        other.begin_row(k);
+        if (c * ChunkRows + k < rows) writer(c * ChunkRows + k, chunk.entries, other.entries);
+      }
+      chunk.end();
+      other.end();
     });
   }
 
@@ -80,6 +98,14 @@ class ChunkedRows {
   }
 
  private:
+  template <class, int>
+  friend class ChunkedRows;
+
+  void make_chunks(std::int64_t rows) {
+    chunks_.resize(static_cast<std::size_t>((rows + ChunkRows - 1) / ChunkRows));
+    for (Chunk& chunk : chunks_) chunk.entries.clear();
+  }
+
   // A vector grows by doubling: gives back what is far too much, but keeps some room for the next
   // time, when the rows may be a little longer.
   static void give_back(std::vector<T>& entries) {
@@ -93,6 +119,14 @@ class ChunkedRows {
   struct Chunk {
     std::vector<T> entries;
     std::array<std::int32_t, ChunkRows + 1> offset{};
+
+    void begin_row(std::int64_t k) {
+      offset[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(entries.size());
+    }
+    void end() {
+      begin_row(ChunkRows);
+      give_back(entries);
+    }
   };
   std::vector<Chunk> chunks_;
 };

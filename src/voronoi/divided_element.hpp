@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -13,14 +14,26 @@
 
 namespace pnpbs {
 
-// Positive where x is closer to p than to r: half the difference of the squared distances, times
-// two. Exchanging p and r changes the sign and nothing else.
+// Of a point x: positive where it is closer to p than to r: half the difference of the squared
+// distances, times two. Exchanging p and r changes the sign and nothing else.
 template <int Dim>
-double closer_by(const Point<Dim>& x, const Point<Dim>& p, const Point<Dim>& r) {
-  double sum = 0;
-  for (std::size_t k = 0; k < Dim; ++k) sum += (p[k] - r[k]) * (2 * x[k] - (p[k] + r[k]));
-  return sum;
-}
+class CloserBy {
+ public:
+  CloserBy(const Point<Dim>& p, const Point<Dim>& r) {
+    for (std::size_t k = 0; k < Dim; ++k) {
+      way_[k] = p[k] - r[k];
+      sum_[k] = p[k] + r[k];
+    }
+  }
+  double operator()(const Point<Dim>& x) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < Dim; ++k) sum += way_[k] * (2 * x[k] - sum_[k]);
+    return sum;
+  }
+
+ private:
+  Point<Dim> way_, sum_;
+};
 
 // Of points, by their coordinates alone: where both of two sites are equally far from a whole side
 // of an element, this decides in which of its two elements their common face lies.
@@ -33,19 +46,33 @@ template <int Dim, std::size_t Corners>
 class DividedElement {
  public:
   static constexpr int kExtent = static_cast<int>(Corners) - 1;  // of the element
+  static constexpr std::size_t kPairs = Corners * (Corners - 1) / 2;
   using Piece = ConvexPiece<Dim, kExtent - 1>;
 
   // The first sites are the corners. They stay the caller's.
   void set(std::span<const Point<Dim>> sites) { sites_ = sites; }
+  std::span<const Point<Dim>> sites() const { return sites_; }
 
-  // What sites a and b have in common: the part of the element in which they are both as close as
-  // the closest one. The same to the last bit for b and a.
+  // Finds the faces that the corners would have if they were all the sites.
+  void divide_among_corners() {
+    for (std::size_t b = 1; b < Corners; ++b)
+      for (std::size_t a = 0; a < b; ++a)
+        find_face(a, b, sites_.first(Corners), of_corners_[place(a, b)]);
+  }
+  std::span<const Piece> faces_of_corners() const { return of_corners_; }
+
+  // What sites a < b have in common: the part of the element in which they are both as close as the
+  // closest one. Those of two corners are made of the faces there are since divide_among_corners,
+  // so they can be had once.
   const Piece& face(std::size_t a, std::size_t b) {
-    if (!is_first<Dim>(sites_[a], sites_[b])) std::swap(a, b);
-    begin_at_bisector(sites_[a], sites_[b]);
-    for (std::size_t r = 0; r < sites_.size() && !piece_.points().empty(); ++r)
-      if (r != a && r != b) cut(a, r);
-    return piece_;
+    if (b >= Corners) {
+      find_face(a, b, sites_, piece_);
+      return piece_;
+    }
+    Piece& piece = of_corners_[place(a, b)];
+    const std::size_t site = first_of(a, b);
+    for (std::size_t r = Corners; r < sites_.size() && !piece.empty(); ++r) cut(piece, site, r);
+    return piece;
   }
 
   // The part of the side opposite to corner k in which a site is closest.
@@ -53,8 +80,8 @@ class DividedElement {
     piece_.clear();
     for (std::size_t c = 0; c < Corners; ++c)
       if (c != k) piece_.add(sites_[c]);
-    for (std::size_t r = 0; r < sites_.size() && !piece_.points().empty(); ++r)
-      if (r != site) cut(site, r);
+    for (std::size_t r = 0; r < sites_.size() && !piece_.empty(); ++r)
+      if (r != site) cut(piece_, site, r);
     return piece_;
   }
 
@@ -84,7 +111,7 @@ class DividedElement {
       const double measure = measure_of(other);
       if (measure == 0) continue;
       const double slope = 2 * std::sqrt(squared(within(way(sites_[other], sites_[site]))));
-      sum += closer_by<Dim>(sites_[apex], sites_[site], sites_[other]) / slope * measure;
+      sum += CloserBy<Dim>(sites_[site], sites_[other])(sites_[apex]) / slope * measure;
     }
     return sum / kExtent;
   }
@@ -107,35 +134,50 @@ class DividedElement {
       return a;
   }
 
+  static std::size_t place(std::size_t a, std::size_t b) { return b * (b - 1) / 2 + a; }
+  std::size_t first_of(std::size_t a, std::size_t b) const {
+    return is_first<Dim>(sites_[a], sites_[b]) ? a : b;
+  }
+
+  // The same to the last bit for b and a.
+  void find_face(std::size_t a, std::size_t b, std::span<const Point<Dim>> sites, Piece& piece) {
+    if (first_of(a, b) == b) std::swap(a, b);
+    begin_at_bisector(sites[a], sites[b], piece);
+    for (std::size_t r = 0; r < sites.size() && !piece.empty(); ++r)
+      if (r != a && r != b) cut(piece, a, r);
+  }
+
   // Where the plane between two points meets the element.
-  void begin_at_bisector(const Point<Dim>& p, const Point<Dim>& q) {
+  void begin_at_bisector(const Point<Dim>& p, const Point<Dim>& q, Piece& piece) {
     std::array<double, Corners> values;
     std::array<std::size_t, Corners> near, far;
     std::size_t nears = 0, fars = 0;
+    const CloserBy<Dim> closer_by(p, q);
     for (std::size_t c = 0; c < Corners; ++c) {
-      values[c] = closer_by<Dim>(sites_[c], p, q);
+      values[c] = closer_by(sites_[c]);
       if (values[c] > 0)
         near[nears++] = c;
       else
         far[fars++] = c;
     }
-    piece_.clear();
+    piece.clear();
     const auto add = [&](std::size_t n, std::size_t f) {
       const std::size_t from = near[n], to = far[f];
-      piece_.add(plus(sites_[from], values[from] / (values[from] - values[to]),
-                      way(sites_[from], sites_[to])));
+      piece.add(plus(sites_[from], values[from] / (values[from] - values[to]),
+                     way(sites_[from], sites_[to])));
     };
     // Around the piece: what follows has a corner in common with what is before.
     for (std::size_t n = 0; n < nears; ++n)
       for (std::size_t f = 0; f < fars; ++f) add(n, n == 0 ? f : fars - 1 - f);
   }
 
-  void cut(std::size_t site, std::size_t other) {
+  void cut(Piece& piece, std::size_t site, std::size_t other) {
     const Point<Dim>&p = sites_[site], &r = sites_[other];
-    piece_.cut([&](const Point<Dim>& x) { return closer_by<Dim>(x, p, r); }, is_first<Dim>(r, p));
+    piece.cut(CloserBy<Dim>(p, r), is_first<Dim>(r, p));
   }
 
   std::span<const Point<Dim>> sites_;
+  std::array<Piece, kPairs> of_corners_;
   Piece piece_;
 };
 

@@ -3,23 +3,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <span>
 #include <unordered_map>
+#include <utility>
 
-#include "base/chunked_rows.hpp"
 #include "base/counting_sort.hpp"
 #include "base/rank_limit.hpp"
 #include "comm/records.hpp"
-#include "voronoi/divided_element.hpp"
+#include "voronoi/few_nodes.hpp"
+#include "voronoi/part_rows.hpp"
+#include "voronoi/site_finder.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-// A node that is not a corner is a site if it is closer than the corners, or as close: then two
-// nodes may have a side of the element in common.
-constexpr double kAsClose = 1 + 1e-12;  // of squared distances
-constexpr double kAboveRounding = 1 + 1e-9;
 
 // The nodes that have an element in common with each node.
 template <std::size_t Corners>
@@ -40,84 +37,15 @@ ChunkedRows<std::int32_t> neighbours_in_elements(const DistributedMesh& mesh) {
       for (std::int32_t k = by_node.start()[n]; k < by_node.start()[n + 1]; ++k) {
         const std::size_t element =
             static_cast<std::size_t>(at_nodes[static_cast<std::size_t>(k)]) / Corners;
-        for (std::size_t c = 0; c < Corners; ++c)
-          if (corners[element * Corners + c] != node) out.push_back(corners[element * Corners + c]);
+        for (std::size_t c = 0; c < Corners; ++c) {
+          const std::int32_t corner = corners[element * Corners + c];
+          if (corner != node && !has(std::span(out).subspan(begin), corner)) out.push_back(corner);
+        }
       }
-      const auto row = out.begin() + static_cast<std::ptrdiff_t>(begin);
-      std::sort(row, out.end());
-      out.erase(std::unique(row, out.end()), out.end());
     };
   });
   return neighbours;
 }
-
-// Finds the sites of one element after another.
-template <int Dim, std::size_t Corners>
-class SiteFinder {
- public:
-  SiteFinder(const ElementSites<Dim>& nodes, const ChunkedRows<std::int32_t>& neighbours)
-      : nodes_(nodes), neighbours_(neighbours) {}
-
-  // corners: by id. Appends them and the others.
-  void find(const std::array<std::int32_t, Corners>& corners, std::vector<std::int32_t>& sites) {
-    list_vertices(corners);
-    sites.insert(sites.end(), corners.begin(), corners.end());
-    const std::size_t first_other = sites.size();
-    for (const std::int32_t corner : corners)
-      for (const std::int32_t node : neighbours_.row(corner))
-        if (is_close(node) && std::ranges::find(corners, node) == corners.end())
-          sites.push_back(node);
-    const auto others = sites.begin() + static_cast<std::ptrdiff_t>(first_other);
-    std::sort(others, sites.end(), [&](std::int32_t a, std::int32_t b) { return id(a) < id(b); });
-    sites.erase(std::unique(others, sites.end()), sites.end());
-  }
-
- private:
-  struct Vertex {
-    Point<Dim> x;
-    double squared_distance;  // to the closest corners
-  };
-
-  // Where the cells of the corners, by themselves, have their corners within the element.
-  void list_vertices(const std::array<std::int32_t, Corners>& corners) {
-    std::array<Point<Dim>, Corners> x;
-    for (std::size_t c = 0; c < Corners; ++c) x[c] = nodes_.x[static_cast<std::size_t>(corners[c])];
-    divided_.set(x);
-    vertices_.clear();
-    for (std::size_t a = 0; a < Corners; ++a)
-      for (std::size_t b = a + 1; b < Corners; ++b)
-        for (const Point<Dim>& vertex : divided_.face(a, b).points())
-          vertices_.push_back({vertex, squared_distance<Dim>(vertex, x[a]) * kAsClose});
-    enclose_vertices();
-  }
-  // No node outside a ball is closer to any of them than the corners.
-  void enclose_vertices() {
-    middle_ = {};
-    for (const Vertex& vertex : vertices_)
-      for (std::size_t k = 0; k < Dim; ++k)
-        middle_[k] += vertex.x[k] / static_cast<double>(vertices_.size());
-    double reach = 0;
-    for (const Vertex& vertex : vertices_)
-      reach =
-          std::max(reach, distance<Dim>(middle_, vertex.x) + std::sqrt(vertex.squared_distance));
-    squared_reach_ = reach * reach * kAboveRounding;
-  }
-  bool is_close(std::int32_t node) const {
-    const Point<Dim>& x = nodes_.x[static_cast<std::size_t>(node)];
-    if (squared_distance<Dim>(middle_, x) > squared_reach_) return false;
-    return std::ranges::any_of(vertices_, [&](const Vertex& vertex) {
-      return squared_distance<Dim>(vertex.x, x) <= vertex.squared_distance;
-    });
-  }
-  std::int64_t id(std::int32_t node) const { return nodes_.ids[static_cast<std::size_t>(node)]; }
-
-  const ElementSites<Dim>& nodes_;
-  const ChunkedRows<std::int32_t>& neighbours_;
-  DividedElement<Dim, Corners> divided_;
-  std::vector<Vertex> vertices_;
-  Point<Dim> middle_{};  // of them
-  double squared_reach_ = 0;
-};
 
 template <int Dim>
 void copy_nodes(const DistributedMesh& mesh, ElementSites<Dim>& to) {
@@ -155,24 +83,30 @@ std::uint32_t sort_corners(const DistributedMesh& mesh, std::size_t element, std
   return sorted;
 }
 
-// Those of the elements that this rank owns.
+// Those of the elements that this rank owns, and their parts: both begin with the faces between
+// corners.
 template <std::size_t Corners, int Dim>
-void find_own(const DistributedMesh& mesh, ElementSites<Dim>& found) {
+void find_own(const DistributedMesh& mesh, ElementSites<Dim>& found, ChunkedRows<double>& parts) {
   const auto neighbours = neighbours_in_elements<Corners>(mesh);
   const std::vector<std::uint32_t> sides = boundary_sides(mesh);
   found.elements.resize(static_cast<std::size_t>(mesh.owned_elements));
   ChunkedRows<std::int32_t> rows;
-  rows.build("pnpbs::voronoi::sites", mesh.owned_elements, [&] {
+  rows.build_with(parts, "pnpbs::voronoi::sites", mesh.owned_elements, [&] {
     return [&, finder = SiteFinder<Dim, Corners>(found, neighbours)](
-               std::int64_t element, std::vector<std::int32_t>& out) mutable {
+               std::int64_t element, std::vector<std::int32_t>& out,
+               std::vector<double>& parts_out) mutable {
       const std::size_t e = static_cast<std::size_t>(element);
       std::array<std::int32_t, Corners> corners;
       found.elements[e].boundary = sort_corners(mesh, e, sides[e], corners);
       finder.find(corners, out);
+      append_parts(finder.divided(), parts_out);
     };
   });
+  std::size_t sites = 0;
+  for (std::int64_t e = 0; e < mesh.owned_elements; ++e) sites += rows.row(e).size();
+  found.sites.reserve(sites);
   for (std::int64_t e = 0; e < mesh.owned_elements; ++e) {
-    const auto row = rows.row(e);
+    const auto row = std::as_const(rows).row(e);
     auto& element = found.elements[static_cast<std::size_t>(e)];
     element.first_site = static_cast<std::int64_t>(found.sites.size());
     element.sites = static_cast<std::int32_t>(row.size());
@@ -244,16 +178,20 @@ void add_arrived(const std::vector<SentSite<Dim>>& arrived, ElementSites<Dim>& f
 }  // namespace
 
 template <std::size_t Corners, int Dim>
-ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh) {
+ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh,
+                                     ChunkedRows<double>& parts) {
   ElementSites<Dim> found;
   copy_nodes(mesh, found);
-  find_own<Corners>(mesh, found);
+  find_own<Corners>(mesh, found, parts);
   add_arrived(deliver<SentSite<Dim>>(comm, elements_for_others(comm, mesh, found)), found);
   return found;
 }
 
-template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&);
-template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&);
-template ElementSites<3> find_element_sites<4>(const Communicator&, const DistributedMesh&);
+template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&,
+                                               ChunkedRows<double>&);
+template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&,
+                                               ChunkedRows<double>&);
+template ElementSites<3> find_element_sites<4>(const Communicator&, const DistributedMesh&,
+                                               ChunkedRows<double>&);
 
 }  // namespace pnpbs

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/chunked_rows.hpp"
 #include "base/types.hpp"
 #include "comm/communicator.hpp"
 #include "mesh/distributed_mesh.hpp"
@@ -35,13 +36,18 @@ struct ElementSites {
 };
 
 // All elements of which a node of this rank is a site. mesh: with a layer of ghost elements. The
-// candidates of an element are the corners of all elements that touch it. Collective.
+// candidates of an element are the corners of all elements that touch it. parts: gets the rows
+// (part_rows.hpp) of those that this rank owns, which come first. Collective.
 template <std::size_t Corners, int Dim>
-ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh);
+ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh,
+                                     ChunkedRows<double>& parts);
 
 // Triangles of the plane and of surfaces alone, and tetrahedra.
-extern template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&);
-extern template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&);
-extern template ElementSites<3> find_element_sites<4>(const Communicator&, const DistributedMesh&);
+extern template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&,
+                                                      ChunkedRows<double>&);
+extern template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&,
+                                                      ChunkedRows<double>&);
+extern template ElementSites<3> find_element_sites<4>(const Communicator&, const DistributedMesh&,
+                                                      ChunkedRows<double>&);
 
 }  // namespace pnpbs

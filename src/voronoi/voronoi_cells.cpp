@@ -63,10 +63,11 @@ class CellMaker {
   void add_part(std::int32_t number, std::size_t site) {
     const auto& element = all_.elements[static_cast<std::size_t>(number)];
     const auto sites = all_.of(element);
-    volumes_.push_back(parts_.volume(number, site));
+    const std::span<const double> parts = parts_.of(number);
+    volumes_.push_back(parts[site]);
     for (std::size_t other = 0; other < sites.size(); ++other)
       if (other != site)
-        if (const double area = parts_.area(number, site, other); area != 0)
+        if (const double area = parts[place_of_pair(sites.size(), site, other)]; area != 0)
           faces_.push_back({sites[other], area});
     if (element.boundary == 0) return;
     x_.clear();
@@ -134,9 +135,10 @@ std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMe
   auto made = std::make_unique<VoronoiCells>();
   VoronoiCells& cells = *made;
   cells.dimension = Dim;
-  const ElementSites<Dim> all = find_element_sites<Corners, Dim>(comm, mesh);
+  ChunkedRows<double> own_parts;
+  const ElementSites<Dim> all = find_element_sites<Corners, Dim>(comm, mesh, own_parts);
   const ElementsOfSites<Dim> at_nodes(all, mesh.owned_nodes);
-  const ElementParts<Dim, Corners> parts(all);
+  const ElementParts<Dim, Corners> parts(all, std::move(own_parts), mesh.owned_elements);
   cells.volumes.resize(static_cast<std::size_t>(mesh.owned_nodes));
   cells.boundary.resize(static_cast<std::size_t>(Dim * mesh.owned_nodes));
   cells.at_boundary.resize(static_cast<std::size_t>(mesh.owned_nodes));
