@@ -2,10 +2,20 @@
 // Searches among so few nodes that a branch for each would cost more than to look at all of them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace pnpbs {
+
+// The last place of the node, or -1.
+inline std::int32_t place_among(std::span<const std::int32_t> nodes, std::int32_t node) {
+  std::int32_t place = -1;
+  const std::int32_t count = static_cast<std::int32_t>(nodes.size());
+  for (std::int32_t k = 0; k < count; ++k)
+    place = nodes[static_cast<std::size_t>(k)] == node ? k : place;
+  return place;
+}
 
 inline bool has(std::span<const std::int32_t> nodes, std::int32_t node) {
   unsigned found = 0;

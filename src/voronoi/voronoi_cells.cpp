@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "base/chunked_rows.hpp"
 #include "voronoi/element_parts.hpp"
 #include "voronoi/elements_of_sites.hpp"
+#include "voronoi/few_nodes.hpp"
 
 namespace pnpbs {
 
@@ -44,6 +46,7 @@ class CellMaker {
   void operator()(std::int64_t node, std::vector<CellFace<Dim>>& out) {
     volumes_.clear();
     faces_.clear();
+    neighbours_.clear();
     for (auto& terms : boundary_) terms.clear();
     for (const auto& entry : at_nodes_.at(node))
       add_part(entry.element, static_cast<std::size_t>(entry.site));
@@ -56,9 +59,17 @@ class CellMaker {
 
  private:
   struct FacePart {
-    std::int32_t neighbour;
+    std::int32_t place;  // of the neighbour in neighbours_
     double area;
   };
+
+  // Adds it if it is new.
+  std::int32_t place_of(std::int32_t neighbour) {
+    const std::int32_t place = place_among(neighbours_, neighbour);
+    if (place >= 0) return place;
+    neighbours_.push_back(neighbour);
+    return static_cast<std::int32_t>(neighbours_.size()) - 1;
+  }
 
   void add_part(std::int32_t number, std::size_t site) {
     const auto& element = all_.elements[static_cast<std::size_t>(number)];
@@ -68,7 +79,7 @@ class CellMaker {
     for (std::size_t other = 0; other < sites.size(); ++other)
       if (other != site)
         if (const double area = parts[place_of_pair(sites.size(), site, other)]; area != 0)
-          faces_.push_back({sites[other], area});
+          faces_.push_back({place_of(sites[other]), area});
     if (element.boundary == 0) return;
     x_.clear();
     for (const std::int32_t s : sites) x_.push_back(all_.x[static_cast<std::size_t>(s)]);
@@ -86,15 +97,17 @@ class CellMaker {
     for (std::size_t c = 0; c < Dim; ++c) boundary_[c].push_back(-inward[c] / length * area);
   }
 
+  // By the neighbours' ids.
   void append_faces(const Point<Dim>& x, std::vector<CellFace<Dim>>& out) {
-    std::ranges::sort(faces_, [&](const FacePart& a, const FacePart& b) {
-      return a.neighbour != b.neighbour ? id(a.neighbour) < id(b.neighbour) : a.area < b.area;
-    });
-    for (std::size_t begin = 0, end = 0; begin < faces_.size(); begin = end) {
-      const std::int32_t neighbour = faces_[begin].neighbour;
+    sort_areas();
+    order_.resize(neighbours_.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::ranges::sort(order_, {}, [&](std::size_t place) { return id(neighbours_[place]); });
+    for (const std::size_t place : order_) {
       double area = 0;
-      for (; end < faces_.size() && faces_[end].neighbour == neighbour; ++end)
-        area += faces_[end].area;
+      for (std::size_t k = place == 0 ? 0 : ends_[place - 1]; k < ends_[place]; ++k)
+        area += areas_[k];
+      const std::int32_t neighbour = neighbours_[place];
       const Point<Dim>& there = all_.x[static_cast<std::size_t>(neighbour)];
       const double away = distance<Dim>(x, there);
       if (area <= kNoFace * std::pow(away, static_cast<int>(Corners) - 2)) continue;
@@ -102,6 +115,18 @@ class CellMaker {
       for (std::size_t k = 0; k < Dim; ++k) normal[k] = (there[k] - x[k]) / away;
       out.push_back({neighbour, area, away, normal});
     }
+  }
+  // Rows of the areas at each neighbour, each by size.
+  void sort_areas() {
+    ends_.assign(neighbours_.size() + 1, 0);
+    for (const FacePart& part : faces_) ++ends_[static_cast<std::size_t>(part.place) + 1];
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    areas_.resize(faces_.size());
+    for (const FacePart& part : faces_)
+      areas_[ends_[static_cast<std::size_t>(part.place)]++] = part.area;
+    for (std::size_t place = 0, begin = 0; place < neighbours_.size(); begin = ends_[place++])
+      std::sort(areas_.begin() + static_cast<std::ptrdiff_t>(begin),
+                areas_.begin() + static_cast<std::ptrdiff_t>(ends_[place]));
   }
   std::int64_t id(std::int32_t node) const { return all_.ids[static_cast<std::size_t>(node)]; }
 
@@ -114,6 +139,9 @@ class CellMaker {
   std::vector<double> volumes_;
   std::array<std::vector<double>, Dim> boundary_;
   std::vector<FacePart> faces_;
+  std::vector<std::int32_t> neighbours_;
+  std::vector<double> areas_;              // of the parts, by neighbour
+  std::vector<std::size_t> ends_, order_;  // of neighbours_: of their areas, and by id
 };
 
 template <int Dim>
