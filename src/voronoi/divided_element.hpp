@@ -105,7 +105,9 @@ class DividedElement {
   template <class Measure>
   double volume(std::size_t site, const Measure& measure_of) {
     const std::size_t apex = site < Corners ? site : 0;
-    double sum = std::sqrt(squared(height(apex))) * part_of_side(apex, site).measure();
+    double sum = 0;
+    if (site != apex || may_reach_side(site))
+      sum = std::sqrt(squared(height(apex))) * part_of_side(apex, site).measure();
     for (std::size_t other = 0; other < sites_.size(); ++other) {
       if (other == site) continue;
       const double measure = measure_of(other);
@@ -123,6 +125,21 @@ class DividedElement {
     Point<Dim> sum;
     for (std::size_t k = 0; k < Dim; ++k) sum[k] = a[k] + t * b[k];
     return sum;
+  }
+
+  // May a corner be the closest one somewhere on the side opposite to it? There it would be closer
+  // than all corners of the side. By how much, as a difference of squared distances, is linear, and
+  // so is the sum over these corners: where that is well below 0 at each of them, nothing is left.
+  bool may_reach_side(std::size_t corner) const {
+    constexpr double kWell = 0.9;  // far more than rounding
+    for (std::size_t a = 0; a < Corners; ++a) {
+      if (a == corner) continue;
+      double sum = 0;
+      for (std::size_t b = 0; b < Corners; ++b)
+        if (b != a && b != corner) sum += squared_distance<Dim>(sites_[a], sites_[b]);
+      if (sum >= kWell * kExtent * squared_distance<Dim>(sites_[a], sites_[corner])) return true;
+    }
+    return false;
   }
 
   // The part of a vector that lies in the plane of the element.
