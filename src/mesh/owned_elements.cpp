@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "placement/element_regions.hpp"
 #include "placement/incident_elements.hpp"
@@ -20,6 +21,20 @@ std::vector<std::int64_t> node_numbers(NodalResults& results, const RankRanges& 
 
 namespace {
 
+// To a node, where there are no boundaries.
+template <std::size_t Corners>
+constexpr std::size_t kUsualElements = Corners == 3 ? 2 : 6;
+
+// They are compared often, and lie side by side here.
+template <int Dim>
+std::vector<std::int64_t> ids_by_place(const Results<Dim>& results) {
+  const Nodes<Dim>& nodes = results.level().nodes;
+  std::vector<std::int64_t> ids(static_cast<std::size_t>(nodes.count));
+  for (std::int64_t place = 0; place < nodes.count; ++place)
+    ids[static_cast<std::size_t>(place)] = nodes.id(results.node_at(place));
+  return ids;
+}
+
 // Calls visit(places, tag), the place of the least id first.
 template <std::size_t Corners, int Dim, class Visit>
 void for_elements_and_tags(const Results<Dim>& results, const Visit& visit) {
@@ -31,41 +46,63 @@ void for_elements_and_tags(const Results<Dim>& results, const Visit& visit) {
   }
 }
 
-// Sorts those that follow each other with the same key(row).
-template <class Row, class Key, class Less>
-void sort_runs(std::vector<Row>& rows, const Key& key, const Less& less) {
-  for (auto begin = rows.begin(), end = begin; begin != rows.end(); begin = end) {
-    end = std::find_if(begin, rows.end(), [&](const Row& row) { return key(row) != key(*begin); });
-    std::sort(begin, end, less);
+// Puts elements in the order of their corners' ids.
+template <std::size_t Corners, int Dim>
+class ElementsInOrder {
+ public:
+  using Element = MeshElement<Corners>;
+
+  ElementsInOrder(const Results<Dim>& results, const std::vector<std::int64_t>& numbers)
+      : numbers_(numbers), ids_(ids_by_place(results)) {
+    elements_.reserve(static_cast<std::size_t>(results.count()) * kUsualElements<Corners>);
   }
-}
+
+  // By the places of its corners. Those that fill the domain come by the place of the least id
+  // already, so that only those of one such place are to be sorted.
+  void add(std::array<std::int64_t, Corners> places, std::int32_t tag) {
+    if constexpr (Corners == Dim + 1)
+      if (sorted_ < elements_.size() && elements_.back().corners[0] != places[0]) sort_last();
+    incident::bring_least_id_first(places, [&](std::int64_t place) { return id(place); });
+    elements_.push_back({kNoElement, places, tag});
+  }
+
+  std::vector<Element> take() {
+    sort_last();
+    return std::move(elements_);
+  }
+
+ private:
+  std::int64_t id(std::int64_t place) const { return ids_[static_cast<std::size_t>(place)]; }
+
+  // And has the numbers of their corners instead of the places.
+  void sort_last() {
+    const auto begin = elements_.begin() + static_cast<std::ptrdiff_t>(sorted_);
+    std::sort(begin, elements_.end(), [&](const Element& a, const Element& b) {
+      for (std::size_t k = 0; k < Corners; ++k)
+        if (a.corners[k] != b.corners[k]) return id(a.corners[k]) < id(b.corners[k]);
+      return false;
+    });
+    for (auto element = begin; element != elements_.end(); ++element)
+      for (std::int64_t& corner : element->corners)
+        corner = numbers_[static_cast<std::size_t>(corner)];
+    sorted_ = elements_.size();
+  }
+
+  const std::vector<std::int64_t>& numbers_;
+  const std::vector<std::int64_t> ids_;
+  std::vector<Element> elements_;
+  std::size_t sorted_ = 0;  // so many are
+};
 
 }  // namespace
 
 template <std::size_t Corners, int Dim>
 std::vector<MeshElement<Corners>> owned_elements(const Results<Dim>& results,
                                                  const std::vector<std::int64_t>& numbers) {
-  using Element = MeshElement<Corners>;
-  const NodeArray<std::int64_t>& ids = results.level().nodes.id;
-  const auto id = [&](std::int64_t place) { return ids(results.node_at(place)); };
-  std::vector<Element> elements;  // first by the places of their corners
-  for_elements_and_tags<Corners>(results,
-                                 [&](std::array<std::int64_t, Corners> places, std::int32_t tag) {
-                                   incident::bring_least_id_first(places, id);
-                                   elements.push_back({kNoElement, places, tag});
-                                 });
-  const auto by_ids = [&](const Element& a, const Element& b) {
-    return std::ranges::lexicographical_compare(a.corners, b.corners, {}, id, id);
-  };
-  // Those that fill the domain come by the place of the least id already.
-  if constexpr (Corners == Dim + 1)
-    sort_runs(
-        elements, [](const Element& element) { return element.corners[0]; }, by_ids);
-  else
-    std::ranges::sort(elements, by_ids);
-  for (Element& element : elements)
-    for (std::int64_t& corner : element.corners) corner = numbers[static_cast<std::size_t>(corner)];
-  return elements;
+  ElementsInOrder<Corners, Dim> elements(results, numbers);
+  for_elements_and_tags<Corners>(
+      results, [&](const auto& places, std::int32_t tag) { elements.add(places, tag); });
+  return elements.take();
 }
 
 template std::vector<MeshElement<3>> owned_elements(const Results<2>&,
