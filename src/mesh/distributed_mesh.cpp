@@ -67,7 +67,7 @@ void make(Results<Dim>& results, int layers, DistributedMesh& mesh) {
 
   const ElementsAtNodes<Corners> at_nodes(comm, nodes, std::move(own));
   auto facets = facets_of_owned_elements(results, numbers, nodes, elements, at_nodes);
-  const auto shared = nodes_of_others<Corners>(nodes, at_nodes.own());
+  const std::vector<std::int64_t>& shared = at_nodes.nodes_of_others();
   const auto ghosts = ghost_elements(comm, nodes, elements, at_nodes, shared, layers);
   add_facets_of_ghosts(comm, elements, ghosts, facets);
 
@@ -83,8 +83,8 @@ void make(Results<Dim>& results, int layers, DistributedMesh& mesh) {
   require_fits_rank(nodes.count() + static_cast<std::int64_t>(others.size()), "nodes");
   require_fits_rank(elements.count() + static_cast<std::int64_t>(ghosts.size()), "elements");
   MeshArrays<Corners> arrays(mesh, nodes, elements);
-  arrays.reserve(static_cast<std::size_t>(nodes.count()) + node_ghosts.size(),
-                 at_nodes.own().size() + ghosts.size());
+  arrays.resize(static_cast<std::size_t>(nodes.count()) + node_ghosts.size(),
+                at_nodes.own().size() + ghosts.size());
   for (std::int64_t n = nodes.first(); n < nodes.end(); ++n)
     arrays.add(mesh_node(results, nodes, n));
   for (const MeshNode& node : node_ghosts) arrays.add(node);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/rank_limit.hpp"
 #include "mesh/mesh_records.hpp"
 #include "mesh/rank_ranges.hpp"
 
@@ -27,6 +28,8 @@ class ElementsAtNodes {
 
   std::span<const Element> own() const { return std::span(elements_).first(owned_); }
   std::span<const Element> of_others() const { return std::span(elements_).subspan(owned_); }
+  // The nodes of own elements that other ranks own, each once.
+  const std::vector<std::int64_t>& nodes_of_others() const { return nodes_of_others_; }
   // Calls visit(element) for those at an owned node.
   template <class Visit>
   void at(std::int64_t node, const Visit& visit) const {
@@ -38,19 +41,26 @@ class ElementsAtNodes {
  private:
   void gather(const Communicator& comm) {
     Outbox outgoing;
+    std::vector<int> ranks;
     for (const Element& element : elements_) {
-      std::vector<int> ranks;
-      for (const std::int64_t corner : element.corners)
-        if (!nodes_.has(corner)) ranks.push_back(nodes_.owner(corner));
+      ranks.clear();
+      for (const std::int64_t corner : element.corners) {
+        if (nodes_.has(corner)) continue;
+        nodes_of_others_.push_back(corner);
+        ranks.push_back(nodes_.owner(corner));
+      }
+      if (ranks.empty()) continue;
       sort_and_keep_one(ranks);
       for (const int rank : ranks) pack(outgoing.to(rank), element);
     }
+    sort_and_keep_one(nodes_of_others_);
     const std::vector<Element> arrived = deliver<Element>(comm, outgoing);
     elements_.insert(elements_.end(), arrived.begin(), arrived.end());
   }
 
   // Compressed rows of elements by owned node.
   void sort_by_node() {
+    require_fits_rank(std::ssize(elements_), "elements");
     const auto for_own_corners = [&](const auto& visit) {
       for (std::size_t e = 0; e < elements_.size(); ++e)
         for (const std::int64_t corner : elements_[e].corners)
@@ -62,14 +72,16 @@ class ElementsAtNodes {
     entries_.resize(static_cast<std::size_t>(offsets_.back()));
     std::vector<std::int64_t> next = offsets_;
     for_own_corners([&](std::size_t e, std::size_t node) {
-      entries_[static_cast<std::size_t>(next[node]++)] = static_cast<std::int64_t>(e);
+      entries_[static_cast<std::size_t>(next[node]++)] = static_cast<std::int32_t>(e);
     });
   }
 
   const RankRanges& nodes_;
   std::vector<Element> elements_;  // own ones first
   std::size_t owned_;
-  std::vector<std::int64_t> offsets_, entries_;
+  std::vector<std::int64_t> nodes_of_others_;
+  std::vector<std::int64_t> offsets_;  // into entries_, by node
+  std::vector<std::int32_t> entries_;  // places in elements_
 };
 
 }  // namespace pnpbs

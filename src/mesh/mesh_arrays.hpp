@@ -28,32 +28,33 @@ class MeshArrays {
     mesh.all_elements = elements.total();
   }
 
-  // Makes room for so many, owned ones included.
-  void reserve(std::size_t nodes, std::size_t elements) {
-    mesh_.x.reserve(nodes * static_cast<std::size_t>(mesh_.dimension));
-    for (auto* array : {&mesh_.numbers, &mesh_.ids}) array->reserve(nodes);
-    for (auto* array : {&mesh_.owners, &mesh_.tags}) array->reserve(nodes);
-    mesh_.element_corners.reserve(elements * Corners);
-    mesh_.element_numbers.reserve(elements);
-    for (auto* array : {&mesh_.element_owners, &mesh_.element_tags}) array->reserve(elements);
+  // To so many nodes and elements, owned ones included, that are then added.
+  void resize(std::size_t nodes, std::size_t elements) {
+    mesh_.x.resize(nodes * static_cast<std::size_t>(mesh_.dimension));
+    for (auto* array : {&mesh_.numbers, &mesh_.ids}) array->resize(nodes);
+    for (auto* array : {&mesh_.owners, &mesh_.tags}) array->resize(nodes);
+    mesh_.element_corners.resize(elements * Corners);
+    mesh_.element_numbers.resize(elements);
+    for (auto* array : {&mesh_.element_owners, &mesh_.element_tags}) array->resize(elements);
   }
 
   // Owned ones first, then the others by number.
   void add(const MeshNode& node) {
-    for (int k = 0; k < mesh_.dimension; ++k)
-      mesh_.x.push_back(node.x[static_cast<std::size_t>(k)]);
-    mesh_.numbers.push_back(node.number);
-    mesh_.ids.push_back(node.id);
-    mesh_.owners.push_back(nodes_.owner(node.number));
-    mesh_.tags.push_back(node.tag);
+    const std::size_t n = node_count_++, dim = static_cast<std::size_t>(mesh_.dimension);
+    std::copy_n(node.x.begin(), dim, mesh_.x.begin() + static_cast<std::ptrdiff_t>(dim * n));
+    mesh_.numbers[n] = node.number;
+    mesh_.ids[n] = node.id;
+    mesh_.owners[n] = nodes_.owner(node.number);
+    mesh_.tags[n] = node.tag;
   }
   // Likewise, after the nodes.
   void add(const MeshElement<Corners>& element) {
-    for (const std::int64_t corner : element.corners)
-      mesh_.element_corners.push_back(node_index(corner));
-    mesh_.element_numbers.push_back(element.number);
-    mesh_.element_owners.push_back(elements_.owner(element.number));
-    mesh_.element_tags.push_back(element.tag);
+    const std::size_t e = element_count_++;
+    for (std::size_t k = 0; k < Corners; ++k)
+      mesh_.element_corners[Corners * e + k] = node_index(element.corners[k]);
+    mesh_.element_numbers[e] = element.number;
+    mesh_.element_owners[e] = elements_.owner(element.number);
+    mesh_.element_tags[e] = element.tag;
   }
   // After the elements.
   void add(const MeshFacet<Corners>& facet) {
@@ -97,6 +98,7 @@ class MeshArrays {
   DistributedMesh& mesh_;
   const RankRanges& nodes_;
   const RankRanges& elements_;
+  std::size_t node_count_ = 0, element_count_ = 0;  // added so far
 };
 
 }  // namespace pnpbs

@@ -25,6 +25,7 @@ class RankRanges {
   std::int64_t total() const { return first_.back(); }
   bool has(std::int64_t number) const { return first() <= number && number < end(); }
   int owner(std::int64_t number) const {
+    if (has(number)) return static_cast<int>(rank_);  // mostly
     return static_cast<int>(std::ranges::upper_bound(first_, number) - first_.begin()) - 1;
   }
 

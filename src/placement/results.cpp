@@ -105,6 +105,7 @@ std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
   const std::int64_t owned = count();
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;
+  ids.reserve(static_cast<std::size_t>(nodes.count));
   for (std::int64_t place = 0; place < nodes.count; ++place) {
     ids.push_back(nodes.id(node_at(place)));
     if (place >= owned) owners.push_back(level_->tree->owner_at(nodes.position(node_at(place))));
