@@ -144,6 +144,14 @@ class CellMaker {
   std::vector<std::size_t> ends_, order_;  // of neighbours_: of their areas, and by id
 };
 
+// Makes room for all faces at once: as the arrays grew they would be copied, and be too large.
+void reserve(std::size_t faces, VoronoiCells& cells) {
+  for (auto* array : {&cells.ids, &cells.numbers}) array->reserve(faces);
+  for (auto* array : {&cells.areas, &cells.distances}) array->reserve(faces);
+  cells.normals.reserve(faces * static_cast<std::size_t>(cells.dimension));
+  cells.offsets.reserve(cells.volumes.size() + 1);
+}
+
 template <int Dim>
 void append(const ElementSites<Dim>& all, std::span<const CellFace<Dim>> faces,
             VoronoiCells& cells) {
@@ -173,6 +181,9 @@ std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMe
   ChunkedRows<CellFace<Dim>> faces;
   faces.build("pnpbs::voronoi::cells", mesh.owned_nodes,
               [&] { return CellMaker<Corners, Dim>(all, at_nodes, parts, cells); });
+  std::size_t count = 0;
+  for (std::int64_t node = 0; node < mesh.owned_nodes; ++node) count += faces.row(node).size();
+  reserve(count, cells);
   for (std::int64_t node = 0; node < mesh.owned_nodes; ++node)
     append<Dim>(all, std::as_const(faces).row(node), cells);
   return made;
