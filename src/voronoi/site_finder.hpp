@@ -35,8 +35,7 @@ class SiteFinder {
     list_vertices(corners);
     sites.insert(sites.end(), corners.begin(), corners.end());
     const std::size_t first_other = sites.size();
-    list_near(corners);
-    for (const std::int32_t node : near_)
+    for (const std::int32_t node : near(corners))
       if (is_close(node)) sites.push_back(node);
     const auto others = sites.begin() + static_cast<std::ptrdiff_t>(first_other);
     std::sort(others, sites.end(), [&](std::int32_t a, std::int32_t b) { return id(a) < id(b); });
@@ -91,18 +90,29 @@ class SiteFinder {
     return sum;
   }
 
-  // The neighbours within reach, each once, without the corners.
-  void list_near(const std::array<std::int32_t, Corners>& corners) {
-    near_.assign(corners.begin(), corners.end());
+  // The neighbours within reach, each once, without the corners. Without branches: what comes next
+  // takes the place of one that is not kept.
+  std::span<const std::int32_t> near(const std::array<std::int32_t, Corners>& corners) {
+    std::size_t most = 0;
+    for (const std::int32_t corner : corners) most += neighbours_.row(corner).size();
+    if (near_.size() < most) near_.resize(most);
     const Point<Dim> middle = middle_;
     const double squared_reach = squared_reach_;
+    std::int32_t* const nodes = near_.data();
+    std::size_t within = 0, kept = 0;
     for (const std::int32_t corner : corners)
       for (const std::int32_t node : neighbours_.row(corner)) {
+        nodes[within] = node;
         const Point<Dim>& x = nodes_.x[static_cast<std::size_t>(node)];
-        if (squared_distance<Dim>(middle, x) <= squared_reach && !has(near_, node))
-          near_.push_back(node);
+        within += squared_distance<Dim>(middle, x) <= squared_reach;
       }
-    near_.erase(near_.begin(), near_.begin() + Corners);
+    for (std::size_t k = 0; k < within; ++k) {
+      const std::int32_t node = nodes[k];
+      nodes[kept] = node;
+      const bool known = has({nodes, kept}, node), corner = has(corners, node);
+      kept += static_cast<std::size_t>(!known && !corner);
+    }
+    return {nodes, kept};
   }
   bool is_close(std::int32_t node) const {
     const Point<Dim>& x = nodes_.x[static_cast<std::size_t>(node)];
