@@ -3248,19 +3248,19 @@ contains
   ! ------------------------------------------------------------ particles ---------------------
 
   !> Makes particles that fill a body: each stands for a piece of matter of about d^2, or d^3 in
-  !> space. The nodes of the placement are the particles, placed in what domain%add_offset makes of
-  !> the body. Where two are closer than 0.5 times the mean of their d, as at creases and in thin
-  !> places, one of them is left out; then pairs closer than 0.8 are pushed apart, as far as the
-  !> wall and other particles allow, by at most 0.3 d; and of pairs still closer than 0.61, or 0.65
-  !> in the plane, one is left out. All others stay where they are. Particles have the volume that
-  !> is closer to them than to any other, as their Voronoi cells within the elements have
-  !> (voronoi%create); but those at the wall, and beside particles that have moved or are left out,
-  !> have what they see of the body, up to halfway to others, times one factor, so that all volumes
-  !> add up to the body's measure. Any number of ranks and threads gives the same bits. The
-  !> particles are a copy, and the placement stays as it is. Collective. Errors: PNPBS_ERROR_STATE
-  !> without nodes; PNPBS_ERROR_ARGUMENT for a placement on surfaces alone; PNPBS_ERROR_DOMAIN as in
-  !> domain%check, if a node is not strictly inside of the body, or if the factor is not between 0.8
-  !> and 1.25: then the nodes do not fill the body.
+  !> space. The nodes of the placement, which lie in what domain%add_offset makes of the body, become
+  !> the particles. Where two are closer than 0.5 times the mean of their d, as at creases and in
+  !> thin places, one of them is left out; then pairs closer than 0.8 are pushed apart, as far as the
+  !> wall and other particles allow, by at most 0.3 d; and of pairs still closer than 0.611, or 0.651
+  !> in the plane, one is left out. All others stay where they are. The volume of a particle is that
+  !> of its Voronoi cell within the elements (voronoi%create). At the wall, and beside particles that
+  !> have moved or are left out, it is that of what the particle sees of the body, up to halfway to
+  !> others, times one factor, so that all volumes add up to the body's measure. Any number of ranks
+  !> and threads gives the same bits. The particles are a copy, and the placement stays as it is.
+  !> Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for a placement on
+  !> surfaces alone, or a body without inside; PNPBS_ERROR_DOMAIN as in domain%check, if a node is
+  !> not strictly inside of the body, or if the factor is not between 0.8 and 1.25: then the nodes do
+  !> not fill the body.
   !>   placement  whose nodes become particles
   !>   body       with the placement's dimension, on the same context
   subroutine particles_create(self, placement, body, stat, errmsg)
@@ -3302,7 +3302,7 @@ contains
   end subroutine
 
   !> Returns what became of the nodes, over all ranks. Local; all are optional.
-  !>   left_out  nodes that are no particles, because others are too close
+  !>   left_out  nodes left out because others are too close
   !>   moved     particles that were pushed away from where their nodes are
   !>   closest   the least distance of two particles over the mean of their d; infinity if no two
   !>             are closer than that mean
@@ -3327,7 +3327,7 @@ contains
   !>   x        (dim, count) coordinates
   !>   volumes  (count) areas in the plane; over all ranks they add up to the body's
   !>   spacing  (count) d of the bubbles that they were
-  !>   ids      (count) of the nodes that they were: not without gaps
+  !>   ids      (count) of the nodes that they were; there may be gaps
   !>   tags     (count) of these nodes: the outermost ones have that of the offset, all others 0
   subroutine particles_get(self, x, volumes, spacing, ids, tags, stat, errmsg)
     class(pnpbs_particles), intent(in) :: self
@@ -3353,8 +3353,8 @@ contains
     call conclude('particles%get', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds a field of the caller to files of particles written from now on, as
-  !> placement%add_output_field does to those of nodes. The values are copied. Local. Errors:
+  !> Adds a field of the caller to files of particles written from now on, in the formats that
+  !> placement%add_output_field names. A name can be used once. The values are copied. Local. Errors:
   !> PNPBS_ERROR_ARGUMENT.
   !>   name    as there; none of id, tag, spacing, volume, quality and vtkGhostType
   !>   values  (n), or (components, n): of this rank's particles at least, in the order of get
@@ -3440,8 +3440,8 @@ contains
 
   !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
   !> .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2, .node, .ele, .face, .csv, .peridigm, .lammps, .hdf5
-  !> (see pnpbs_placement_write in pnpbs.h). A file appears under its name only when it is complete; after an error, an
-  !> existing file is unchanged. The folder and path must be the same for all ranks. The monitor, if
+  !> (see pnpbs_placement_write in pnpbs.h). A file appears under its name only when it is complete;
+  !> after an error, an existing file is unchanged. The folder and path must be the same for all ranks. The monitor, if
   !> there is one, is called from time to time. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors:
   !> PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_STATE if there are no nodes yet,
   !> PNPBS_ERROR_ARGUMENT.

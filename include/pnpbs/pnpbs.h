@@ -1337,17 +1337,17 @@ PNPBS_API pnpbs_status pnpbs_voronoi_get_faces(pnpbs_voronoi voronoi, int64_t no
 /* ---------------------------------------------------------------- particles ------------- */
 
 /** Makes particles that fill a body: each stands for a piece of matter of about d^2, or d^3 in
- *  space. The nodes of the placement are the particles, placed in what pnpbs_domain_add_offset makes
- *  of the body. Where two are closer than 0.5 times the mean of their d, as at creases and in thin
- *  places, one of them is left out; then pairs closer than 0.8 are pushed apart, as far as the wall
- *  and other particles allow, by at most 0.3 d; and of pairs still closer than 0.61, or 0.65 in the
- *  plane, one is left out. All others stay where they are. Particles have the volume that is closer
- *  to them than to any other, as their Voronoi cells within the elements have (pnpbs_voronoi_create);
- *  but those at the wall, and beside particles that have moved or are left out, have what they see
- *  of the body, up to halfway to others, times one factor, so that all volumes add up to the body's
- *  measure. Any number of ranks and threads gives the same bits. The particles are a copy, and the
- *  placement stays as it is. Collective. Errors: PNPBS_ERROR_STATE without nodes;
- *  PNPBS_ERROR_ARGUMENT for a placement on surfaces alone; PNPBS_ERROR_DOMAIN as in
+ *  space. The nodes of the placement, which lie in what pnpbs_domain_add_offset makes of the body,
+ *  become the particles. Where two are closer than 0.5 times the mean of their d, as at creases and
+ *  in thin places, one of them is left out; then pairs closer than 0.8 are pushed apart, as far as
+ *  the wall and other particles allow, by at most 0.3 d; and of pairs still closer than 0.611, or
+ *  0.651 in the plane, one is left out. All others stay where they are. The volume of a particle is
+ *  that of its Voronoi cell within the elements (pnpbs_voronoi_create). At the wall, and beside
+ *  particles that have moved or are left out, it is that of what the particle sees of the body, up
+ *  to halfway to others, times one factor, so that all volumes add up to the body's measure. Any
+ *  number of ranks and threads gives the same bits. The particles are a copy, and the placement
+ *  stays as it is. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for a
+ *  placement on surfaces alone, or a body without inside; PNPBS_ERROR_DOMAIN as in
  *  pnpbs_domain_check, if a node is not strictly inside of the body, or if the factor is not between
  *  0.8 and 1.25: then the nodes do not fill the body.
  *  @param[in] placement   whose nodes become particles
@@ -1367,7 +1367,7 @@ PNPBS_API pnpbs_status pnpbs_particles_sizes(pnpbs_particles particles, int32_t 
                                              int64_t *count, int64_t *all);
 
 /** Returns what became of the nodes, over all ranks; outputs may be NULL. Local.
- *  @param[out] left_out  nodes that are no particles, because others are too close
+ *  @param[out] left_out  nodes left out because others are too close
  *  @param[out] moved     particles that were pushed away from where their nodes are
  *  @param[out] closest   the least distance of two particles over the mean of their d; infinity if
  *                        no two are closer than that mean */
@@ -1380,15 +1380,15 @@ PNPBS_API pnpbs_status pnpbs_particles_figures(pnpbs_particles particles, int64_
  *  @param[out] x        [particles][dim] coordinates
  *  @param[out] volumes  [particles] areas in the plane; over all ranks they add up to the body's
  *  @param[out] spacing  [particles] d of the bubbles that they were
- *  @param[out] ids      [particles] of the nodes that they were: not without gaps
+ *  @param[out] ids      [particles] of the nodes that they were; there may be gaps
  *  @param[out] tags     [particles] of these nodes: the outermost ones have that of the offset, all
  *                       others 0 */
 PNPBS_API pnpbs_status pnpbs_particles_get(pnpbs_particles particles, int64_t capacity, double *x,
                                            double *volumes, double *spacing, int64_t *ids,
                                            int32_t *tags);
 
-/** Adds a field of the caller to files of particles written from now on, as
- *  pnpbs_placement_add_output_field does to those of nodes. Local. Errors: PNPBS_ERROR_ARGUMENT.
+/** Adds a field of the caller to files of particles written from now on, in the formats that
+ *  pnpbs_placement_add_output_field names. A name can be used once. Local. Errors: PNPBS_ERROR_ARGUMENT.
  *  @param[in] name        as there; none of id, tag, spacing, volume, quality and vtkGhostType
  *  @param[in] n           entries of the array: at least this rank's particles
  *  @param[in] components  numbers at each particle

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // LAMMPS' data file (https://docs.lammps.org/read_data.html) with atom_style peri: "id type volume
 // density x y z", a particle of a body a line. Ids are numbers from 1, types from 1 to the largest.
-#include <algorithm>
-
 #include "base/error.hpp"
 #include "io/formats.hpp"
 #include "io/particle_fields.hpp"
@@ -10,18 +8,6 @@
 namespace pnpbs::io {
 
 namespace {
-
-std::int32_t largest_type(const NodeSource& nodes) {
-  std::int32_t largest = 1;
-  for (const TagGroup& region : nodes.region_groups()) {
-    if (region.tag < 0)
-      throw Error(ErrorKind::argument,
-                  "a .lammps file has types from 1 on, and the tag of a region is " +
-                      std::to_string(region.tag));
-    largest = std::max(largest, region.tag);
-  }
-  return largest;
-}
 
 // With room between the particles and the walls of the box: it need not be periodic.
 std::string header(const Contents& all, std::int32_t types, const ParticleExtent& extent) {
@@ -41,7 +27,7 @@ void write_lammps(const NodeSource& nodes, SharedFile& file) {
   const std::vector<double> volumes = particle_values(nodes, kVolumeField);
   const std::vector<double> densities = particle_values(nodes, kDensityField);
   const ParticleExtent extent = extent_of_particles(nodes, volumes, file.ranks());
-  file.append_text(header(nodes.contents(), largest_type(nodes), extent));
+  file.append_text(header(nodes.contents(), largest_block(nodes, "lammps"), extent));
   std::size_t before = 0;  // nodes of windows that have been
   nodes.for_nodes([&](const NodeRows& rows) {
     file.append([&](Sink& sink) {

@@ -58,7 +58,7 @@ void require_new_field(const std::vector<OutputField>& all, const std::string& n
   require_name(name);
   if (std::ranges::find(all, name, &OutputField::name) != all.end())
     refuse_field("argument name = \"" + name +
-                 "\": there is an output field of that name; clear the output fields first");
+                 "\": there is an output field of that name; choose another");
   if (components < 1 || components > kMaxComponents)
     refuse_field("argument components = " + std::to_string(components) +
                  "; an output field has 1 to " + std::to_string(kMaxComponents));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "io/field_columns.hpp"
 
 namespace pnpbs::io {
@@ -55,6 +56,19 @@ void write_point(const NodeRows& rows, std::size_t i, Sink& sink) {
     sink.number(rows.x[3 * i + k]);
     sink.text(" ");
   }
+}
+
+std::int32_t largest_block(const NodeSource& nodes, const std::string& format) {
+  std::int32_t largest = 1;
+  for (const TagGroup& region : nodes.region_groups()) {
+    if (region.tag < 0)
+      throw Error(ErrorKind::argument, "a ." + format +
+                                           " file numbers blocks and types from 1 on, and the tag "
+                                           "of a region is " +
+                                           std::to_string(region.tag));
+    largest = std::max(largest, region.tag);
+  }
+  return largest;
 }
 
 }  // namespace pnpbs::io

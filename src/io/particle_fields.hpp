@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,10 @@ inline std::int32_t block_of(const NodeRows& rows, std::size_t i) {
   const std::int32_t tag = rows.regions.empty() ? 0 : rows.regions[i];
   return tag != 0 ? tag : 1;
 }
+
+// Of all nodes. Throws Error(ErrorKind::argument) for a tag below 1, which such a file cannot have.
+// Collective.
+std::int32_t largest_block(const NodeSource& nodes, const std::string& format);
 
 // x, y and z of node i of a body, each before a space.
 void write_point(const NodeRows& rows, std::size_t i, Sink& sink);

@@ -7,7 +7,8 @@ namespace pnpbs::io {
 
 void write_peridigm(const NodeSource& nodes, SharedFile& file) {
   const std::vector<double> volumes = particle_values(nodes, kVolumeField);
-  std::size_t before = 0;  // nodes of windows that have been
+  largest_block(nodes, "peridigm");  // refuses tags below 1
+  std::size_t before = 0;            // nodes of windows that have been
   file.append_text("# x y z block volume\n");
   nodes.for_nodes([&](const NodeRows& rows) {
     file.append([&](Sink& sink) {

@@ -179,7 +179,8 @@ void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& c
 }
 
 Wished wished_of(const Placement& placement) {
-  return {placement.dimension(), !placement.results().surfaces_alone()};
+  const bool surfaces_alone = placement.results().surfaces_alone();
+  return {placement.dimension(), !surfaces_alone, surfaces_alone};
 }
 
 void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFile>> files) {
@@ -194,6 +195,9 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
   require_possible(path, format, elements, of.dimension);
+  if (of.surfaces_alone && format.bodies_only && !format.fields.empty())
+    refuse(std::string("a .") + format.name + " file is of bodies, none of surfaces alone: '" +
+           path + "'");
   const bool holds_elements =
       format.elements == Elements::always ||
       (format.elements == Elements::regions && of.has_elements) ||

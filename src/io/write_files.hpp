@@ -23,7 +23,8 @@ struct FileWish {
 // Of what files are wanted.
 struct Wished {
   int dimension = 2;
-  bool has_elements = false;  // else nodes, and maybe surfaces alone
+  bool has_elements = false;
+  bool surfaces_alone = false;
 };
 
 Wished wished_of(const Placement& placement);

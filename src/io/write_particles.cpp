@@ -23,8 +23,9 @@ void write_particles(const std::shared_ptr<const Communicator>& comm, const Part
                      const std::vector<FileWish>& wishes,
                      const std::function<bool(double)>& asks_to_stop) {
   double done = 0;
+  const double all = static_cast<double>(wishes.size());
   const auto give_up_if_asked = [&] {
-    if (asks_to_stop && asks_to_stop(done / static_cast<double>(wishes.size())))
+    if (asks_to_stop && asks_to_stop(done == all ? 1 : done / all))
       throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
   };
   agreed(*comm, [&] {

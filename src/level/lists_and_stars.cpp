@@ -115,6 +115,15 @@ void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
 }
 
 template <int Dim>
+void make_known_around(Level<Dim>& level, double radius) {
+  if (!level.distributed()) return;
+  KnownRegion<Dim> known = known_after_exchange(level, kStarHops);
+  const std::vector<Box<Dim>> unknown = unknown_to_lists(level, known, radius);
+  if (level.comm->allreduce_sum(unknown.size()) > 0)
+    make_known(level, unknown, level.settings.adjacency_radius, known);
+}
+
+template <int Dim>
 void prepare_lists(Level<Dim>& level) {
   agreed(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
   if (!level.ghosts.are_exact(level.nodes, kStarHops)) exchange(level, kStarHops);
@@ -132,6 +141,8 @@ template void make_lists_and_stars(Level<2>&, int, double, StarZone);
 template void make_lists_and_stars(Level<3>&, int, double, StarZone);
 template void make_stars(Level<2>&, int, double, StarZone);
 template void make_stars(Level<3>&, int, double, StarZone);
+template void make_known_around(Level<2>&, double);
+template void make_known_around(Level<3>&, double);
 template void prepare_lists(Level<2>&);
 template void prepare_lists(Level<3>&);
 

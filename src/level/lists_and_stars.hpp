@@ -24,6 +24,11 @@ void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone z
 template <int Dim>
 void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone);
 
+// Afterwards a rank knows all nodes within radius times the largest d of each leaf in which it owns
+// any: all those near its own nodes, whatever lies between. Lists are there. Collective.
+template <int Dim>
+void make_known_around(Level<Dim>& level, double radius);
+
 // The lists handed out. Over several ranks with the ghosts that the stars need, and the stars.
 // Collective.
 template <int Dim>

@@ -146,7 +146,7 @@ void CellInBody<Dim>::products_with_directions(const Point<Dim>& vector,
 template <int Dim>
 std::vector<double> CellInBody<Dim>::ends_at_bisectors(
     const Point<Dim>& x, double reach, std::span<const Point<Dim>> neighbours) const {
-  const std::vector<std::int32_t> facets = body_.facets_near(x, reach);
+  const std::vector<std::int32_t> facets = body_.facets_near(x, 2 * reach);
   const std::size_t n = directions_.size();
   std::vector<double> nearness(n, 1 / reach), candidate(n);
   for (const Point<Dim>& neighbour : neighbours) {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "base/index.hpp"
+#include "level/lists_and_stars.hpp"
 #include "particles/near_nodes.hpp"
 #include "particles/separation.hpp"
 #include "particles/thinning.hpp"
@@ -21,9 +23,15 @@ constexpr double kTooClose = 0.5;
 // What pushing tries to reach.
 constexpr double kPushed = 0.8;
 
+// Particles are looked at within 2.5 of the mean of their d, and may come nearer by two pushes; d
+// there may be half as large again.
+constexpr double kKnown = 1.5 * (2.5 + 2 * kFarthestPush);
+
 template <int Dim>
-KnownParticles<Dim> known_particles(NodalResults& results) {
+KnownParticles<Dim> known_particles(Results<Dim>& results) {
   KnownParticles<Dim> known;
+  results.prepare_lists();
+  make_known_around(*results.shown(), kKnown);
   known.pattern = results.exchange_pattern();
   agreed(results.communicator(), [&] {
     const NodeColumns nodes = results.nodes();
@@ -82,20 +90,24 @@ std::unique_ptr<Particles> collected(NodalResults& results, const KnownParticles
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<Particles> make_particles(NodalResults& results, const Domain<Dim>& body) {
+std::unique_ptr<Particles> make_particles(Results<Dim>& results, const Domain<Dim>& body) {
   const Communicator& comm = results.communicator();
   const std::unique_ptr<VoronoiCells> cells = make_voronoi_cells(results);
   KnownParticles<Dim> known = known_particles<Dim>(results);
-  const std::vector<Point<Dim>> first = known.x;
-  const SignedDistance<Dim> within(body);
-  const Wall<Dim> wall(comm, within, known, cells->at_boundary);
+  std::vector<Point<Dim>> first;
+  std::optional<SignedDistance<Dim>> within;
+  agreed(comm, [&] {
+    first = known.x;
+    within.emplace(body);
+  });
+  const Wall<Dim> wall(comm, *within, known, cells->at_boundary);
 
   leave_out_close_ones(comm, kTooClose, known);
   push_apart(comm, kPushed, wall, known);
   leave_out_close_ones(comm, kClosestPair<Dim>, known);
 
   const std::vector<double> volumes =
-      volumes_within<Dim>(comm, within, measure_of(body), *cells, first, known);
+      volumes_within<Dim>(comm, *within, measure_of(body), *cells, first, known);
   std::unique_ptr<Particles> particles;
   agreed(comm, [&] { particles = collected<Dim>(results, known, first, volumes); });
   particles->all = static_cast<std::int64_t>(
@@ -107,7 +119,7 @@ std::unique_ptr<Particles> make_particles(NodalResults& results, const Domain<Di
   return particles;
 }
 
-template std::unique_ptr<Particles> make_particles<2>(NodalResults&, const PlaneDomain&);
-template std::unique_ptr<Particles> make_particles<3>(NodalResults&, const VolumeDomain&);
+template std::unique_ptr<Particles> make_particles<2>(Results<2>&, const PlaneDomain&);
+template std::unique_ptr<Particles> make_particles<3>(Results<3>&, const VolumeDomain&);
 
 }  // namespace pnpbs

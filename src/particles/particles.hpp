@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "domain/domain.hpp"
-#include "placement/nodal_results.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs {
 
@@ -31,13 +31,13 @@ struct Particles {
 // number of ranks and threads gives the same bits. Throws Error(ErrorKind::domain) if a node is not
 // strictly inside the body, or if they do not fill it. Collective, and agreed.
 template <int Dim>
-std::unique_ptr<Particles> make_particles(NodalResults& results, const Domain<Dim>& body);
+std::unique_ptr<Particles> make_particles(Results<Dim>& results, const Domain<Dim>& body);
 
 // 0.7 of the spacing that bubbles of 1.076 or 1.147 of it stand for (tool/centred_nodes.hpp).
 template <int Dim>
-inline constexpr double kClosestPair = Dim == 2 ? 0.65 : 0.61;
+inline constexpr double kClosestPair = Dim == 2 ? 0.651 : 0.611;
 
-extern template std::unique_ptr<Particles> make_particles<2>(NodalResults&, const PlaneDomain&);
-extern template std::unique_ptr<Particles> make_particles<3>(NodalResults&, const VolumeDomain&);
+extern template std::unique_ptr<Particles> make_particles<2>(Results<2>&, const PlaneDomain&);
+extern template std::unique_ptr<Particles> make_particles<3>(Results<3>&, const VolumeDomain&);
 
 }  // namespace pnpbs

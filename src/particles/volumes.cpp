@@ -29,7 +29,8 @@ double sum_of(const Communicator& comm, std::span<const double> volumes,
   for (std::size_t n = 0; n < volumes.size(); ++n)
     if ((found_again[n] != 0) == again) sum.add(volumes[n]);
   sum.carry();
-  std::vector<std::int64_t> entries(sum.entries().begin(), sum.entries().end());
+  std::vector<std::int64_t> entries;
+  agreed(comm, [&] { entries.assign(sum.entries().begin(), sum.entries().end()); });
   comm.allreduce_sum(entries);
   std::ranges::copy(entries, sum.entries().begin());
   return sum.value();

@@ -15,17 +15,23 @@ namespace {
 
 constexpr double kRounding = 1e-9, kTolerance = 1e-3;  // of the depth
 
+// Throws for the first one, by its id, that is not inside. Collective.
 template <int Dim>
-double depth_of(const SignedDistance<Dim>& body, const KnownParticles<Dim>& particles,
-                std::int64_t i) {
-  const Point<Dim>& x = particles.x[index(i)];
-  const double depth = -body(x);
-  if (depth > 0) return depth;
-  throw Error(ErrorKind::domain, "argument body: the node " +
-                                     std::to_string(particles.ids[index(i)]) + " at " +
-                                     point_text(x) +
-                                     " lies on its wall or outside: place nodes in what "
-                                     "pnpbs_domain_add_offset makes of it");
+void require_inside(const Communicator& comm, const KnownParticles<Dim>& particles,
+                    std::span<const double> depths) {
+  const auto outside = std::ranges::find_if(depths, [](double depth) { return !(depth > 0); });
+  const bool any = outside != depths.end();
+  const std::size_t i = static_cast<std::size_t>(outside - depths.begin());
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double id = any ? static_cast<double>(particles.ids[i]) : kNone;
+  const double first = -comm.allreduce_max(-id);
+  agreed(comm, [&] {
+    if (!any || id > first) return;
+    throw Error(ErrorKind::domain, "argument body: the node " + std::to_string(particles.ids[i]) +
+                                       " at " + point_text(particles.x[i]) +
+                                       " lies on its wall or outside: place nodes in what "
+                                       "pnpbs_domain_add_offset makes of it");
+  });
 }
 
 }  // namespace
@@ -33,11 +39,13 @@ double depth_of(const SignedDistance<Dim>& body, const KnownParticles<Dim>& part
 template <int Dim>
 Wall<Dim>::Wall(const Communicator& comm, const SignedDistance<Dim>& body,
                 const KnownParticles<Dim>& particles, std::span<const char> outermost)
-    : body_(body), least_depths_(particles.owned) {
+    : body_(body) {
   agreed(comm, [&] {
+    least_depths_.resize(index(particles.owned));
     for_each("pnpbs::particles::depths", particles.owned,
-             [&](std::int64_t i) { least_depths_[index(i)] = depth_of(body, particles, i); });
+             [&](std::int64_t i) { least_depths_[index(i)] = -body(particles.x[index(i)]); });
   });
+  require_inside(comm, particles, least_depths_);
   double shallowest = std::numeric_limits<double>::infinity();  // over d
   for (std::size_t i = 0; i < outermost.size(); ++i)
     if (outermost[i] != 0) shallowest = std::min(shallowest, least_depths_[i] / particles.d[i]);

@@ -23,15 +23,16 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
     refuse(option + " needs d as a formula or on a grid: --spacing, --spacing-grid");
   if (multiplied)
     refuse(option +
-           " goes by d as given, and --nodes multiplies that: particles are as many as "
-           "d^2, or d^3 in space, goes into the " +
-           (arguments.in_walls ? "wall" : "domain"));
+           " takes d as given, so --nodes cannot scale it: the number of particles is the measure "
+           "of the " +
+           (arguments.in_walls ? "wall" : "domain") + " over d^2, or d^3 in space");
   if (arguments.surfaces_only)
     refuse(option + " is for bodies, and --surfaces-only leaves nothing of them but surfaces");
   if (arguments.repair_if_needed)
     refuse(option + " needs to know the body: name the resolution of --repair");
-  if (arguments.in_walls && !arguments.regions.empty())
-    refuse("--nodes-at walls is for what is outside, and --region for what is inside");
+  if (!arguments.regions.empty())
+    refuse(option +
+           " places particles, and --region gives tags to elements, which they have none of");
 }
 
 }  // namespace

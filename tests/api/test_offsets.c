@@ -287,6 +287,87 @@ START_TEST(particles_stand_for_the_body) {
 }
 END_TEST
 
+typedef struct {
+  int calls;
+  double last;
+  int32_t stop; /* at the end */
+} watcher;
+
+static int32_t watch(double fraction, int64_t step, int64_t nodes, double speed, void* user) {
+  watcher* w = user;
+  (void)step, (void)nodes, (void)speed;
+  ck_assert(fraction >= 0 && fraction <= 1);
+  ++w->calls;
+  w->last = fraction;
+  return w->stop && fraction == 1;
+}
+
+static int lines_of(const char* path) {
+  FILE* file = fopen(path, "r");
+  int c, lines = 0;
+  ck_assert_msg(file != NULL, "no %s", path);
+  while ((c = fgetc(file)) != EOF) lines += c == '\n';
+  fclose(file);
+  return lines;
+}
+
+/* Files of particles: the placement's monitor sees and stops them, they outlive it, and take fields
+ * of which each has a name of its own. */
+START_TEST(particle_files) {
+  const char *csv[] = {"test_offsets.csv"}, *ele[] = {"test_offsets.ele"};
+  double *masses, d = 0.1;
+  int64_t n;
+  watcher w = {0, 0, 1};
+  pnpbs_domain body;
+  pnpbs_particles particles;
+  job it = {NULL, NULL, NULL};
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 2, &it.domain));
+  MUST(pnpbs_domain_create(it.context, 2, &body));
+  add_square(body);
+  MUST(pnpbs_domain_add_offset(it.domain, body, -INFINITY, -0.42 * d, NULL, NULL, 0.01, 1));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 1.076 * d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_particles_create(it.placement, body, &particles));
+  MUST(pnpbs_domain_destroy(&body));
+  MUST(pnpbs_particles_sizes(particles, NULL, &n, NULL));
+  masses = calloc((size_t)n, sizeof *masses);
+  ck_assert_ptr_nonnull(masses);
+  MUST(pnpbs_particles_add_output_field(particles, "mass", n, 1, masses));
+#define REFUSED(first, second, ...)                                                                \
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_particles_add_output_field(particles, __VA_ARGS__), first, \
+            second)
+  REFUSED("mass", "choose another", "mass", n, 1, masses);
+  REFUSED("volume", "choose another", "volume", n, 1, masses);
+  REFUSED("particles", "every one has its values", "heat", n - 1, 1, masses);
+  REFUSED("components = 0", "1 to", "heat", n, 0, masses);
+  REFUSED("values", "NULL", "heat", n, 1, NULL);
+#undef REFUSED
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_particles_write(particles, 1, ele, NULL), ".ele",
+            "no place for particles");
+  MUST(pnpbs_placement_set_monitor(it.placement, watch, &w));
+  remove(csv[0]);
+  ck_assert_int_eq(pnpbs_particles_write(particles, 1, csv, NULL), PNPBS_STOPPED);
+  ck_assert_ptr_null(fopen(csv[0], "r"));
+  ck_assert(w.calls > 0 && w.last == 1);
+  ck_assert_int_eq(pnpbs_particles_write(particles, 0, NULL, NULL), PNPBS_STOPPED);
+  w.stop = 0;
+  MUST(pnpbs_particles_write(particles, 1, csv, NULL));
+  ck_assert_int_eq(lines_of(csv[0]), n + 1);
+  remove(csv[0]);
+  MUST(pnpbs_placement_destroy(&it.placement));
+  w.calls = 0;
+  MUST(pnpbs_particles_write(particles, 1, csv, NULL));
+  ck_assert_int_eq(lines_of(csv[0]), n + 1);
+  ck_assert_int_eq(w.calls, 0);
+  remove(csv[0]);
+  free(masses);
+  MUST(pnpbs_particles_destroy(&particles));
+  job_end(&it);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- bad ones -------------- */
 
 static int32_t constant(int64_t n, int32_t dim, const double* x, double* d, void* user) {
@@ -382,6 +463,7 @@ int main(void) {
   tcase_add_test(good, depth_follows_the_spacing);
   tcase_add_test(good, volumes_by_steiner);
   tcase_add_loop_test(good, particles_stand_for_the_body, 0, 2);
+  tcase_add_test(good, particle_files);
   tcase_add_test(bad, bad_input);
   tcase_add_test(bad, bad_bodies);
   tcase_set_timeout(good, 0);

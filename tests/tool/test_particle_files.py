@@ -114,10 +114,12 @@ class ParticleFiles(CommandTest):
         self.write(*ask, *tags[:2])
         self.assertEqual(set(read_peridigm(self.folder / "a.peridigm")[1][z > 1]), {1})
         self.assertEqual(read_lammps(self.folder / "a.lammps")[1]["atom types"], [2])
-        process = subprocess.run([COMMAND, *map(str, ask), "--region", "0.5,0.5,0.5:-2"],
-                                 cwd=self.folder, capture_output=True, check=False)
-        self.assertIn(b"a .lammps file has types from 1 on, and the tag of a region is -2",
-                      process.stderr)
+        for name in TEXTS:
+            process = subprocess.run(
+                [COMMAND, *map(str, ask[:-2 * len((*TEXTS, "a.csv"))]), *self.outputs(name), "--region",
+                 "0.5,0.5,0.5:-2"], cwd=self.folder, capture_output=True, check=False)
+            self.assertIn(f"a .{name[2:]} file numbers blocks and types from 1 on, and the tag of a "
+                          "region is -2", process.stderr.decode())
 
     def check_gadget(self, table, dimension):
         points = self.points(table)

@@ -94,7 +94,7 @@ class Walls(CommandTest):
 
         walls = ("--spacing", "0.1", "--nodes-at", "walls")
         refused("--nodes-at walls needs d as a formula", *walls[2:], "--spacing", "auto")
-        refused("--nodes-at walls goes by d as given", *walls, "--nodes", "100")
+        refused("--nodes-at walls takes d as given", *walls, "--nodes", "100")
         refused("--region", *walls, "--region", "0.5,0.5:3")
         for layers in ("1", "0", "-3", "2.5", "3x", "", "1001"):
             refused("--wall-layers: expected a number of layers from 2 to 1000", *walls,

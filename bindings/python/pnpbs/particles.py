@@ -28,7 +28,7 @@ class Particles(Handle):
     `Domain.add_offset` makes of the body: each stands for a piece of matter of about d^2, or d^3 in
     space. Where two nodes are closer than 0.5 times the mean of their d, as at creases and in thin
     places, one of them is left out; then pairs closer than 0.8 are pushed apart, by at most 0.3 d;
-    and of pairs still closer than 0.61, or 0.65 in the plane, one is left out. All others stay where
+    and of pairs still closer than 0.611, or 0.651 in the plane, one is left out. All others stay where
     they are. The volumes add up to the body's. Any number of ranks and threads gives the same bits.
     The particles are a copy: nodes may move afterwards. Collective.
 
@@ -37,13 +37,13 @@ class Particles(Handle):
     - `points`: (n, dim).
     - `volumes`: areas in the plane.
     - `spacing`: d of the bubbles that they were.
-    - `ids`: of the nodes that they were: not without gaps.
+    - `ids`: of the nodes that they were; there may be gaps.
     - `tags`: of these nodes: the outermost ones have that of the offset, all others 0.
 
     Of all ranks:
 
     - `count`: how many there are.
-    - `left_out`: nodes that are no particles, because others are too close.
+    - `left_out`: nodes left out because others are too close.
     - `moved`: particles that were pushed away from where their nodes are.
     - `closest`: the least distance of two over the mean of their d; infinity if no two are closer
       than that mean."""
@@ -94,8 +94,8 @@ class Particles(Handle):
         return f"<pnpbs.Particles, {len(self)} here, {self.count} in all>"
 
     def add_output_field(self: _Self, name: str, values: ArrayLike) -> _Self:
-        """Adds a field of the caller, such as masses, to files written from now on, as
-        `Placement.add_output_field` does to those of nodes. Local."""
+        """Adds a field of the caller, such as masses, to files written from now on, in the formats
+        that `Placement.add_output_field` names. A name can be used once. Local."""
         field = np.atleast_1d(np.ascontiguousarray(values, np.float64))
         components = int(np.prod(field.shape[1:], dtype=np.int64))
         self._call("add_output_field", name.encode(), len(field), components, field)

@@ -150,24 +150,32 @@ struct Attributes {
   int untagged_element = 0, untagged_facet = 0;
   int facets = 0;  // whether any rank has facets
 
-  /** Collective. Throws std::runtime_error on all ranks for negative tags. */
+  /** Collective. Throws std::runtime_error on all ranks for negative tags, and for the largest
+   *  number as a tag: there must be one more. */
   Attributes(const Mesh& mesh, MPI_Comm comm) {
-    // The largest tags, minus the least, and whether there are facets.
+    // The largest tags, whether any is refused, and whether there are facets.
     int32_t extremes[4] = {0, 0, 0, mesh.facets > 0 ? 1 : 0};
     for (const int32_t tag : mesh.element_tags) {
       extremes[0] = std::max(extremes[0], tag);
-      extremes[2] = std::max(extremes[2], -tag);
+      extremes[2] |= is_refused(tag);
     }
     for (const int32_t tag : mesh.facet_tags) {
       extremes[1] = std::max(extremes[1], tag);
-      extremes[2] = std::max(extremes[2], -tag);
+      extremes[2] |= is_refused(tag);
     }
     MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_INT32_T, MPI_MAX, comm);
     if (extremes[2] > 0)
-      throw std::runtime_error("MFEM has no negative attributes, and the mesh has a tag below 0");
+      throw std::runtime_error(
+          "the mesh has a tag below 0 or of 2147483647: MFEM's attributes are positive, and there "
+          "must be one more");
     untagged_element = extremes[0] + 1;
     untagged_facet = extremes[1] + 1;
     facets = extremes[3];
+  }
+
+ private:
+  static int32_t is_refused(int32_t tag) {
+    return tag < 0 || tag == std::numeric_limits<int32_t>::max();
   }
 };
 
@@ -377,10 +385,10 @@ inline void write_mesh(pnpbs_mesh mesh, MPI_Comm comm, std::ostream& out) {
  *  elements are their tags: of regions, on surfaces alone of the surfaces. Boundary elements are
  *  the facets, inner ones as well, each on one rank, with their tags as attributes. MFEM's
  *  attributes are positive: where a tag is 0, the attribute is one more than the largest tag.
- *  Collective.
- *  Throws std::runtime_error on all ranks for an error of PNPBS, a mesh without ghost elements on
- *  several ranks, negative tags, more nodes than HYPRE_BigInt counts, and closed surfaces alone:
- *  MFEM ends the program where a parallel mesh has no boundary elements.
+ *  Collective. Throws std::runtime_error on all ranks for a mesh without ghost elements on several
+ *  ranks, negative tags, more nodes than HYPRE_BigInt counts, and closed surfaces alone: MFEM ends
+ *  the program where a parallel mesh has no boundary elements. For an error of PNPBS, such as a
+ *  dead handle, it throws where that occurs.
  *  @param[in] mesh  with a ghost layer or more: pnpbs_mesh_create(placement, 1, &mesh)
  *  @param[in] comm  the communicator of the mesh's context */
 inline DistributedMesh make_mesh(pnpbs_mesh mesh, MPI_Comm comm) {

@@ -8,7 +8,7 @@ Makes particles that fill `body`, a [`Domain`](@ref), of the current nodes of a 
 [`add_offset!`](@ref) makes of the body: each stands for a piece of matter of about d^2, or d^3 in
 space. Where two nodes are closer than 0.5 times the mean of their d, as at creases and in thin
 places, one of them is left out; then pairs closer than 0.8 are pushed apart, by at most 0.3 d; and
-of pairs still closer than 0.61, or 0.65 in the plane, one is left out. All others stay where they
+of pairs still closer than 0.611, or 0.651 in the plane, one is left out. All others stay where they
 are. The volumes add up to the body's. Any number of ranks and threads gives the same bits. The
 particles are a copy: nodes may move afterwards, and the placement may be closed. Collective. A
 `:error_domain` says that a node is not strictly inside of the body, or that the nodes do not fill
@@ -19,13 +19,13 @@ Of this rank, in the order of their ids:
 - `points`: `(dim, n)`.
 - `volumes`: areas in the plane.
 - `spacing`: d of the bubbles that they were.
-- `ids`: of the nodes that they were: not without gaps.
+- `ids`: of the nodes that they were; there may be gaps.
 - `tags`: of these nodes: the outermost ones have that of the offset, all others 0.
 
 Of all ranks:
 
 - `count`: how many there are.
-- `left_out`: nodes that are no particles, because others are too close.
+- `left_out`: nodes left out because others are too close.
 - `moved`: particles that were pushed away from where their nodes are.
 - `closest`: the least distance of two over the mean of their d; infinity if no two are closer than
   that mean.

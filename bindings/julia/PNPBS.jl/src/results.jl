@@ -422,7 +422,7 @@ array with that last index, with up to 9 components; entries after them, for its
 ignored. The values are copied. They belong to the current nodes: once these have moved, writing
 fails until [`clear_output_fields`](@ref). All ranks add the same fields in the same order. A name
 has 1 to 63 letters, digits, `_` and `-`. Fields of [`Particles`](@ref), such as masses, are in the
-order of these, and `volume` is there already. Local.
+order of these; `volume` is there already, and a name can be used once. Local.
 """
 function add_output_field(placement::Placement, name::AbstractString,
                           values::AbstractArray{<:Real})
