@@ -1348,8 +1348,8 @@ PNPBS_API pnpbs_status pnpbs_voronoi_get_faces(pnpbs_voronoi voronoi, int64_t no
  *  number of ranks and threads gives the same bits. The particles are a copy, and the placement
  *  stays as it is. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for a
  *  placement on surfaces alone, or a body without inside; PNPBS_ERROR_DOMAIN as in
- *  pnpbs_domain_check, if a node is not strictly inside of the body, or if the factor is not between
- *  0.8 and 1.25: then the nodes do not fill the body.
+ *  pnpbs_domain_check, if a node is not strictly inside of the body, or if the factor is not
+ *  between 0.8 and 1.25: then the nodes do not fill the body.
  *  @param[in] placement   whose nodes become particles
  *  @param[in] body        with the placement's dimension, on the same context
  *  @param[out] particles  the handle */
@@ -1388,7 +1388,8 @@ PNPBS_API pnpbs_status pnpbs_particles_get(pnpbs_particles particles, int64_t ca
                                            int32_t *tags);
 
 /** Adds a field of the caller to files of particles written from now on, in the formats that
- *  pnpbs_placement_add_output_field names. A name can be used once. Local. Errors: PNPBS_ERROR_ARGUMENT.
+ *  pnpbs_placement_add_output_field names. A name can be used once. Local. Errors:
+ *  PNPBS_ERROR_ARGUMENT.
  *  @param[in] name        as there; none of id, tag, spacing, volume, quality and vtkGhostType
  *  @param[in] n           entries of the array: at least this rank's particles
  *  @param[in] components  numbers at each particle

@@ -117,9 +117,8 @@ pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t n, const c
     const Computing computing(*object.context);
     const std::shared_ptr<const Communicator> comm = object.context->communicator;
     std::vector<io::FileWish> wishes;
-    agreed(*comm, [&] {
-      wishes = wishes_of(n, paths, formats, nullptr, {object.particles->dimension});
-    });
+    agreed(*comm,
+           [&] { wishes = wishes_of(n, paths, formats, nullptr, {object.particles->dimension}); });
     require_same_wishes(*comm, wishes);
     const std::shared_ptr<PlacementObject> placement = object.placement.lock();
     const auto asks_to_stop = [&](double fraction) {
