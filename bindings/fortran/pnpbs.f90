@@ -3250,17 +3250,17 @@ contains
   !> Makes particles that fill a body: each stands for a piece of matter of about d^2, or d^3 in
   !> space. The nodes of the placement, which lie in what domain%add_offset makes of the body, become
   !> the particles. Where two are closer than 0.5 times the mean of their d, as at creases and in
-  !> thin places, one of them is left out; then pairs closer than 0.8 are pushed apart, as far as the
-  !> wall and other particles allow, by at most 0.3 d; and of pairs still closer than 0.611, or 0.651
-  !> in the plane, one is left out. All others stay where they are. The volume of a particle is that
-  !> of its Voronoi cell within the elements (voronoi%create). At the wall, and beside particles that
-  !> have moved or are left out, it is that of what the particle sees of the body, up to halfway to
-  !> others, times one factor, so that all volumes add up to the body's measure. Any number of ranks
-  !> and threads gives the same bits. The particles are a copy, and the placement stays as it is.
-  !> Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for a placement on
-  !> surfaces alone, or a body without inside; PNPBS_ERROR_DOMAIN as in domain%check, if a node is
-  !> not strictly inside of the body, or if the factor is not between 0.8 and 1.25: then the nodes do
-  !> not fill the body.
+  !> thin places, one of them is left out; then pairs closer than 0.85, or 0.9 in the plane, are
+  !> pushed apart, as far as the wall and other particles allow, by at most 0.3 d; and of pairs still
+  !> closer than 0.611, or 0.651 in the plane, one is left out. All others stay where they are. The
+  !> volume of a particle is that of its Voronoi cell within the elements (voronoi%create). At the
+  !> wall, and beside particles that have moved or are left out, it is that of what the particle sees
+  !> of the body, up to halfway to others, times one factor, so that all volumes add up to the body's
+  !> measure. Any number of ranks and threads gives the same bits. The particles are a copy, and the
+  !> placement stays as it is. Collective. Errors: PNPBS_ERROR_STATE without nodes;
+  !> PNPBS_ERROR_ARGUMENT for a placement on surfaces alone, or a body without inside;
+  !> PNPBS_ERROR_DOMAIN as in domain%check, if a node is not strictly inside of the body, or if the
+  !> factor is not between 0.8 and 1.25: then the nodes do not fill the body.
   !>   placement  whose nodes become particles
   !>   body       with the placement's dimension, on the same context
   subroutine particles_create(self, placement, body, stat, errmsg)

@@ -21,7 +21,8 @@ namespace {
 // In units of d. Closer ones cannot be pushed apart far enough, and one of them goes at once.
 constexpr double kTooClose = 0.5;
 // What pushing tries to reach.
-constexpr double kPushed = 0.8;
+template <int Dim>
+constexpr double kPushed = Dim == 2 ? 0.9 : 0.85;
 
 // Particles are looked at within 2.5 of the mean of their d, and may come nearer by two pushes; d
 // there may be half as large again.
@@ -103,7 +104,7 @@ std::unique_ptr<Particles> make_particles(Results<Dim>& results, const Domain<Di
   const Wall<Dim> wall(comm, *within, known, cells->at_boundary);
 
   leave_out_close_ones(comm, kTooClose, known);
-  push_apart(comm, kPushed, wall, known);
+  push_apart(comm, kPushed<Dim>, wall, known);
   leave_out_close_ones(comm, kClosestPair<Dim>, known);
 
   const std::vector<double> volumes =

@@ -177,7 +177,7 @@ class Particles(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = [[cell.strip() for cell in line.split("|")[1:-1]]
                 for line in done.stdout.splitlines() if line.startswith("| ")]
-        places = {row[0]: row for row in rows if len(row) == 10}
+        places = {row[0]: row for row in rows if len(row) == 12}
         for name, below in (("square", 0.03), ("square, lattice", 0.001), ("eros", 0.1),
                             ("eros, lattice", 0.01)):
             self.assertAlmostEqual(float(places[name][3]), 1, delta=below)

@@ -24,7 +24,8 @@ using namespace brute;
 
 // ------------------------------------------------------------------ cases ----------------------
 
-const double kDepth = 0.42, kMostMoved = 0.3, kPushed = 0.8;
+const double kDepth = 0.42, kMostMoved = 0.3;
+double pushed_apart(std::int32_t dim) { return dim == 2 ? 0.9 : 0.85; }
 double closest_pair(std::int32_t dim) { return dim == 2 ? 0.651 : 0.611; }
 
 pnpbs_status unit_square(pnpbs_domain domain, const char*) {
@@ -208,11 +209,11 @@ void check_nodes(const Told& told, const NodesById& nodes, const Case& it) {
 
 // Those that are closer to another than pushing tries to get them, and those that have moved and
 // are near one of these, and so on.
-std::set<std::int64_t> crowd_of(const Told& told, const NodesById& nodes) {
+std::set<std::int64_t> crowd_of(const Told& told, const NodesById& nodes, double pushed) {
   std::set<std::int64_t> crowd, moved;
   for (const auto& [id, node] : nodes) {
     for (const auto& [other, there] : nodes)
-      if (other != id && apart(node, there) < kPushed) crowd.insert(id);
+      if (other != id && apart(node, there) < pushed) crowd.insert(id);
     const auto particle = told.particles.find(id);
     if (particle != told.particles.end() && particle->second.x != node.x) moved.insert(id);
   }
@@ -221,14 +222,14 @@ std::set<std::int64_t> crowd_of(const Told& told, const NodesById& nodes) {
     const Node& node = nodes.at(next.back());
     next.pop_back();
     for (const std::int64_t id : moved)
-      if (apart(node, nodes.at(id)) < kPushed + 2 * kMostMoved && crowd.insert(id).second)
+      if (apart(node, nodes.at(id)) < pushed + 2 * kMostMoved && crowd.insert(id).second)
         next.push_back(id);
   }
   return crowd;
 }
 
-void check_crowds(const Told& told, const NodesById& nodes) {
-  const std::set<std::int64_t> crowd = crowd_of(told, nodes);
+void check_crowds(const Told& told, const NodesById& nodes, std::int32_t dim) {
+  const std::set<std::int64_t> crowd = crowd_of(told, nodes, pushed_apart(dim));
   for (const auto& [id, node] : nodes) {
     const auto particle = told.particles.find(id);
     const bool as_it_was = particle != told.particles.end() && particle->second.x == node.x;
@@ -291,7 +292,7 @@ Told made_alone(const Case& it, const char* data) {
   const NodesById nodes = nodes_of(alone.placement, it.dim);
   check_pairs(all, it.dim);
   check_nodes(all, nodes, it);
-  check_crowds(all, nodes);
+  check_crowds(all, nodes, it.dim);
   if (it.is_box) check_depths(all, nodes, it.dim);
   check_volumes(all, alone, it);
   destroy(alone);
