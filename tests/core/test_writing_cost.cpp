@@ -74,6 +74,15 @@ bool can_write(const pnpbs::io::Format& format, int dimension) {
   return (!format.by_hdf5 || has_hdf5()) && (!format.bodies_only || dimension == 3);
 }
 
+// Those that files of particles need.
+pnpbs::io::OutputFields fields_of(pnpbs::Placement& placement) {
+  pnpbs::io::OutputFields fields;
+  const std::vector<double> ones(static_cast<std::size_t>(placement.results().count()), 1);
+  for (const char* name : {"volume", "density"})
+    fields.add(placement.results(), name, std::ssize(ones), 1, ones.data());
+  return fields;
+}
+
 // `more` is of several times the nodes that `few` is of.
 void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
   ck_assert_int_gt(more.results().count(), 3 * few.results().count());
@@ -81,11 +90,13 @@ void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
     if (!can_write(format, few.dimension())) continue;
     const std::string path = std::string("test_writing_cost.") + format.name;
     for (const bool elements : {false, true}) {
-      if (elements && format.elements == pnpbs::io::Elements::never) continue;
+      if (elements && (format.elements == pnpbs::io::Elements::never || !format.fields.empty()))
+        continue;
       const auto kernels_to_write = [&](pnpbs::Placement& placement) {
         std::vector<pnpbs::io::FileWish> wishes;
         pnpbs::io::add_wish(path, "", elements, pnpbs::io::wished_of(placement), wishes);
-        return kernels_of([&] { pnpbs::io::write_files(placement, {}, wishes); });
+        const pnpbs::io::OutputFields fields = fields_of(placement);
+        return kernels_of([&] { pnpbs::io::write_files(placement, fields, wishes); });
       };
       const std::int64_t of_few = kernels_to_write(few), of_more = kernels_to_write(more);
       ck_assert_msg(of_more <= of_few + kMaxMore, "%s: %lld kernels for %lld nodes, %lld for %lld",

@@ -55,9 +55,12 @@ class Walls(CommandTest):
             gap = gap_to_square(points_of(wall)) / d
             self.assertAlmostEqual(gap.min(), 0.42, delta=0.01)
             self.assertAlmostEqual(gap.max(), layers - 1 + 0.42, delta=0.01)
-            # The first and the last layer are those with the tag.
-            ends = (gap < 0.43) | (gap > layers - 1 + 0.41)
-            numpy.testing.assert_array_equal(wall["tag"], ends)
+            # The first and the last layer are those with the tag; a few were pushed off the wall.
+            below = numpy.minimum(gap - 0.42, layers - 1 + 0.42 - gap)
+            tagged = wall["tag"] == 1
+            self.assertTrue(tagged[below < 0.01].all())
+            self.assertLess(below[tagged].max(), 0.15)
+            self.assertLess(numpy.count_nonzero(below[tagged] > 0.01), 0.05 * len(gap))
             # Straight sides, and quarters of a disc at the corners.
             thickness = (layers - 1 + 0.84) * d
             area = 4 * thickness + math.pi * thickness ** 2
