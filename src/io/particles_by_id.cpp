@@ -56,9 +56,9 @@ void ParticlesById::for_nodes(const std::function<void(const NodeRows&)>& visit)
   const auto dimension = static_cast<std::size_t>(particles_.dimension);
   std::vector<ParticleRow> own;
   for (std::size_t i = 0; i < particles_.ids.size(); ++i) {
-    ParticleRow& row = own.emplace_back(particles_.ids[i], std::array<double, 3>{},
-                                        particles_.spacing[i], particles_.tags[i]);
+    ParticleRow row{particles_.ids[i], {}, particles_.spacing[i], particles_.tags[i]};
     std::copy_n(&particles_.x[dimension * i], dimension, row.x.begin());
+    own.push_back(row);
   }
   own = brought(own);
   std::ranges::sort(own, {}, &ParticleRow::id);
