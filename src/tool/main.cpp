@@ -288,7 +288,7 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   if (geo) outputs.write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
   const auto report = [&] {
-    return report_text(arguments, geo, statistics, matter.volumes, matter.figures, groups,
+    return report_text(work.arguments, geo, statistics, matter.volumes, matter.figures, groups,
                        warnings);
   };
   outputs.write_report(report());
