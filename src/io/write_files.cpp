@@ -142,10 +142,9 @@ class Writing {
   }
 
   void give_up_if_asked() const {
-    const double fraction =
-        done_ == expected_ ? 1 : static_cast<double>(done_) / static_cast<double>(expected_);
-    if (monitoring_.asks_to_stop(fraction, nodes_))
-      throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
+    io::give_up_if_asked(
+        [this](double fraction) { return monitoring_.asks_to_stop(fraction, nodes_); }, done_,
+        expected_);
   }
 
   const Monitoring& monitoring_;
@@ -181,6 +180,13 @@ void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& c
 Wished wished_of(const Placement& placement) {
   const bool surfaces_alone = placement.results().surfaces_alone();
   return {placement.dimension(), !surfaces_alone, surfaces_alone};
+}
+
+void give_up_if_asked(const AsksToStop& asks_to_stop, std::size_t done, std::size_t files) {
+  const double fraction =
+      done == files ? 1 : static_cast<double>(done) / static_cast<double>(files);
+  if (asks_to_stop && asks_to_stop(fraction))
+    throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
 }
 
 void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFile>> files) {

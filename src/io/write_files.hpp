@@ -2,6 +2,7 @@
 // Several files of one placement, which appear together.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -36,6 +37,11 @@ void add_wish(const std::string& path, const std::string& format, bool elements,
               std::vector<FileWish>& wishes);
 // Throws unless HDF5 is there for those that need it. Collective, and agreed.
 void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& comm);
+// Asks the monitor, with the part of all files that is done: Monitoring::asks_to_stop.
+using AsksToStop = std::function<bool(double fraction)>;
+// Throws Error(ErrorKind::stopped) if it stops; it may be empty. Local.
+void give_up_if_asked(const AsksToStop& asks_to_stop, std::size_t done, std::size_t files);
+
 // The files of all ranks appear together, or none. Collective, and agreed.
 void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFile>> files);
 

@@ -20,14 +20,9 @@ void require_formats_of_points(const std::vector<FileWish>& wishes) {
 
 void write_particles(const std::shared_ptr<const Communicator>& comm, const Particles& particles,
                      const GroupNames& names, const std::vector<OutputField>& fields,
-                     const std::vector<FileWish>& wishes,
-                     const std::function<bool(double)>& asks_to_stop) {
-  double done = 0;
-  const double all = static_cast<double>(wishes.size());
-  const auto give_up_if_asked = [&] {
-    if (asks_to_stop && asks_to_stop(done == all ? 1 : done / all))
-      throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
-  };
+                     const std::vector<FileWish>& wishes, const AsksToStop& asks_to_stop) {
+  std::size_t done = 0;
+  const auto give_up = [&] { give_up_if_asked(asks_to_stop, done, wishes.size()); };
   agreed(*comm, [&] {
     require_formats_of_points(wishes);
     require_hdf5_for(wishes, *comm);
@@ -37,12 +32,12 @@ void write_particles(const std::shared_ptr<const Communicator>& comm, const Part
     std::vector<std::unique_ptr<SharedFile>> files;
     for (const FileWish& wish : wishes) {
       SharedFile& file =
-          *files.emplace_back(std::make_unique<SharedFile>(comm, wish.path, give_up_if_asked));
+          *files.emplace_back(std::make_unique<SharedFile>(comm, wish.path, give_up));
       wish.format->write(nodes, file);
       file.close();
       ++done;
     }
-    agreed(*comm, give_up_if_asked);
+    agreed(*comm, give_up);
     publish(*comm, files);
   });
 }

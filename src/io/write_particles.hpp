@@ -2,7 +2,6 @@
 // Several files of particles, which appear together.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -11,11 +10,9 @@
 
 namespace pnpbs::io {
 
-// With these fields, in the formats that have room for any. asks_to_stop(fraction): see
-// Monitoring; may be empty. Throws Error(ErrorKind::stopped) if it does. Collective, and agreed.
+// With these fields, in the formats that have room for any. Collective, and agreed.
 void write_particles(const std::shared_ptr<const Communicator>& comm, const Particles& particles,
                      const GroupNames& names, const std::vector<OutputField>& fields,
-                     const std::vector<FileWish>& wishes,
-                     const std::function<bool(double)>& asks_to_stop);
+                     const std::vector<FileWish>& wishes, const AsksToStop& asks_to_stop);
 
 }  // namespace pnpbs::io

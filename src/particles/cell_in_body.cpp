@@ -88,32 +88,6 @@ double CellInBody<Dim>::volume(const Point<Dim>& x, double reach,
   return kWhole / static_cast<double>(ends.size()) * sum;
 }
 
-// Does a ball around a facet meet the way into a direction?
-template <int Dim>
-class FacetBall {
- public:
-  FacetBall(const Point<Dim>& x, const FacetCorners<Dim>& facet) {
-    Point<Dim> middle{};
-    for (const Point<Dim>& corner : facet)
-      for (std::size_t k = 0; k < Dim; ++k) middle[k] += corner[k] / Dim;
-    to_ = way(x, middle);
-    double radius = 0;
-    for (const Point<Dim>& corner : facet)
-      radius = std::max(radius, squared_distance<Dim>(middle, corner));
-    constexpr double kRounding = 1 + 1e-6;
-    least_ = dot(to_, to_) - kRounding * radius;
-  }
-
-  bool meets(const Point<Dim>& direction) const {
-    const double along = dot(to_, direction);
-    return least_ <= 0 || (along > 0 && along * along >= least_);
-  }
-
- private:
-  Point<Dim> to_;
-  double least_;  // square of what the way from x to the ball's edge is long
-};
-
 // facets: of the wall near x.
 template <int Dim>
 bool CellInBody<Dim>::sees(const Point<Dim>& x, const Point<Dim>& neighbour,
@@ -121,10 +95,8 @@ bool CellInBody<Dim>::sees(const Point<Dim>& x, const Point<Dim>& neighbour,
   const double far = distance<Dim>(x, neighbour);
   Point<Dim> direction = way(x, neighbour);
   for (double& component : direction) component /= far;
-  return std::ranges::none_of(facets, [&](std::int32_t f) {
-    const FacetCorners<Dim>& facet = body_.corners(f);
-    return FacetBall<Dim>(x, facet).meets(direction) && distance_along(direction, x, facet) < far;
-  });
+  return std::ranges::none_of(
+      facets, [&](std::int32_t f) { return distance_along(direction, x, body_.corners(f)) < far; });
 }
 
 template <int Dim>

@@ -59,7 +59,7 @@ double closest_pair(const Communicator& comm, const KnownParticles<Dim>& particl
       const std::size_t n = index(i);
       if (particles.kept[n] == 0) continue;
       near.for_near(i, [&](std::int32_t other) {
-        const std::size_t j = static_cast<std::size_t>(other);
+        const std::size_t j = index(other);
         closest = std::min(closest, distance<Dim>(particles.x[n], particles.x[j]) /
                                         (0.5 * (particles.d[n] + particles.d[j])));
       });
@@ -76,7 +76,7 @@ std::unique_ptr<Particles> collected(NodalResults& results, const KnownParticles
   particles->dimension = Dim;
   const NodeColumns nodes = results.nodes();
   for (std::int64_t place = 0; place < known.owned; ++place) {
-    const std::size_t n = static_cast<std::size_t>(place);
+    const std::size_t n = index(place);
     if (known.kept[n] == 0) continue;
     particles->x.insert(particles->x.end(), known.x[n].begin(), known.x[n].end());
     particles->ids.push_back(known.ids[n]);
