@@ -14,6 +14,16 @@ def box(context):
     return domain.add_ball((0.3, 0.35, 0.5), 0.2, tag=2)
 
 
+def of_file(context, path):
+    """The domain in the file, and the middle of the box around it."""
+    if path.endswith(".poly"):
+        domain = pnpbs.Domain(context).read_poly(path)
+    else:
+        domain = pnpbs.Domain(context, dim=3).read_surface(path)
+    low, high = domain.bounds()
+    return domain, (np.asarray(low) + high) / 2
+
+
 CORNERS = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1),
                     (0, 1, 1)])
 SIDES = [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), (0, 1, 5), (0, 5, 4), (2, 3, 7), (2, 7, 6),

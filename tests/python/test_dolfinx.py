@@ -10,7 +10,7 @@ import numpy as np
 import pnpbs
 import ufl
 from dolfinx import fem
-from mesh_domains import blocks, blocks_with_regions, box, placed, square, surfaces_of_a_box
+from mesh_domains import blocks, blocks_with_regions, box, of_file, placed, square, surfaces_of_a_box
 from mpi4py import MPI
 
 WORLD = MPI.COMM_WORLD
@@ -116,12 +116,8 @@ def check_without_a_layer(context):
 
 
 def solve_in_file(context, path, d):
-    if path.endswith(".poly"):
-        domain = pnpbs.Domain(context).read_poly(path)
-    else:
-        domain = pnpbs.Domain(context, dim=3).read_surface(path)
-    low, high = domain.bounds()
-    run(domain, WORLD, d, (np.asarray(low) + high) / 2, 10 * d)
+    domain, middle = of_file(context, path)
+    run(domain, WORLD, d, middle, 10 * d)
 
 
 def main():

@@ -9,7 +9,7 @@ import traceback
 
 import numpy as np
 import pnpbs
-from mesh_domains import blocks, blocks_with_regions, box, placed, square, surfaces_of_a_box
+from mesh_domains import blocks, blocks_with_regions, box, of_file, placed, square, surfaces_of_a_box
 from mpi4py import MPI
 from petsc4py import PETSc
 
@@ -238,12 +238,8 @@ def check_overlap(context):
 
 
 def solve_in_file(context, path, d):
-    if path.endswith(".poly"):
-        domain = pnpbs.Domain(context).read_poly(path)
-    else:
-        domain = pnpbs.Domain(context, dim=3).read_surface(path)
-    low, high = domain.bounds()
-    run(domain, d, (np.asarray(low) + high) / 2, 10 * d)
+    domain, middle = of_file(context, path)
+    run(domain, d, middle, 10 * d)
 
 
 def main():

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 COMMAND = os.environ["PNPBS_COMMAND"]
+MPIEXEC = os.environ.get("PNPBS_MPIEXEC")  # none without MPI
 SOURCE = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"])
 DATA = SOURCE / "examples" / "data"
 LAKE = DATA / "lake_victoria.poly"
@@ -73,6 +74,16 @@ class CommandTest(unittest.TestCase):
         out, err = process.communicate(stdin)
         self.assertEqual(process.returncode, code, err.decode(errors="replace"))
         return out, err
+
+    def run_on_ranks(self, *arguments, ranks=1):
+        """A quiet run on so many ranks with a thread each; one rank has no launcher."""
+        launcher = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle",
+                    "1", "-np", str(ranks)]
+        process = subprocess.run(
+            [*(launcher if ranks > 1 else []), COMMAND, *map(str, arguments), "-q"],
+            cwd=self.folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True,
+            timeout=300, check=False)
+        self.assertEqual(process.returncode, 0, process.stderr.decode())
 
     def place(self, *arguments, domain=None, spacing="0.06", **more):
         """A run on the square unless told otherwise."""

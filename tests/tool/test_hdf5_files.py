@@ -16,11 +16,10 @@ try:
 except ImportError:
     pyvista = None
 
-from command import BAD_INPUT, COMMAND, FAILED, CommandTest
+from command import BAD_INPUT, COMMAND, FAILED, MPIEXEC, CommandTest
 from readers import grid_arrays, read_with_vtk
 
 NO_HDF5 = os.environ.get("PNPBS_NO_HDF5")
-MPIEXEC = os.environ.get("PNPBS_MPIEXEC")
 FILES = ("a.vtkhdf", "a.xdmf", "a.h5")
 FACETS = ("a_facets.vtkhdf", "a_facets.xdmf", "a_facets.h5")
 BOX = ("--domain", "box(0,0,0, 1,0.8,0.6)", "--spacing", "0.15")
@@ -28,20 +27,12 @@ OUTPUTS = ("-o", "a.vtu", "-o", "a.vtkhdf", "-o", "a.xdmf")
 
 
 class Hdf5Files(CommandTest):
-    def write(self, *ask, ranks=1):
-        process = subprocess.run(
-            [*([MPIEXEC, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle",
-                "1", "-np", str(ranks)] if ranks > 1 else []), COMMAND, *map(str, ask), "-q"],
-            cwd=self.folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True,
-            timeout=300, check=False)
-        self.assertEqual(process.returncode, 0, process.stderr.decode())
-
     def contents(self):
         return {name: (self.folder / name).read_bytes() for name in self.names}
 
     # kinds: of the cells of a file, and of one of facets beside it.
     def check(self, ask, *kinds):
-        self.write(*ask, *OUTPUTS)
+        self.run_on_ranks(*ask, *OUTPUTS)
         self.names = FILES + (FACETS if len(kinds) > 1 else ())
         vtu = ["a.vtu", "a_facets.vtu"][: len(kinds)]
         self.assertEqual(self.files(), sorted([*self.names, *vtu, "square.poly"]))
@@ -142,7 +133,7 @@ class Hdf5Files(CommandTest):
         for ranks in (1, 2, 3) if MPIEXEC else (1,):
             for name in self.names:
                 (self.folder / name).write_text("old")
-            self.write(*ask, *OUTPUTS, ranks=ranks)
+            self.run_on_ranks(*ask, *OUTPUTS, ranks=ranks)
             for name, content in self.contents().items():
                 self.assertEqual(content, expected[name], f"{name}, {ranks}")
 

@@ -13,11 +13,10 @@ try:
 except ImportError:
     h5py = None
 
-from command import COMMAND, CommandTest
+from command import COMMAND, MPIEXEC, CommandTest
 from readers import read_csv
 from test_regions import CUBES
 
-MPIEXEC = os.environ.get("PNPBS_MPIEXEC")
 HDF5 = os.environ.get("PNPBS_HAVE_HDF5") == "1"
 BALL = ("--domain", "ball(2,1,0, 1)", "--spacing", "0.2", "--nodes-at", "centers")
 DENSITY = ("--density", "1000 + 100*z")
@@ -47,14 +46,6 @@ def read_lammps(path):
 
 
 class ParticleFiles(CommandTest):
-    def write(self, *ask, ranks=1):
-        process = subprocess.run(
-            [*([MPIEXEC, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle",
-                "1", "-np", str(ranks)] if ranks > 1 else []), COMMAND, *map(str, ask), "-q"],
-            cwd=self.folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True,
-            timeout=300, check=False)
-        self.assertEqual(process.returncode, 0, process.stderr.decode())
-
     def outputs(self, *names):
         return [word for name in names for word in ("-o", name)]
 
@@ -62,7 +53,7 @@ class ParticleFiles(CommandTest):
         return numpy.column_stack([table[axis] for axis in "xyz" if axis in table])
 
     def test_peridigm(self):
-        self.write(*BALL, *self.outputs("a.peridigm", "a.csv"))
+        self.run_on_ranks(*BALL, *self.outputs("a.peridigm", "a.csv"))
         table = read_csv(self.folder / "a.csv")
         points, blocks, volumes = read_peridigm(self.folder / "a.peridigm")
         numpy.testing.assert_array_equal(points, self.points(table))
@@ -74,13 +65,13 @@ class ParticleFiles(CommandTest):
 
     # Of nodes of a mesh, too, whose volumes nobody needs to ask for.
     def test_peridigm_of_a_mesh(self):
-        self.write("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.3", *self.outputs("a.peridigm"))
+        self.run_on_ranks("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.3", *self.outputs("a.peridigm"))
         points, _, volumes = read_peridigm(self.folder / "a.peridigm")
         self.assertEqual((points.min(), points.max()), (0, 1))
         self.assertAlmostEqual(math.fsum(volumes), 1, delta=1e-12)
 
     def test_lammps(self):
-        self.write(*BALL, *DENSITY, *self.outputs("a.lammps", "a.csv"))
+        self.run_on_ranks(*BALL, *DENSITY, *self.outputs("a.lammps", "a.csv"))
         table = read_csv(self.folder / "a.csv")
         rows, head = read_lammps(self.folder / "a.lammps")
         n = len(table["id"])
@@ -102,7 +93,7 @@ class ParticleFiles(CommandTest):
         ask = ("--domain", "cubes.poly", "--inner", "2", "--spacing", "0.3", "--density", "1",
                *self.outputs(*TEXTS, "a.csv"))
         tags = ("--region", "0.5,0.5,0.5:2", "--region", "0.5,0.5,1.5:5")
-        self.write(*ask, *tags)
+        self.run_on_ranks(*ask, *tags)
         z = read_csv(self.folder / "a.csv")["z"]
         _, blocks, volumes = read_peridigm(self.folder / "a.peridigm")
         self.assertEqual((set(blocks[z < 1]), set(blocks[z > 1])), ({2}, {5}))
@@ -111,7 +102,7 @@ class ParticleFiles(CommandTest):
         numpy.testing.assert_array_equal(rows[:, 1], blocks)
         self.assertEqual(head["atom types"], [5])
         self.check_ranks((*ask, *tags), TEXTS)
-        self.write(*ask, *tags[:2])
+        self.run_on_ranks(*ask, *tags[:2])
         self.assertEqual(set(read_peridigm(self.folder / "a.peridigm")[1][z > 1]), {1})
         self.assertEqual(read_lammps(self.folder / "a.lammps")[1]["atom types"], [2])
         for name in TEXTS:
@@ -161,7 +152,7 @@ class ParticleFiles(CommandTest):
     def test_gadget(self):
         square = ("--domain", self.square, "--spacing", "0.02 + 0.03*x", "--nodes-at", "centers")
         for ask, dimension in ((BALL, 3), (square, 2)):
-            self.write(*ask, *DENSITY[:1], "1000 + 100*x", *self.outputs("a.hdf5", "a.csv"))
+            self.run_on_ranks(*ask, *DENSITY[:1], "1000 + 100*x", *self.outputs("a.hdf5", "a.csv"))
             self.check_gadget(read_csv(self.folder / "a.csv"), dimension)
 
     # The same bytes again, on any ranks.
@@ -170,7 +161,7 @@ class ParticleFiles(CommandTest):
         for ranks in (1, 2, 3) if MPIEXEC else (1,):
             for name in names:
                 (self.folder / name).write_text("old")
-            self.write(*ask, ranks=ranks)
+            self.run_on_ranks(*ask, ranks=ranks)
             for name, content in expected.items():
                 self.assertTrue((self.folder / name).read_bytes() == content, f"{name}, {ranks}")
 
@@ -180,16 +171,16 @@ class ParticleFiles(CommandTest):
         for spacing in ("0.004 + 0.01*x", "0.25"):
             ask = ("--domain", self.square, "--spacing", spacing, "--density", "2 + y",
                    *self.outputs(*names))
-            self.write(*ask)
+            self.run_on_ranks(*ask)
             self.check_ranks(ask, names)
         ask = (*BALL, *DENSITY, *self.outputs(*TEXTS, *names))
-        self.write(*ask)
+        self.run_on_ranks(*ask)
         self.check_ranks(ask, (*TEXTS, *names))
 
     # Walls and what they are around, in one frame.
     @unittest.skipUnless(HDF5, "built without HDF5")
     def test_walls(self):
-        self.write("--domain", self.square, "--spacing", "0.1", "--nodes-at", "walls", "--density",
+        self.run_on_ranks("--domain", self.square, "--spacing", "0.1", "--nodes-at", "walls", "--density",
                    "3", *self.outputs("a.hdf5", "a.csv"))
         table = read_csv(self.folder / "a.csv")
         self.assertLess(table["x"].min(), 0)

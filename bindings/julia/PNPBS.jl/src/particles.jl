@@ -7,12 +7,12 @@
 Makes particles that fill `body`, a [`Domain`](@ref), of the current nodes of a placement in what
 [`add_offset!`](@ref) makes of the body: each stands for a piece of matter of about d^2, or d^3 in
 space. Where two nodes are closer than 0.5 times the mean of their d, as at creases and in thin
-places, one of them is left out; then pairs closer than 0.85, or 0.9 in the plane, are pushed apart, by
-at most 0.3 d; and of pairs still closer than 0.611, or 0.651 in the plane, one is left out. All
-others stay where they are. The volumes add up to the body's. Any number of ranks and threads gives the same bits. The
-particles are a copy: nodes may move afterwards, and the placement may be closed. Collective. A
-`:error_domain` says that a node is not strictly inside of the body, or that the nodes do not fill
-it.
+places, one of them is left out; then pairs closer than 0.85, or 0.9 in the plane, are pushed apart,
+by at most 0.3 d; and of pairs still closer than 0.611, or 0.651 in the plane, one is left out. All
+others stay where they are. The volumes add up to the body's. Any number of ranks and threads gives
+the same bits. The particles are a copy: nodes may move afterwards, and the placement may be closed.
+Collective. A `:error_domain` says that a node is not strictly inside of the body, or that the nodes
+do not fill it.
 
 Of this rank, in the order of their ids:
 
