@@ -97,10 +97,9 @@ static inline pnpbs_status volume_globe(pnpbs_domain domain, const char* data) {
   return volume_add_globe(domain, centre, 1);
 }
 
-/* A globe with bumps and dents, the deeper and narrower the larger these two are. */
-static inline pnpbs_status volume_add_rough_globe(pnpbs_domain domain, double depth, double waves) {
-  static double xyz[3 * GLOBE_TRIANGLES][3];
-  static int64_t corners[GLOBE_TRIANGLES][3];
+/* The corners of the triangles of a globe with bumps and dents, the deeper and narrower the larger
+ * these two are; returns how many there are. Room is for 3 * GLOBE_TRIANGLES. */
+static inline int64_t volume_rough_globe_corners(double depth, double waves, double (*xyz)[3]) {
   static const double centre[] = {0, 0, 0};
   int octant, i, j, up, k;
   int64_t n = 0, c;
@@ -116,9 +115,17 @@ static inline pnpbs_status volume_add_rough_globe(pnpbs_domain domain, double de
     double* x = xyz[c];
     const double r = 1 + depth * sin(waves * x[0]) * sin(waves * x[1] + 1) * sin(waves * x[2] + 2);
     for (k = 0; k < 3; ++k) x[k] *= r;
-    corners[c / 3][c % 3] = c;
   }
-  return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 3 * n, xyz[0], n, corners[0], NULL, 40);
+  return 3 * n;
+}
+
+static inline pnpbs_status volume_add_rough_globe(pnpbs_domain domain, double depth, double waves) {
+  static double xyz[3 * GLOBE_TRIANGLES][3];
+  static int64_t corners[GLOBE_TRIANGLES][3];
+  const int64_t n = volume_rough_globe_corners(depth, waves, xyz);
+  int64_t c;
+  for (c = 0; c < n; ++c) corners[c / 3][c % 3] = c;
+  return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, n, xyz[0], n / 3, corners[0], NULL, 40);
 }
 
 /* Where angles are small at d = 0.4, nearly everywhere. */

@@ -2,6 +2,7 @@
 // The Delaunay stars of all nodes, in the plane and in space.
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include "delaunay/delaunay_stars.hpp"
@@ -15,7 +16,7 @@ using Stars = std::conditional_t<Dim == 2, DelaunayStars, VolumeStars>;
 
 // In the plane stars are found so fast that none are kept.
 struct NoStarsBefore {
-  void take(const Nodes<2>&, const DelaunayStars&) {}
+  void take(const Nodes<2>&, const DelaunayStars&, std::uint64_t) {}
   void forget() {}
 };
 

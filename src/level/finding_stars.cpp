@@ -6,6 +6,7 @@
 
 #include "base/nodes_worked_for.hpp"
 #include "level/ghost_lists.hpp"
+#include "level/node_digest.hpp"
 #include "level/volume/surface_stars.hpp"
 #include "neighbors/rings.hpp"
 
@@ -88,18 +89,46 @@ void count_stars(Level<3>& level, const std::vector<char>& wanted) {
                    }));
 }
 
-template <int Dim>
-void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known) {
+// Before the others are found: those of before, if they hold.
+void begin_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) {
   const PhaseTimer timer(level.timers, Phase::stars);
-  level.timers.add(Phase::stars, {level.nodes.count, level.owned_count()});
+  const VolumeStarInput input = star_input(level, known);
+  level.stars.build_none(input);
+  if (taken_hold) level.stars_before.put_back(input, level.stars);
+}
+
+// Of the owned nodes, those whose stars are yet to be found.
+std::vector<char> owned_without_star(const Level<3>& level) {
+  std::vector<char> without = owned_nodes(level.nodes);
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    if (level.stars.found(i)) without[static_cast<std::size_t>(i)] = 0;
+  return without;
+}
+
+// Those of these owned nodes: most are as they were before, if that is known.
+void find_owned_stars(Level<3>& level, const KnownRegion<3>& known,
+                      const std::vector<char>& wanted) {
+  const PhaseTimer timer(level.timers, Phase::stars);
+  if (level.stars_before.any())
+    level.stars_before.find_stars(star_input(level, known), wanted, level.stars);
+  else
+    level.stars.add(star_input(level, known), wanted);
+  count_stars(level, wanted);
+}
+
+template <int Dim>
+void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known, bool taken_hold) {
   if constexpr (Dim == 3) {
-    if (level.ground.surfaces_alone()) return level.stars.build(surface_star_input(level, known));
-    if (level.stars_before.any() && known.is_everywhere()) {
-      const VolumeStarInput input = star_input(level, known);
-      level.stars.build_none(input);
-      return level.stars_before.find_stars(input, owned_nodes(level.nodes), level.stars);
+    const bool kept = level.stars_before.any() && known.is_everywhere();
+    if (kept && !level.ground.surfaces_alone()) {
+      begin_stars(level, known, taken_hold);
+      return find_owned_stars(level, known, owned_without_star(level));
     }
   }
+  const PhaseTimer timer(level.timers, Phase::stars);
+  level.timers.add(Phase::stars, {level.nodes.count, level.owned_count()});
+  if constexpr (Dim == 3)
+    if (level.ground.surfaces_alone()) return level.stars.build(surface_star_input(level, known));
   level.stars.build(star_input(level, known));
 }
 
@@ -141,8 +170,9 @@ std::vector<std::int64_t> nodes_at_border(const Nodes<Dim>& nodes, const Graph& 
 
 // Finds the stars of all nodes, and returns what must be known for those that are needed.
 template <int Dim>
-std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings) {
-  build_stars(level, known);
+std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings,
+                                     bool taken_hold) {
+  build_stars(level, known, taken_hold);
   UnknownBoxes<Dim> unknown(level);
   if (known.is_everywhere()) return unknown.boxes();
   const Nodes<Dim>& nodes = level.nodes;
@@ -241,8 +271,8 @@ void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<
 // then ring by ring those of ghosts. They alone ask for more ghosts, but for rare ones inside.
 std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
                                       const std::vector<std::int64_t>& at_border,
-                                      const StarZone& zone) {
-  level.stars.build_none(star_input(level, known));
+                                      const StarZone& zone, bool taken_hold) {
+  begin_stars(level, known, taken_hold);
   UnknownBoxes<3> unknown(level);
   find_stars_of(level, known, at_border, unknown);
   find_ghost_stars(level, known, at_border, zone.rings, unknown);
@@ -252,18 +282,10 @@ std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& kno
 
 // After these, those of all other owned nodes; and of ghosts around them, as where d is coarse
 // against the shape a star may reach a ghost that the list does not.
-std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& known,
-                                     const std::vector<std::int64_t>& at_border, int rings) {
+std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& known, int rings) {
   const Nodes<3>& nodes = level.nodes;
-  std::vector<char> wanted = owned_nodes(nodes);
-  for (const std::int64_t i : at_border) wanted[static_cast<std::size_t>(i)] = 0;
-  if (level.stars_before.any()) {
-    const PhaseTimer timer(level.timers, Phase::stars);
-    level.stars_before.find_stars(star_input(level, known), wanted, level.stars);
-    count_stars(level, wanted);
-  } else {
-    add_stars(level, known, wanted);
-  }
+  const std::vector<char> wanted = owned_without_star(level);
+  find_owned_stars(level, known, wanted);
   UnknownBoxes<3> unknown(level);
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (wanted[static_cast<std::size_t>(i)]) unknown.ask_around(i);
@@ -274,33 +296,48 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
 }  // namespace
 
 template <int Dim>
+bool stars_hold(Level<Dim>& level) {
+  if constexpr (Dim == 2) {
+    return false;
+  } else {
+    if (level.ground.surfaces_alone()) return false;
+    const std::uint64_t before = level.stars_before.digest();
+    level.stars_digest = node_digest(level);
+    return level.comm->allreduce_sum(std::uint64_t{before != level.stars_digest}) == 0;
+  }
+}
+
+template <int Dim>
 void rebuild_stars(Level<Dim>& level) {
   level.changed_labels = {};
-  build_stars(level, KnownRegion<Dim>());
+  const bool taken_hold = stars_hold(level);
+  build_stars(level, KnownRegion<Dim>(), taken_hold);
   level.stars_before.forget();
 }
 
 template <int Dim>
 std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known,
-                                 const StarZone& zone) {
+                                 const StarZone& zone, bool taken_hold) {
   std::vector<Box<Dim>> unknown;
   if constexpr (Dim == 3)
     if (level.distributed() && !level.ground.surfaces_alone()) {
       std::vector<std::int64_t> at_border;
       agreed(*level.comm, [&] {
         at_border = nodes_at_border(level.nodes, level.lists());
-        unknown = find_border_stars(level, known, at_border, zone);
+        unknown = find_border_stars(level, known, at_border, zone, taken_hold);
       });
       if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
-      agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, at_border, zone.rings); });
+      agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, zone.rings); });
       return unknown;
     }
-  agreed(*level.comm, [&] { unknown = find_all_stars(level, known, zone.rings); });
+  agreed(*level.comm, [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
   return unknown;
 }
 
-template std::vector<Box<2>> find_stars(Level<2>&, const KnownRegion<2>&, const StarZone&);
-template std::vector<Box<3>> find_stars(Level<3>&, const KnownRegion<3>&, const StarZone&);
+template bool stars_hold(Level<2>&);
+template bool stars_hold(Level<3>&);
+template std::vector<Box<2>> find_stars(Level<2>&, const KnownRegion<2>&, const StarZone&, bool);
+template std::vector<Box<3>> find_stars(Level<3>&, const KnownRegion<3>&, const StarZone&, bool);
 template void rebuild_stars(Level<2>&);
 template void rebuild_stars(Level<3>&);
 

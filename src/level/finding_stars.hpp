@@ -11,11 +11,17 @@
 
 namespace pnpbs {
 
-// Finds the stars of the owned nodes and of the ghosts in that zone around them. Returns what must
-// be known for those that it could not find; nothing on all ranks: they are all there. Collective.
+// Has no node moved, come or gone, on any rank, since the stars were found that were taken last?
+// From now on level.stars_digest is that of the nodes now. In the plane: no. Collective.
+template <int Dim>
+bool stars_hold(Level<Dim>& level);
+
+// Finds the stars of the owned nodes and of the ghosts in that zone around them; if those taken
+// hold, only what is missing. Returns what must be known for those that it could not find; nothing
+// on all ranks: they are all there. Collective.
 template <int Dim>
 std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known,
-                                 const StarZone& zone);
+                                 const StarZone& zone, bool taken_hold);
 
 // Of all nodes, on one rank.
 template <int Dim>

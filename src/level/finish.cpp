@@ -11,7 +11,7 @@ namespace pnpbs {
 // Lists of the present positions, from which visibility is judged from now on.
 template <int Dim>
 void prepare_finish(Level<Dim>& level) {
-  agreed(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
+  take_stars(level);
   level.nodes.set_reference_positions();
   exchange(level, kRepairHops<Dim>);
   agreed(*level.comm,

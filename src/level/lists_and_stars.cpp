@@ -107,11 +107,23 @@ void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
   const auto any = [&](const std::vector<Box<Dim>>& unknown) {
     return level.comm->allreduce_sum(unknown.size()) > 0;
   };
+  const bool none_moved = stars_hold(level);
   std::vector<Box<Dim>> unknown = unknown_to_lists(level, known, radius);
   if (any(unknown)) make_known(level, unknown, radius, known);
-  while (any(unknown = find_stars(level, known, zone))) make_known(level, unknown, radius, known);
+  while (any(unknown = find_stars(level, known, zone, none_moved)))
+    make_known(level, unknown, radius, known);
   level.stars_before.forget();
   level.unknown_uses += lists_beyond_known(level, known, radius);
+}
+
+// Where labels were changed, the stars are not those of the nodes alone.
+template <int Dim>
+void take_stars(Level<Dim>& level) {
+  agreed(*level.comm, [&] {
+    level.stars_before.take(level.nodes, level.stars,
+                            level.changed_labels.any() ? 0 : level.stars_digest);
+  });
+  level.stars_digest = 0;
 }
 
 template <int Dim>
@@ -125,7 +137,7 @@ void make_known_around(Level<Dim>& level, double radius) {
 
 template <int Dim>
 void prepare_lists(Level<Dim>& level) {
-  agreed(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
+  take_stars(level);
   if (!level.ghosts.are_exact(level.nodes, kStarHops)) exchange(level, kStarHops);
   if (level.distributed())
     make_lists_and_stars(level, kStarHops, level.settings.adjacency_radius, {});
@@ -141,6 +153,8 @@ template void make_lists_and_stars(Level<2>&, int, double, StarZone);
 template void make_lists_and_stars(Level<3>&, int, double, StarZone);
 template void make_stars(Level<2>&, int, double, StarZone);
 template void make_stars(Level<3>&, int, double, StarZone);
+template void take_stars(Level<2>&);
+template void take_stars(Level<3>&);
 template void make_known_around(Level<2>&, double);
 template void make_known_around(Level<3>&, double);
 template void prepare_lists(Level<2>&);

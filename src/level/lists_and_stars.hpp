@@ -24,6 +24,11 @@ void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone z
 template <int Dim>
 void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone);
 
+// Keeps the stars there are, if they are of the nodes there are, for those that are made next:
+// before nodes are exchanged or sorted. Collective.
+template <int Dim>
+void take_stars(Level<Dim>& level);
+
 // Afterwards a rank knows all nodes within radius times the largest d of each leaf in which it owns
 // any: all those near its own nodes, whatever lies between. Lists are there. Collective.
 template <int Dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stars found before nodes moved: those kept and those found anew are together the ones that are
 // found with nothing known, in the same order, however far the nodes have gone.
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -139,6 +140,50 @@ START_TEST(nodes_given_away) {
 }
 END_TEST
 
+// Where nodes are only in another order, stars are put back, open ones, too; but for those around
+// which some are not known any more.
+START_TEST(put_back) {
+  constexpr double kFar = 1e9, kBeyond = 5;
+  Random random(9);
+  const volume_box::Crystal crystal{8};
+  const std::vector<Bubble<3>> bubbles = shaken(crystal, 0.15);
+  Listed listed(crystal);
+  listed.put(bubbles, random);
+  listed.give_away(kBeyond);
+  VolumeStars stars;
+  stars.build(listed.input());
+  StarsBefore before;
+  before.take(listed.b.nodes, stars, 7);
+  ck_assert_uint_eq(before.digest(), 7);
+
+  std::vector<Bubble<3>> fewer = bubbles;
+  const auto lost =
+      std::ranges::find_if(fewer, [](const Bubble<3>& b) { return b.x[0] > kBeyond; });
+  const std::int64_t lost_id = lost->id;
+  fewer.erase(lost);
+  listed.put(bubbles, random);
+  listed.give_away(kFar);
+  const std::map<std::int64_t, Star> all = listed.found_anew();
+  listed.put(fewer, random);
+  listed.give_away(kBeyond);
+  stars.build_none(listed.input());
+  before.put_back(listed.input(), stars);
+  ck_assert(!before.any());
+  ck_assert_uint_eq(before.digest(), 0);
+  std::int64_t missing = 0;
+  for (std::int64_t i = 0; i < listed.b.nodes.count; ++i) {
+    const Star& star = all.at(listed.b.nodes.id(i));
+    const bool has_lost = std::ranges::count(star.neighbours, lost_id) > 0;
+    const bool owned = listed.b.nodes.owned(i) != 0;
+    ck_assert_int_eq(stars.found(i), owned && !has_lost);
+    missing += owned && has_lost;
+    if (stars.found(i))
+      quick_assert(volume_tetrahedra::star_by_ids(listed.b.nodes, stars, i) == star);
+  }
+  ck_assert_int_gt(missing, 0);
+}
+END_TEST
+
 // Nodes may come and go.
 START_TEST(other_nodes) {
   Random random(5);
@@ -188,5 +233,5 @@ END_TEST
 
 int main() {
   return run_kernel_suite("stars_before", {little_moves, large_moves, ties, nodes_given_away,
-                                           other_nodes, stars_of_others});
+                                           put_back, other_nodes, stars_of_others});
 }

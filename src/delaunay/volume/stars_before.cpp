@@ -28,27 +28,28 @@ void for_chunks(const char* label, std::int64_t count, const Body& body) {
            [&](std::int64_t c) { body(c * kChunk, std::min((c + 1) * kChunk, count)); });
 }
 
-// Where owned nodes are, by their ids: in a table where these are dense.
+// Where the nodes that count are, by their ids: in a table where these are dense.
 class PlacesById {
  public:
-  explicit PlacesById(const Nodes<3>& nodes) {
-    std::int64_t end = 0, owned = 0;
+  template <class Counts>
+  PlacesById(const Nodes<3>& nodes, const Counts& counts) {
+    std::int64_t end = 0, count = 0;
     for (std::int64_t i = 0; i < nodes.count; ++i) {
-      if (!nodes.owned(i)) continue;
+      if (!counts(i)) continue;
       end = std::max(end, nodes.id(i) + 1);
-      ++owned;
+      ++count;
     }
-    const bool dense = end <= 4 * owned;
+    const bool dense = end <= 4 * count;
     if (dense) table_.assign(index(end), -1);
     for (std::int32_t i = 0; i < nodes.count; ++i) {
-      if (!nodes.owned(i)) continue;
+      if (!counts(i)) continue;
       if (dense)
         table_[index(nodes.id(i))] = i;
       else
         map_.emplace(nodes.id(i), i);
     }
   }
-  // -1: of another rank's, or of none.
+  // -1: of one that does not count, or of none.
   std::int32_t place_of(std::int64_t id) const {
     if (!table_.empty()) return id >= 0 && id < std::ssize(table_) ? table_[index(id)] : -1;
     const auto found = map_.find(id);
@@ -137,46 +138,72 @@ bool any_set(const std::vector<char>& flags) {
 
 }  // namespace
 
-void StarsBefore::take(const Nodes<3>& nodes, VolumeStars& stars) {
+void StarsBefore::take(const Nodes<3>& nodes, VolumeStars& stars, std::uint64_t digest) {
   if (!stars.are_of(nodes)) return;
-  ids_.resize(index(nodes.count));
-  for (std::int64_t i = 0; i < nodes.count; ++i) ids_[index(i)] = nodes.owned(i) ? nodes.id(i) : -1;
+  ids_.assign(nodes.id.data(), nodes.id.data() + nodes.count);
+  owned_.assign(nodes.owned.data(), nodes.owned.data() + nodes.count);
+  digest_ = digest;
   stars_ = std::exchange(stars, VolumeStars());
 }
 
 void StarsBefore::forget() { *this = StarsBefore(); }
 
-// Returns for which nodes. Only such that have owned nodes around them.
-std::vector<char> StarsBefore::put_in_place(const VolumeStarInput& input,
-                                            const std::vector<char>& wanted, VolumeStars& stars) {
-  const PlacesById owned(input.nodes);
-  std::vector<std::int32_t> place(ids_.size()), before(index(input.nodes.count), -1);
-  for (std::size_t k = 0; k < place.size(); ++k) {
-    place[k] = owned.place_of(ids_[k]);
-    if (place[k] >= 0) before[index(place[k])] = static_cast<std::int32_t>(k);
+template <class Counts>
+StarsBefore::Places StarsBefore::find_places(const Nodes<3>& nodes, const Counts& counts) const {
+  const PlacesById by_id(nodes, counts);
+  Places places{std::vector<std::int32_t>(ids_.size()),
+                std::vector<std::int32_t>(index(nodes.count), -1)};
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    const std::int32_t now = by_id.place_of(ids_[k]);
+    places.now[k] = now;
+    if (now >= 0 && owned_[k]) places.before[index(now)] = static_cast<std::int32_t>(k);
   }
-  std::vector<char> kept(wanted.size(), 0);
+  return places;
+}
+
+// Of the nodes i for which keeps(i, its number before), if all around it have a place. Returns for
+// which.
+template <class Keeps>
+std::vector<char> StarsBefore::put_in_place(const Places& places, const Keeps& keeps,
+                                            VolumeStars& stars) {
+  std::vector<char> kept(places.before.size(), 0);
   Uses uses(std::ssize(ids_));
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    const std::int32_t k = before[i];
-    if (!wanted[i] || k < 0 || !stars_.closed(k)) continue;
+    const std::int32_t k = places.before[i];
+    if (k < 0 || !keeps(static_cast<std::int64_t>(i), k)) continue;
     bool all = true;
-    stars_.for_neighbours(k, [&](std::int64_t j) { all = all && place[index(j)] >= 0; });
+    stars_.for_neighbours(k, [&](std::int64_t j) { all = all && places.now[index(j)] >= 0; });
     kept[i] = all;
     if (all) uses.add(k);
   }
   stars.replace(kept, [&](std::int64_t i, std::vector<std::int32_t>& out) {
-    const std::int32_t k = before[index(i)];
-    stars_.copy_star(k, place, out);
+    const std::int32_t k = places.before[index(i)];
+    stars_.copy_star(k, places.now, out);
     if (uses.was_last(k)) stars_.drop_chunk(k / VolumeStars::kChunk);
   });
   forget();
   return kept;
 }
 
+void StarsBefore::put_back(const VolumeStarInput& input, VolumeStars& stars) {
+  const Nodes<3>& nodes = input.nodes;
+  put_in_place(
+      find_places(nodes, [](std::int64_t) { return true; }),
+      [&](std::int64_t i, std::int32_t before) {
+        return nodes.owned(i) != 0 && stars_.found(before) && stars_.needs(before) == 0;
+      },
+      stars);
+}
+
 void StarsBefore::find_stars(const VolumeStarInput& input, std::vector<char> wanted,
                              VolumeStars& stars) {
-  std::vector<char> kept = put_in_place(input, wanted, stars);
+  const Nodes<3>& nodes = input.nodes;
+  std::vector<char> kept = put_in_place(
+      find_places(nodes, [&](std::int64_t i) { return nodes.owned(i) != 0; }),
+      [&](std::int64_t i, std::int32_t before) {
+        return wanted[index(i)] && stars_.closed(before);
+      },
+      stars);
   const auto give_up = [&](const std::vector<char>& some) {
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && !some[i];
   };

@@ -292,11 +292,16 @@ void VolumeStars::build_none(const VolumeStarInput& input) {
 }
 
 void VolumeStars::add(const VolumeStarInput& input, const std::vector<char>& wanted) {
-  for (std::size_t i = 0; i < found_.size(); ++i) found_[i] = found_[i] || wanted[i];
+  note_found(wanted);
   rows_.rewrite(
       "pnpbs::VolumeStars::add", input.nodes.count,
       [&](std::int64_t i) { return wanted[static_cast<std::size_t>(i)] != 0; },
       [&] { return StarWriter(input, needs_); });
+}
+
+void VolumeStars::doubt(const std::vector<char>& doubtful) {
+  if (found_.empty()) found_.assign(doubtful.size(), 1);
+  for (std::size_t i = 0; i < found_.size(); ++i) found_[i] = found_[i] && !doubtful[i];
 }
 
 void VolumeStars::copy_star(std::int64_t i, const std::vector<std::int32_t>& place,

@@ -57,13 +57,18 @@ class VolumeStars {
   void add(const VolumeStarInput& input, const std::vector<char>& wanted);
   void build(const SurfaceStarInput& input);
 
+  // Those of the nodes for which doubtful is set may not be right any more: they are to be found
+  // again.
+  void doubt(const std::vector<char>& doubtful);
+
   // Are they of these nodes, in the order that they have now?
   bool are_of(const Nodes<3>& nodes) const { return arrangement_ == nodes.arrangement(); }
 
-  // Nodes have moved: the stars of those for which changed is set are written anew, write(i, out)
-  // as it is told below.
+  // The stars of the nodes for which changed is set are there, written anew: write(i, out) as it is
+  // told below.
   template <class Write>
   void replace(const std::vector<char>& changed, const Write& write) {
+    note_found(changed);
     rows_.rewrite(
         "pnpbs::VolumeStars::replace", std::ssize(changed),
         [&](std::int64_t i) { return changed[static_cast<std::size_t>(i)] != 0; },
@@ -122,7 +127,7 @@ class VolumeStars {
   // The stars of nodes c * kChunk and those after it, so many, are needed no longer.
   void drop_chunk(std::int64_t c) { rows_.drop_chunk(c); }
 
-  // One after the other: has that of node i been asked for?
+  // One after the other: has that of node i been asked for, and has it not been doubted since?
   bool found(std::int64_t i) const {
     return found_.empty() || found_[static_cast<std::size_t>(i)] != 0;
   }
@@ -151,6 +156,10 @@ class VolumeStars {
   }
 
  private:
+  void note_found(const std::vector<char>& more) {
+    for (std::size_t i = 0; i < found_.size(); ++i) found_[i] = found_[i] || more[i];
+  }
+
   struct Star {
     std::int32_t neighbours;
     bool closed, wide;

@@ -7,6 +7,7 @@
 #include "level/exchange.hpp"
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
+#include "level/node_digest.hpp"
 #include "level/reach.hpp"
 #include "level/volume/surface_level.hpp"
 #include "method/constants.hpp"
@@ -104,6 +105,8 @@ void repair_slivers(Level<3>& level) {
   level.timers.add(Phase::sweeps, repair->stars_looked_at());
   level.unknown_uses += repair->unknown_uses();
   level.nodes.moved();
+  const std::uint64_t digest = node_digest(level);
+  level.stars_digest = repair->unknown_uses() == 0 ? digest : 0;
 }
 
 }  // namespace

@@ -98,6 +98,10 @@ void StarChanges::write_in_order(const Star& star, std::vector<std::int32_t>& ou
   }
 }
 
+// Tetrahedra that are made are taken for ones of the domain, and what is outside is not looked at:
+// where a surface is rough beside d, a node that moves may change that. So open stars and those
+// that have changed are doubted; a closed one without a change has the same nodes as before, where
+// they were before.
 void StarChanges::write_to(VolumeStars& stars) const {
   std::vector<char> changed(place_.size());
   for (std::size_t i = 0; i < place_.size(); ++i) changed[i] = place_[i] != kUnchanged;
@@ -105,6 +109,9 @@ void StarChanges::write_to(VolumeStars& stars) const {
     const std::int32_t place = place_[static_cast<std::size_t>(i)];
     write_in_order(changed_[static_cast<std::size_t>(place)], out);
   });
+  for (std::size_t i = 0; i < changed.size(); ++i)
+    changed[i] = changed[i] || !stars.closed(static_cast<std::int64_t>(i));
+  stars.doubt(changed);
 }
 
 void StarChanges::put(std::int32_t i, Star star) {

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stars in space are put back as they were where no node of any rank has moved, come or gone, and
+// found again otherwise: both are those that are found with nothing known.
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/volume_tetrahedra.hpp"
+#include "level/finding_stars.hpp"
+#include "level/finish.hpp"
+#include "placement/placement_of.hpp"
+#include "rank_checks.hpp"
+#include "volume_bodies.h"
+
+namespace {
+
+using pnpbs::Phase;
+using rank_checks::comm;
+using rank_checks::expect;
+using Level = pnpbs::Level<3>;
+
+struct Body {
+  std::string name;
+  std::function<void(pnpbs::VolumeDomain&)> add;
+  double d;  // where x = 0; it grows with x
+};
+
+void add_rough_globe(pnpbs::VolumeDomain& domain) {
+  std::vector<double> xyz(9 * GLOBE_TRIANGLES);
+  const std::int64_t corners =
+      volume_rough_globe_corners(0.5, 8, reinterpret_cast<double(*)[3]>(xyz.data()));
+  std::vector<std::int64_t> triangles(static_cast<std::size_t>(corners));
+  std::iota(triangles.begin(), triangles.end(), 0);
+  domain.add_surface(pnpbs::SurfaceRole::boundary, corners, xyz.data(), corners / 3,
+                     triangles.data(), nullptr, 40);
+}
+
+// With a wall inside; and where tetrahedra at the boundary are inside or outside by chance.
+const std::vector<Body>& bodies() {
+  static const std::vector<Body> all{{"a box",
+                                      [](pnpbs::VolumeDomain& domain) {
+                                        domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
+                                        domain.add_box({0.3, 0.3, 0.3}, {0.7, 0.5, 0.6}, 2);
+                                      },
+                                      0.06},
+                                     {"a rough globe", add_rough_globe, 0.13}};
+  return all;
+}
+
+std::unique_ptr<pnpbs::PlacementOf<3>> placed(const Body& body) {
+  auto domain = std::make_shared<pnpbs::VolumeDomain>();
+  body.add(*domain);
+  pnpbs::Options options;
+  options.set("conforming_rounds", "0");
+  auto placement = std::make_unique<pnpbs::PlacementOf<3>>(comm, std::move(domain), options);
+  placement->set_spacing(std::make_shared<pnpbs::CallbackSpacing<3>>(
+      [d0 = body.d](std::int64_t n, const double* x, double* d) {
+        for (std::int64_t i = 0; i < n; ++i) d[i] = d0 + 0.05 * x[3 * i];
+        return std::int32_t{0};
+      }));
+  expect(placement->run() != pnpbs::Outcome::stopped, "the run ends");
+  placement->results().prepare_stars();
+  return placement;
+}
+
+using StarsById = std::map<std::int64_t, volume_tetrahedra::Star>;
+
+StarsById stars_by_id(const Level& level, const pnpbs::VolumeStars& stars) {
+  StarsById found;
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    if (level.nodes.owned(i))
+      found[level.nodes.id(i)] = volume_tetrahedra::star_by_ids(level.nodes, stars, i);
+  return found;
+}
+
+void expect_found_anew(const Level& level, const std::string& when) {
+  const pnpbs::KnownRegion<3> everywhere;
+  pnpbs::VolumeStars anew;
+  anew.build(star_input(level, everywhere));
+  expect(stars_by_id(level, level.stars) == stars_by_id(level, anew), when + ": the same stars");
+}
+
+// How many stars of owned nodes are looked at, over all ranks, when they are made again.
+std::int64_t looked_at_again(Level& level) {
+  const std::int64_t before = level.timers.nodes(Phase::stars).owned;
+  level.finish_stars = -1;
+  level.nodes.set_reference_positions();  // else nothing is made
+  make_finish_stars(level, {});
+  const std::int64_t looked_at = level.timers.nodes(Phase::stars).owned - before;
+  return static_cast<std::int64_t>(comm->allreduce_sum(static_cast<std::uint64_t>(looked_at)));
+}
+
+// On the last rank that has any, the owned free node in the middle of the order.
+void change_one(Level& level, const std::function<void(std::int64_t)>& change) {
+  std::int64_t some = -1;
+  for (std::int64_t i = 0; i < level.nodes.count && some < level.nodes.count / 2; ++i)
+    if (level.nodes.owned(i) && level.nodes.carrier(i) == pnpbs::Carrier::free) some = i;
+  const double last = comm->allreduce_max(some < 0 ? -1.0 : comm->rank());
+  if (last == comm->rank()) change(some);
+}
+
+// Elements of a torn boundary get other labels, whose stars are not put back.
+void check_put_back(Level& level, const Body& body) {
+  const auto nodes = static_cast<std::int64_t>(
+      comm->allreduce_sum(static_cast<std::uint64_t>(level.owned_count())));
+  looked_at_again(level);
+  const std::int64_t unmoved = looked_at_again(level);
+  if (comm->rank() == 0)
+    std::printf("%s: %lld of %lld stars looked at where no node has moved\n", body.name.c_str(),
+                static_cast<long long>(unmoved), static_cast<long long>(nodes));
+  expect(unmoved == 0, "stars are put back");
+  expect_found_anew(level, body.name + ", put back");
+
+  change_one(level, [&](std::int64_t i) {
+    pnpbs::Point<3> x = level.nodes.position(i);
+    x[0] = std::nextafter(x[0], 9.0);
+    level.nodes.set_position(i, x);
+  });
+  expect(looked_at_again(level) == nodes, "a node moved by a bit");
+  expect_found_anew(level, body.name + ", after a move by a bit");
+
+  change_one(level, [&](std::int64_t i) { level.nodes.d(i) *= 0.5; });
+  expect(looked_at_again(level) == nodes, "a node has another d");
+  expect_found_anew(level, body.name + ", with another d");
+}
+
+// A repair leaves some stars in doubt, and those found then are right.
+void check_after_repair(Level& level, const Body& body) {
+  sweep_and_repair(level, 1);
+  make_finish_stars(level, {});
+  expect_found_anew(level, body.name + ", after a repair");
+}
+
+void check_all() {
+  for (const Body& body : bodies()) {
+    const auto placement = placed(body);
+    auto& level = const_cast<Level&>(placement->level());
+    expect_found_anew(level, body.name + ", after the run");
+    check_put_back(level, body);
+    check_after_repair(level, body);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_all); }
