@@ -106,11 +106,73 @@ class StarWriter {
 }  // namespace
 
 void DelaunayStars::build(const StarInput& input) {
+  arrangement_ = -1;
   count_ = input.nodes.count;
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(count_), 0);
   const bool visibility_is_fresh = input.near_edges.built_where_nodes_are(input.nodes);
   blocks_.build("pnpbs::DelaunayStars::build", block_count(),
                 [&] { return StarWriter(input, visibility_is_fresh, needs_); });
+  arrangement_ = input.nodes.arrangement();
+}
+
+void DelaunayStars::begin_with(std::int64_t i, std::int32_t place) {
+  if (place == 0) return;
+  const Column star = column(i);
+  const std::int32_t n = star.size->value();
+  const auto reverse = [&](std::int32_t begin, std::int32_t end) {
+    for (--end; begin < end; ++begin, --end) std::swap(star.at(begin), star.at(end));
+  };
+  reverse(0, place);
+  reverse(place, n);
+  reverse(0, n);
+  for (std::int32_t k = n; k < star.length; ++k) star.at(k) = {star.at(0).value(), false};
+}
+
+void DelaunayStars::rewrite(const std::vector<char>& changed,
+                            const std::function<std::vector<Entry>(std::int64_t)>& star_of) {
+  const auto is_changed = [&](std::int64_t i) {
+    return i < count_ && changed[static_cast<std::size_t>(i)] != 0;
+  };
+  const auto any_changed = [&](std::int64_t b) {
+    bool any = false;
+    for (std::int64_t i = b * kLanes; i < (b + 1) * kLanes; ++i) any = any || is_changed(i);
+    return any;
+  };
+  const auto write = [&](std::int64_t b, std::vector<Entry>& out) {
+    std::array<std::vector<Entry>, kLanes> stars;
+    for (std::int64_t lane = 0; lane < kLanes; ++lane) {
+      const std::int64_t i = b * kLanes + lane;
+      std::vector<Entry>& star = stars[static_cast<std::size_t>(lane)];
+      if (is_changed(i))
+        star = star_of(i);
+      else if (i < count_)
+        for_neighbours_in_order(i, [&](std::int64_t j, bool flag) { star.push_back({j, flag}); });
+    }
+    append_block(b, stars, out);
+  };
+  blocks_.rewrite("pnpbs::DelaunayStars::rewrite", block_count(), any_changed,
+                  [&] { return write; });
+}
+
+// The rows of a block: sizes, then as many rows of entries as the longest star has.
+void DelaunayStars::append_block(std::int64_t b,
+                                 const std::array<std::vector<Entry>, kLanes>& stars,
+                                 std::vector<Entry>& out) const {
+  std::size_t longest = 0;
+  for (const std::vector<Entry>& star : stars) longest = std::max(longest, star.size());
+  const std::size_t begin = out.size();
+  out.resize(begin + (longest + 1) * kLanes);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const std::vector<Entry>& star = stars[lane];
+    const std::int64_t self = std::min(b * kLanes + static_cast<std::int64_t>(lane), count_);
+    const Entry filler{star.empty() ? self : star[0].value(), false};
+    const bool closed = !star.empty() && std::all_of(star.begin(), star.end(),
+                                                     [](Entry entry) { return entry.flag(); });
+    Entry* const rows = out.data() + begin + lane;
+    rows[0] = {std::ssize(star), closed};
+    for (std::size_t k = 0; k < longest; ++k)
+      rows[(k + 1) * kLanes] = k < star.size() ? star[k] : filler;
+  }
 }
 
 DelaunayStars::Column DelaunayStars::column(std::int64_t i) {

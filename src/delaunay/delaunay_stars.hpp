@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/chunked_rows.hpp"
@@ -52,6 +53,8 @@ class DelaunayStars {
   using Corners = std::array<std::int64_t, 2>;
 
   void build(const StarInput& input);
+  // Were they found for these nodes, in this order in memory? They may have moved since.
+  bool are_of(const Nodes<2>& nodes) const { return arrangement_ == nodes.arrangement(); }
 
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
 
@@ -98,6 +101,12 @@ class DelaunayStars {
   // Is the star all triangles?
   bool closed(std::int64_t i) const { return block(i / kLanes).sizes[i % kLanes].flag(); }
 
+  // The star of node i begins with the neighbour that is at this place in it.
+  void begin_with(std::int64_t i, std::int32_t place);
+  // The stars of those nodes for which changed is set become star_of(i).
+  void rewrite(const std::vector<char>& changed,
+               const std::function<std::vector<Entry>(std::int64_t)>& star_of);
+
   // --- changes by hand, until the next build; the triangles left are the caller's business ---
   void replace(std::int64_t i, std::int64_t neighbour, std::int64_t by);
   void remove(std::int64_t i, std::int64_t neighbour);
@@ -126,8 +135,10 @@ class DelaunayStars {
   };
   Column column(std::int64_t i);
   std::int32_t place_in_star(const Column& star, std::int64_t neighbour) const;
+  void append_block(std::int64_t b, const std::array<std::vector<Entry>, kLanes>& stars,
+                    std::vector<Entry>& out) const;
 
-  std::int64_t count_ = 0;
+  std::int64_t count_ = 0, arrangement_ = -1;
   ChunkedRows<Entry, 64> blocks_;  // the sizes, then the entries
   std::vector<double> needs_;      // of the nodes; empty where everything is known
 };

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/nodes_worked_for.hpp"
+#include "delaunay/plane/lawson_flips.hpp"
 #include "level/ghost_lists.hpp"
 #include "level/node_digest.hpp"
 #include "level/volume/surface_stars.hpp"
@@ -316,6 +317,16 @@ void rebuild_stars(Level<Dim>& level) {
 }
 
 template <int Dim>
+bool restore_stars(Level<Dim>& level) {
+  if constexpr (Dim == 2) {
+    if (level.distributed()) return false;
+    const PhaseTimer timer(level.timers, Phase::stars);
+    return restore_by_flips(level.nodes, level.ground.sectors(), level.stars);
+  }
+  return false;
+}
+
+template <int Dim>
 std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known,
                                  const StarZone& zone, bool taken_hold) {
   std::vector<Box<Dim>> unknown;
@@ -340,5 +351,7 @@ template std::vector<Box<2>> find_stars(Level<2>&, const KnownRegion<2>&, const 
 template std::vector<Box<3>> find_stars(Level<3>&, const KnownRegion<3>&, const StarZone&, bool);
 template void rebuild_stars(Level<2>&);
 template void rebuild_stars(Level<3>&);
+template bool restore_stars(Level<2>&);
+template bool restore_stars(Level<3>&);
 
 }  // namespace pnpbs

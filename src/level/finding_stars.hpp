@@ -27,6 +27,11 @@ std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& know
 template <int Dim>
 void rebuild_stars(Level<Dim>& level);
 
+// The same in the plane where those there are were found before the nodes moved a little, without
+// lists. False if they were not, or on several ranks: then they are as they were, or worth nothing.
+template <int Dim>
+bool restore_stars(Level<Dim>& level);
+
 // What the stars are made from; the region must outlive it.
 VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known);
 

@@ -69,7 +69,7 @@ class NodalResults {
   virtual void prepare_stars() = 0;
   std::int64_t node_at(std::int64_t place) const { return by_id_[static_cast<std::size_t>(place)]; }
   std::int64_t place_of(std::int64_t node) const { return place_[static_cast<std::size_t>(node)]; }
-  // In places; the same object until nodes move. Collective.
+  // In places; the same object until nodes move or lists are made. Collective.
   virtual std::shared_ptr<const ExchangePattern> exchange_pattern() = 0;
   std::int64_t nodes_on_ranks_before() const;
 

@@ -184,6 +184,7 @@ void ResultCheck::check_area() const {
 }  // namespace
 
 std::string check_results(Results<2>& results) {
+  results.prepare_lists();
   results.prepare_stars();
   const Conformity<2> conformity = conformity_of(results);
   ResultCheck(results).check(conformity.fills());

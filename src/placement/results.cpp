@@ -61,9 +61,14 @@ std::int64_t Results<Dim>::count() const {
 }
 
 template <int Dim>
-void Results<Dim>::prepare_order() {
+void Results<Dim>::require_nodes() const {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
+}
+
+template <int Dim>
+void Results<Dim>::prepare_order() {
+  require_nodes();
   if (order_stamp_ == level_->stamp()) return;
   // Owned nodes first, then ghosts, each by id.
   const Nodes<Dim>& nodes = level_->nodes;
@@ -80,8 +85,7 @@ void Results<Dim>::prepare_order() {
 
 template <int Dim>
 void Results<Dim>::prepare_lists() {
-  require_kokkos();
-  if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
+  require_nodes();
   if (lists_stamp_ == level_->stamp()) return;
   pnpbs::prepare_lists(*level_);
   agreed(*comm_, [this] { prepare_order(); });
@@ -90,16 +94,25 @@ void Results<Dim>::prepare_lists() {
 
 template <int Dim>
 void Results<Dim>::prepare_stars() {
-  prepare_lists();
+  require_nodes();
   if (stars_stamp_ == level_->stamp()) return;
-  if (!level_->distributed()) rebuild_stars(*level_);
+  if (restore_stars(*level_)) {
+    prepare_order();
+  } else {
+    prepare_lists();
+    if (!level_->distributed()) rebuild_stars(*level_);
+  }
   settle_elements(*level_, kThoroughRounds);
   stars_stamp_ = level_->stamp();
 }
 
 template <int Dim>
 std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
-  prepare_lists();
+  require_nodes();
+  if (level_->distributed())
+    prepare_lists();
+  else
+    prepare_order();  // no ghosts
   if (exchange_stamp_ == level_->stamp()) return exchange_pattern_;
   const Nodes<Dim>& nodes = level_->nodes;
   const std::int64_t owned = count();

@@ -99,6 +99,7 @@ class Results : public NodalResults {
   std::uint64_t hash() const override;
 
  private:
+  void require_nodes() const;
   LevelStamp stamp() const override { return level_ ? level_->stamp() : LevelStamp(); }
 
   std::shared_ptr<const Domain<Dim>> domain_;

@@ -280,6 +280,39 @@ START_TEST(corners_are_no_miss) {
 }
 END_TEST
 
+/* Stars restored from those of the run, and those from lists that were made after them. */
+static void check_stars_before_and_after_lists(pnpbs_placement placement) {
+  result before = result_of(placement);
+  const int64_t rebuilds = integer_of(placement, "rebuilds");
+  int64_t entries;
+  result after;
+  MUST(pnpbs_placement_adjacency_size(placement, &entries));
+  ck_assert_int_gt(integer_of(placement, "rebuilds"), rebuilds);
+  after = result_of(placement);
+  ck_assert_int_eq(before.entries, after.entries);
+  ck_assert_int_eq(before.triangles, after.triangles);
+  ck_assert_mem_eq(before.neighbours, after.neighbours,
+                   (size_t)before.entries * sizeof *before.neighbours);
+  ck_assert_mem_eq(before.corners, after.corners,
+                   3 * (size_t)before.triangles * sizeof *before.corners);
+  result_free(&before);
+  result_free(&after);
+}
+
+START_TEST(stars_whatever_is_asked_first) {
+  cone steep = {0.004, 0.06, 0.5, 0.5};
+  job it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &steep));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_stars_before_and_after_lists(it.placement);
+  MUST_COMPUTE(pnpbs_placement_step(it.placement, 3));
+  check_placement(it.placement, 1);
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_stars_before_and_after_lists(it.placement);
+  job_end(&it);
+}
+END_TEST
+
 int main(void) {
   Suite* suite = suite_create("quality");
   TCase* tests = tcase_create("quality");
@@ -290,6 +323,7 @@ int main(void) {
   tcase_add_test(tests, missed_spacing_is_told);
   tcase_add_test(tests, missed_without_sweeps);
   tcase_add_test(tests, corners_are_no_miss);
+  tcase_add_test(tests, stars_whatever_is_asked_first);
   tcase_set_timeout(tests, 60);
   suite_add_tcase(suite, tests);
   return run_suite(suite);

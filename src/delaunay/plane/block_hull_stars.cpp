@@ -13,12 +13,6 @@ namespace pnpbs {
 
 namespace {
 
-// Least sine, about, of the angle between two neighbours next to each other: their cross product,
-// in which rounding loses 2^-51 of the terms, is then right to 1e-10.
-constexpr double kMinTurn = 1e-5;
-// Least turn of three inverted points, relative to the terms of the determinant. Rounding loses
-// less than 2^-49 of them.
-constexpr double kMinBend = 1e-13;
 // Circles must lie within reach by this margin, in squares, against the errors of cross products
 // here and of circle_diameter, whose area is right to 1e-10 if no neighbour is nearer than that.
 constexpr double kCircleMargin = 1 - 1e-8;

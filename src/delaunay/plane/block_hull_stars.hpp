@@ -11,6 +11,13 @@ namespace pnpbs {
 
 inline constexpr int kMaxListed = 16;  // longer lists are left to hull_star
 
+// Least sine, about, of the angle between two neighbours next to each other: their cross product,
+// in which rounding loses 2^-51 of the terms, is then right to 1e-10.
+inline constexpr double kMinTurn = 1e-5;
+// Least turn of three inverted points, relative to the terms of the determinant. Rounding loses
+// less than 2^-49 of them.
+inline constexpr double kMinBend = 1e-13;
+
 struct BlockHullStars {
   bool found[kLanes];
   std::int32_t size[kLanes];  // of those found

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/plane/lawson_flips.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "delaunay/plane/block_star_check.hpp"
+#include "dynamics/bubble_force.hpp"
+#include "predicates/plane.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using Entry = DelaunayStars::Entry;
+using Star = std::vector<Entry>;
+
+// Nodes to one that is beside an edge to be flipped: with fewer, to find all stars takes no longer.
+constexpr std::int64_t kFewFlips = 16;
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// The places in a star, round and round.
+std::size_t after(const Star& star, std::size_t k) { return k + 1 < star.size() ? k + 1 : 0; }
+std::size_t before(const Star& star, std::size_t k) { return k > 0 ? k - 1 : star.size() - 1; }
+
+class StarRules {
+ public:
+  StarRules(const Nodes<2>& nodes, const IncidentSectors& sectors)
+      : nodes_(nodes), sectors_(sectors) {}
+
+  // Stars of nodes that boundary edges end at begin with one of these, all others with the nearest.
+  bool begins_with_nearest(std::int64_t i) const {
+    const std::int32_t b = nodes_.boundary_node(i);
+    return b < 0 || sectors_.begin(b) == sectors_.end(b);
+  }
+
+  // Are there triangles wherever the domain is around the node?
+  bool is_whole(std::int64_t i, const Star& star) const {
+    const auto gaps =
+        std::count_if(star.begin(), star.end(), [](Entry neighbour) { return !neighbour.flag(); });
+    if (begins_with_nearest(i)) return star.size() >= 3 && gaps == 0;
+    const std::int32_t b = nodes_.boundary_node(i);
+    std::ptrdiff_t outside = 0;
+    for (std::int32_t k = sectors_.begin(b); k < sectors_.end(b); ++k)
+      outside += sectors_.edge(k).inside_after ? 0 : 1;
+    return star.size() >= 2 && gaps == outside;
+  }
+
+  bool turns_over(std::int64_t i, const Star& star) const {
+    for (std::size_t k = 0; k < star.size(); ++k)
+      if (star[k].flag() &&
+          orientation(x(i), x(star[k].value()), x(star[after(star, k)].value())) <= 0)
+        return true;
+    return false;
+  }
+
+  // Is the edge to the neighbour at that place between two triangles, and not locally Delaunay?
+  bool wants_flip(std::int64_t i, const Star& star, std::size_t place) const {
+    const Entry right = star[before(star, place)], at = star[place];
+    if (!right.flag() || !at.flag() || is_boundary_edge(i, at.value())) return false;
+    const std::int64_t a = right.value(), b = at.value(), c = star[after(star, place)].value();
+    return in_circle_perturbed(x(i), x(a), x(b), x(c), nodes_.id(i), nodes_.id(a), nodes_.id(b),
+                               nodes_.id(c)) > 0;
+  }
+
+  // The place of the nearest one of these neighbours; of several, of the one with the smallest id.
+  template <class ForNeighbours>
+  std::int32_t nearest(std::int64_t i, const ForNeighbours& for_neighbours) const {
+    std::int32_t place = 0, best = 0;
+    std::int64_t id = 0;
+    double gap = std::numeric_limits<double>::infinity();
+    for_neighbours([&](std::int64_t j) {
+      const double own = squared_distance<2>(x(i), x(j));
+      if (own < gap || (own == gap && nodes_.id(j) < id)) {
+        best = place;
+        gap = own;
+        id = nodes_.id(j);
+      }
+      ++place;
+    });
+    return best;
+  }
+
+ private:
+  Point<2> x(std::int64_t i) const { return nodes_.position(i); }
+
+  bool is_boundary_edge(std::int64_t i, std::int64_t j) const {
+    const std::int32_t b = nodes_.boundary_node(i), c = nodes_.boundary_node(j);
+    return b >= 0 && c >= 0 && sectors_.joined(b, c);
+  }
+
+  const Nodes<2>& nodes_;
+  const IncidentSectors& sectors_;
+};
+
+Star star_of(const DelaunayStars& stars, std::int64_t i) {
+  Star star;
+  stars.for_neighbours_in_order(i, [&](std::int64_t j, bool triangle) {
+    star.push_back({j, triangle});
+  });
+  return star;
+}
+
+void begin_with_nearest(const StarRules& rules, DelaunayStars& stars, std::int64_t i) {
+  if (!rules.begins_with_nearest(i)) return;
+  stars.begin_with(i, rules.nearest(i, [&](const auto& visit) { stars.for_neighbours(i, visit); }));
+}
+
+enum class Verdict : char { holds, wants_flips, is_broken };
+
+// And has it begin with the neighbour that it is to begin with now.
+Verdict judge(const StarRules& rules, DelaunayStars& stars, std::int64_t i) {
+  const Star star = star_of(stars, i);
+  if (!rules.is_whole(i, star) || rules.turns_over(i, star)) return Verdict::is_broken;
+  for (std::size_t k = 0; k < star.size(); ++k)
+    if (rules.wants_flip(i, star, k)) return Verdict::wants_flips;
+  begin_with_nearest(rules, stars, i);
+  return Verdict::holds;
+}
+
+std::vector<Verdict> judge_all(const Nodes<2>& nodes, const StarRules& rules,
+                               DelaunayStars& stars) {
+  std::vector<Verdict> verdicts(index(nodes.count), Verdict::holds);
+  for_each("pnpbs::restore_by_flips", stars.block_count(), [&](std::int64_t b) {
+    std::int64_t self[kLanes];
+    BlockStarCheck check;
+    block_nodes(b, nodes.count, self);
+    check_block_stars(std::as_const(stars).block(b), nodes.x[0].data(), nodes.x[1].data(), self,
+                      check);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int64_t i = self[lane];
+      if (i == nodes.count) break;
+      if (!check.holds[lane])
+        verdicts[index(i)] = judge(rules, stars, i);
+      else if (!check.begins_with_nearest[lane])
+        begin_with_nearest(rules, stars, i);
+    }
+  });
+  return verdicts;
+}
+
+class Flips {
+ public:
+  Flips(const Nodes<2>& nodes, const StarRules& rules, DelaunayStars& stars)
+      : nodes_(nodes), rules_(rules), stars_(stars) {}
+
+  void look_at_edges_of(std::int64_t i) {
+    stars_.for_neighbours(i, [&](std::int64_t j) { edges_.emplace_back(i, j); });
+  }
+
+  void flip_all() {
+    while (!edges_.empty()) {
+      const auto [i, j] = edges_.back();
+      edges_.pop_back();
+      const Star& star = star_to_change(i);
+      const std::size_t place = place_in(star, j);
+      if (place < star.size() && rules_.wants_flip(i, star, place)) flip(i, place);
+    }
+  }
+
+  void write_stars() {
+    std::vector<char> changed(index(nodes_.count), 0);
+    for (auto& [i, star] : changed_) {
+      changed[index(i)] = 1;
+      if (rules_.begins_with_nearest(i)) {
+        const std::int32_t nearest = rules_.nearest(i, [&star](const auto& visit) {
+          for (const Entry neighbour : star) visit(neighbour.value());
+        });
+        std::rotate(star.begin(), star.begin() + nearest, star.end());
+      }
+    }
+    stars_.rewrite(changed, [&](std::int64_t i) { return changed_.at(i); });
+  }
+
+ private:
+  Star& star_to_change(std::int64_t i) {
+    const auto [found, is_new] = changed_.try_emplace(i);
+    if (is_new) found->second = star_of(stars_, i);
+    return found->second;
+  }
+
+  static std::size_t place_in(const Star& star, std::int64_t j) {
+    return index(std::find_if(star.begin(), star.end(), [&](Entry e) { return e.value() == j; }) -
+                 star.begin());
+  }
+
+  void remove(std::int64_t from, std::int64_t j) {
+    Star& star = star_to_change(from);
+    star.erase(star.begin() + static_cast<std::ptrdiff_t>(place_in(star, j)));
+  }
+
+  void insert_after(std::int64_t into, std::int64_t there, std::int64_t j) {
+    Star& star = star_to_change(into);
+    star.insert(star.begin() + static_cast<std::ptrdiff_t>(place_in(star, there)) + 1, {j, true});
+  }
+
+  // The edge from i to j becomes that between the corners on its right and on its left.
+  void flip(std::int64_t i, std::size_t place) {
+    const Star& star = star_to_change(i);
+    const std::int64_t j = star[place].value(), right = star[before(star, place)].value(),
+                       left = star[after(star, place)].value();
+    remove(i, j);
+    remove(j, i);
+    insert_after(left, i, right);
+    insert_after(right, j, left);
+    edges_.insert(edges_.end(), {{i, right}, {i, left}, {j, right}, {j, left}});
+  }
+
+  const Nodes<2>& nodes_;
+  const StarRules& rules_;
+  DelaunayStars& stars_;
+  std::unordered_map<std::int64_t, Star> changed_;
+  std::vector<std::pair<std::int64_t, std::int64_t>> edges_;  // to be looked at
+};
+
+}  // namespace
+
+bool restore_by_flips(const Nodes<2>& nodes, const IncidentSectors& sectors, DelaunayStars& stars) {
+  if (!stars.are_of(nodes)) return false;
+  const StarRules rules(nodes, sectors);
+  const std::vector<Verdict> verdicts = judge_all(nodes, rules, stars);
+  if (std::count(verdicts.begin(), verdicts.end(), Verdict::is_broken) > 0) return false;
+  const auto flips = std::count(verdicts.begin(), verdicts.end(), Verdict::wants_flips);
+  if (flips == 0) return true;
+  if (flips > nodes.count / kFewFlips) return false;
+  Flips all(nodes, rules, stars);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (verdicts[index(i)] == Verdict::wants_flips) all.look_at_edges_of(i);
+  all.flip_all();
+  all.write_stars();
+  return true;
+}
+
+}  // namespace pnpbs
