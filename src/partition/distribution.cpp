@@ -140,10 +140,11 @@ std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) cons
         });
   }
   // Those with bubbles so much larger than ours that only they reach as far.
+  const std::vector<char> ours = cells_with_some_of(rank_);
   std::vector<char> found;
   for (std::int32_t c = 0; c < cells_.count(); ++c)
     found.push_back(left.found(c) || (squared_gap<Dim>(box(c), around_own) <= way(c) * way(c) &&
-                                      near(box(c), rank_, way(c))));
+                                      near(box(c), ours, way(c))));
   return found;
 }
 
@@ -176,16 +177,31 @@ std::vector<double> Distribution<Dim>::reach_within(int hops,
   return max_reach;
 }
 
-// Does the rank own something as near as that?
+// For a tree of cells: which of them have a leaf that the rank owns and that is not empty.
 template <int Dim>
-bool Distribution<Dim>::near(const Box<Dim>& box, int rank, double way) const {
+std::vector<char> Distribution<Dim>::cells_with_some_of(int rank) const {
+  const BackgroundTree<Dim>& tree = cells_.tree();
+  std::vector<char> some(static_cast<std::size_t>(tree.cell_count()), 0);
+  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {  // children stand behind their parent
+    const auto at = static_cast<std::size_t>(c);
+    const auto& cell = tree.cell(c);
+    if (cell.first_child < 0) some[at] = owner_of_cell(cell.leaf) == rank && !empty(cell.leaf);
+    for (int k = 0; cell.first_child >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
+      some[at] |= some[static_cast<std::size_t>(cell.first_child + k)];
+  }
+  return some;
+}
+
+// Is one of these cells as near as that? `some` is of cells_with_some_of().
+template <int Dim>
+bool Distribution<Dim>::near(const Box<Dim>& box, const std::vector<char>& some, double way) const {
   bool found = false;
   const BackgroundTree<Dim>& tree = cells_.tree();
   tree.for_leaves_in(
-      widened(box, way), [&](std::int32_t) { return !found; },
+      widened(box, way),
+      [&](std::int32_t c) { return !found && some[static_cast<std::size_t>(c)] != 0; },
       [&](std::int32_t cell) {
-        found = found || (owner_of_cell(cell) == rank && !empty(cell) &&
-                          squared_gap<Dim>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
+        found = found || squared_gap<Dim>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way;
       });
   return found;
 }
@@ -221,13 +237,19 @@ const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
     if (!needs.of(static_cast<std::size_t>(leaf)).empty()) needed.push_back(leaf);
   const std::vector<double> reach = reach_within(hops, std::move(needed));
+  std::map<std::int32_t, std::vector<char>> cells_of;  // by rank
+  const auto cells_with_some = [&](std::int32_t rank) -> const std::vector<char>& {
+    std::vector<char>& some = cells_of[rank];
+    if (some.empty()) some = cells_with_some_of(rank);
+    return some;
+  };
   Halo halo;
   halo.offset_.push_back(0);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const Box<Dim> box = tree_->cell_box(tree_->leaf_cell(leaf));
     for (std::int32_t rank : needs.of(static_cast<std::size_t>(leaf)))
-      if (holder(leaf) >= 0 &&
-          near(box, rank, hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
+      if (holder(leaf) >= 0 && near(box, cells_with_some(rank),
+                                    hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
         halo.ranks_.push_back(rank);
     halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
   }

@@ -110,7 +110,8 @@ class Distribution {
   std::map<int, Halo> halos_;
 
   std::vector<double> reach_within(int hops, std::vector<std::int32_t> leaves) const;
-  bool near(const Box<Dim>& box, int rank, double way) const;
+  std::vector<char> cells_with_some_of(int rank) const;
+  bool near(const Box<Dim>& box, const std::vector<char>& some, double way) const;
 };
 
 extern template class Distribution<2>;
