@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * The cases that the programs over MPI_COMM_WORLD share: graded-square, uniform-square,
- * jump-square, steep-square (by a fifth of the distance), or a .poly file (graded), with spacings
- * that a scale multiplies; of the steep one, that at the point. */
+ * jump-square, steep-square (by a fifth of the distance), even-cube, graded-cube (1:10 from a
+ * corner), or a .poly file (graded), with spacings that a scale multiplies; of the steep one, that
+ * at the point. */
 #ifndef PNPBS_PLACEMENT_CASES_H
 #define PNPBS_PLACEMENT_CASES_H
 
@@ -12,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Grows from a point on; something else right of a line. */
+/* Grows from a point on, in space from one with z = 0; something else right of a line. */
 struct case_spacing {
   double constant, slope, x, y, line, beyond;
 };
@@ -22,10 +23,13 @@ static int32_t case_spacing_at(int64_t n, int32_t dim, const double* x, double* 
   int64_t i;
   for (i = 0; i < n; ++i)
     d[i] = x[dim * i] < s->line
-               ? s->constant + s->slope * hypot(x[dim * i] - s->x, x[dim * i + 1] - s->y)
+               ? s->constant + s->slope * hypot(hypot(x[dim * i] - s->x, x[dim * i + 1] - s->y),
+                                                dim == 3 ? x[dim * i + 2] : 0.0)
                : s->beyond;
   return 0;
 }
+
+static int32_t case_dimension(const char* name) { return strstr(name, "-cube") ? 3 : 2; }
 
 static void case_check(pnpbs_context context, pnpbs_status status, const char* what) {
   if (status >= 0) return;
@@ -42,11 +46,14 @@ static pnpbs_placement case_placement(pnpbs_context context, const char* name, d
                             uniform = {0.0034, 0, 0, 0, HUGE_VAL, 0},
                             steep = {0.0005, 0, 0.3, 0.4, HUGE_VAL, 0},
                             jump = {0.3, 0, 0, 0, 0.52, 0.012},
-                            in_a_lake = {0.3, 0.006, 0, 0, HUGE_VAL, 0};
+                            in_a_lake = {0.3, 0.006, 0, 0, HUGE_VAL, 0},
+                            even = {0.0185, 0, 0, 0, HUGE_VAL, 0},
+                            corner = {0.004, 0.02, 0, 0, HUGE_VAL, 0};
+  const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
   pnpbs_domain domain;
   pnpbs_placement placement;
   int a;
-  case_check(context, pnpbs_domain_create(context, 2, &domain), "domain");
+  case_check(context, pnpbs_domain_create(context, case_dimension(name), &domain), "domain");
   if (strstr(name, "square")) {
     case_check(context, pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0),
                "square");
@@ -54,6 +61,9 @@ static pnpbs_placement case_placement(pnpbs_context context, const char* name, d
                : strstr(name, "jump")  ? jump
                : strstr(name, "steep") ? steep
                                        : graded;
+  } else if (case_dimension(name) == 3) {
+    case_check(context, pnpbs_domain_add_box(domain, low, high, 1), "cube");
+    *spacing = strstr(name, "even") ? even : corner;
   } else {
     case_check(context, pnpbs_domain_read_poly(domain, name), "poly");
     *spacing = in_a_lake;

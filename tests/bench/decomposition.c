@@ -3,8 +3,10 @@
  * How a placement is distributed to the ranks of MPI_COMM_WORLD: initialises it, takes no step, and
  * prints one line of names and values, the mean and the largest over the ranks; so many more ranks
  * than cores do. With `rebalance` it partitions once more, by the work counted, and `imbalance` is
- * that of the work; with `run` it places the nodes, which tells the time of a step and the memory.
- * Messages, bytes and collective calls are those of initialising or placing.
+ * that of the work; with `run` it places the nodes, which tells the time of each phase, the memory,
+ * and the nodes worked for over those owned (`redundancy.*`).
+ * Messages, bytes and collective calls are those of initialising or placing,
+ * `computed` the seconds of a core without those spent in MPI.
  * usage: decomposition CASE SCALE [run|rebalance] [key=value]...  with the cases of place_on_ranks
  * Ends with status 1 if the figures contradict each other. */
 #include <mpi.h>
@@ -13,11 +15,18 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <time.h>
 
 #include "mpi_counts.h"
 #include "placement_cases.h"
 
-enum { BYTES_PER_GHOST = 32 }; /* position and velocity */
+/* Position and velocity; in space also the facet that the node may have moved to. */
+static double bytes_per_ghost;
+
+static const char* const phases[] = {"motion", "lists",  "exchange",   "population",
+                                     "stars",  "sweeps", "conformity", "boundary",
+                                     "tree",   "fill",   "spacing",    "total"};
+static const char* const counted[] = {"lists", "motion", "stars", "sweeps"};
 
 static pnpbs_context context;
 static pnpbs_placement placement;
@@ -37,7 +46,10 @@ static double real(const char* key) {
   return value;
 }
 
-/* Seconds of this process on a core, without what the system did for it (as when it lets others
+/* Seconds of this process on a core. */
+static double on_a_core_in_all(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
+/* The same without what the system did for it (as when it lets others
  * run while it waits). */
 static double on_a_core(void) {
   struct rusage usage;
@@ -62,10 +74,17 @@ static void tell_over_ranks(const char* name, double mine) {
   if (rank == 0) printf("%s.mean %.9g %s.largest %.9g ", name, mean, name, largest);
 }
 
+/* A statistic of a family, as "seconds.motion". */
+static double real_of(const char* family, const char* member) {
+  char key[64];
+  snprintf(key, sizeof key, "%s.%s", family, member);
+  return real(key);
+}
+
 /* Every node is owned once, and what is sent is what arrives as a ghost. */
 static int consistent(double owned, double ghosts, double bytes) {
   const double nodes = integer("nodes"), all = sum_of(owned), sent = sum_of(bytes),
-               arriving = BYTES_PER_GHOST * sum_of(ghosts);
+               arriving = bytes_per_ghost * sum_of(ghosts);
   if (all == nodes && sent == arriving) return 1;
   if (rank == 0)
     fprintf(stderr, "%.0f nodes, but %.0f owned; %.0f bytes sent, but ghosts of %.0f bytes\n",
@@ -77,7 +96,8 @@ int main(int argc, char** argv) {
   struct case_spacing spacing;
   struct mpi_counts asked;
   int64_t count;
-  double owned, ghosts, bytes, empty, core_seconds;
+  double owned, ghosts, bytes, empty, core_seconds, all_seconds;
+  size_t p;
   int run, rebalance, first, right;
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -91,13 +111,16 @@ int main(int argc, char** argv) {
   run = argc > 3 && strcmp(argv[3], "run") == 0;
   rebalance = argc > 3 && strcmp(argv[3], "rebalance") == 0;
   first = run || rebalance ? 4 : 3;
+  bytes_per_ghost = case_dimension(argv[1]) == 3 ? 52 : 32;
   check(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "context");
   placement = case_placement(context, argv[1], atof(argv[2]), argc - first, argv + first, &spacing);
   empty = integer("memory.peak_bytes");
-  mpi_counts = (struct mpi_counts){0, 0, 0, 0};
+  mpi_counts = (struct mpi_counts){0, 0, 0, 0, 0};
+  all_seconds = on_a_core_in_all();
   core_seconds = on_a_core();
   check(run ? pnpbs_placement_run(placement) : pnpbs_placement_initialise(placement), argv[1]);
   core_seconds = on_a_core() - core_seconds;
+  all_seconds = on_a_core_in_all() - all_seconds;
   asked = mpi_counts;
   check(pnpbs_placement_count(placement, &count), "count");
   owned = (double)count;
@@ -111,6 +134,7 @@ int main(int argc, char** argv) {
   tell_over_ranks("bytes", bytes);
   tell_over_ranks("partition", real("seconds.partition"));
   tell_over_ranks("on_a_core", core_seconds);
+  tell_over_ranks("computed", all_seconds - asked.seconds); /* with one thread */
   tell_over_ranks("memory.empty", empty);
   tell_over_ranks("memory", integer("memory.peak_bytes"));
   tell_over_ranks("messages", asked.messages);
@@ -122,9 +146,13 @@ int main(int argc, char** argv) {
   /* The work is counted from the lists, which a placement without steps does not have. */
   if (run || rebalance) tell("imbalance", real("imbalance"));
   tell("steps", integer("steps"));
-  tell_over_ranks("motion", real("seconds.motion"));
-  tell_over_ranks("lists", real("seconds.lists"));
-  tell_over_ranks("total", real("seconds.total"));
+  for (p = 0; p < sizeof phases / sizeof *phases; ++p)
+    tell_over_ranks(phases[p], real_of("seconds", phases[p]));
+  for (p = 0; run && p < sizeof counted / sizeof *counted; ++p) {
+    char name[64];
+    snprintf(name, sizeof name, "redundancy.%s", counted[p]);
+    tell(name, real(name));
+  }
   if (rank == 0) printf("\n");
   pnpbs_placement_destroy(&placement);
   pnpbs_context_destroy(&context);

@@ -9,6 +9,7 @@ struct mpi_counts {
   double messages, sent; /* to single ranks: how many, and their bytes */
   double collectives;    /* calls in which all ranks take part */
   double gathered;       /* bytes that these brought to this rank */
+  double seconds;        /* of a core, in the calls: sending, receiving, and waiting for others */
 };
 
 extern struct mpi_counts mpi_counts;

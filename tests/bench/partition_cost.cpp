@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the partition costs that is done once for all ranks, on a core of its own: the table of
 // cells that every rank makes, and the cut of their graph, which the first rank makes. The cells
-// are those of a square with even d, 250 to 1000 for each rank. usage: partition_cost RANKS... A
-// line of names and values for each.
+// are those of a square with even d, 250 to 1000 for each rank, or of a cube, up to 2000.
+// usage: partition_cost [space] RANKS... A line of names and values for each.
 #include <sys/resource.h>
 
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <vector>
 
@@ -29,19 +30,28 @@ double peak_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-std::vector<PartitionCell<2>> even_cells(std::int64_t ranks) {
+template <int Dim>
+std::vector<PartitionCell<Dim>> even_cells(std::int64_t ranks) {
   std::int32_t depth = 0;
-  while ((std::int64_t{1} << (2 * depth)) < kCellsPerRank * ranks) ++depth;
-  std::vector<PartitionCell<2>> cells;
-  for (std::uint32_t i = 0; i < 1u << depth; ++i)
-    for (std::uint32_t j = 0; j < 1u << depth; ++j) cells.push_back({{i, j}, depth, 1000, 0.001});
+  while ((std::int64_t{1} << (Dim * depth)) < kCellsPerRank * ranks) ++depth;
+  const std::uint32_t side = 1u << depth;
+  std::vector<PartitionCell<Dim>> cells;
+  for (std::uint32_t i = 0; i < side; ++i)
+    for (std::uint32_t j = 0; j < side; ++j)
+      if constexpr (Dim == 2)
+        cells.push_back({{i, j}, depth, 1000, 0.001});
+      else
+        for (std::uint32_t k = 0; k < side; ++k) cells.push_back({{i, j, k}, depth, 1000, 0.001});
   return cells;
 }
 
+template <int Dim>
 void measure(int ranks) {
-  const std::vector<PartitionCell<2>> list = even_cells(ranks);
+  const std::vector<PartitionCell<Dim>> list = even_cells<Dim>(ranks);
   const double start = seconds_on_a_core();
-  const pnpbs::PartitionCells<2> cells({{0, 0}, {1, 1}}, list);
+  pnpbs::Box<Dim> bounds{};
+  for (int axis = 0; axis < Dim; ++axis) bounds.high[axis] = 1;
+  const pnpbs::PartitionCells<Dim> cells(bounds, list);
   const double table = seconds_on_a_core(), memory = peak_mib();
   const std::vector<std::int32_t> owner = pnpbs::cut_by_metis(cells, ranks, 1);
   const double cut = seconds_on_a_core();
@@ -54,6 +64,8 @@ void measure(int ranks) {
 
 int main(int argc, char** argv) {
   pnpbs::start_kokkos(1, 1, [] {});
-  for (int a = 1; a < argc; ++a) measure(std::atoi(argv[a]));
+  const bool space = argc > 1 && std::strcmp(argv[1], "space") == 0;
+  for (int a = space ? 2 : 1; a < argc; ++a)
+    space ? measure<3>(std::atoi(argv[a])) : measure<2>(std::atoi(argv[a]));
   pnpbs::end_kokkos();
 }
