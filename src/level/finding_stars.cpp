@@ -95,7 +95,11 @@ void begin_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) 
   const PhaseTimer timer(level.timers, Phase::stars);
   const VolumeStarInput input = star_input(level, known);
   level.stars.build_none(input);
-  if (taken_hold) level.stars_before.put_back(input, level.stars);
+  if (!taken_hold) return;
+  level.stars_before.put_back(input, level.stars);
+  level.timers.add(Phase::stars, nodes_worked_for(level.nodes, [&](std::int64_t i) {
+                     return level.stars.found(i);  // confirmed at once, as others are one by one
+                   }));
 }
 
 // Of the owned nodes, those whose stars are yet to be found.
