@@ -164,7 +164,8 @@ class Flips {
 
   void write_stars() {
     std::vector<char> changed(index(nodes_.count), 0);
-    for (auto& [i, star] : changed_) {
+    for (auto& [i, changed_star] : changed_) {
+      Star& star = changed_star;  // Clang 14 captures no structured binding
       changed[index(i)] = 1;
       if (rules_.begins_with_nearest(i)) {
         const std::int32_t nearest = rules_.nearest(i, [&star](const auto& visit) {
