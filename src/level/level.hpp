@@ -62,7 +62,7 @@ struct Level {
   Stars<Dim> stars;
   KeptStarsBefore<Dim> stars_before;
   std::uint64_t stars_digest = 0;  // in space: of the nodes for which the stars are right; 0: none
-  ChangedLabels changed_labels;  // of elements in space, once they are settled
+  ChangedLabels changed_labels;    // of elements in space, once they are settled
   std::int64_t finish_stars =
       -1;  // version in which the stars are those that finishing begins with
   TimeIntegration<Dim> time_integration;
