@@ -17,7 +17,7 @@ import numpy as np  # noqa: E402
 import sliding_study as sliding  # noqa: E402
 from command_line import shown_command  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
-from tables import table_head  # noqa: E402
+from tables import give, table_head  # noqa: E402
 
 REGULAR = 0.75, 1.3   # length over d of edges that get a node
 HEIGHT = 0.866        # of it, in lengths of the edge
@@ -93,10 +93,7 @@ def main():
              for line in rows(name, settings, args)]
     command = shown_command("tests/bench/first_row_study.py", {"--pnpbs": "FILE", "--output": "FILE"})
     text = "\n".join(["Made by", "", "```sh", command, "```", "", *table_head(sliding.TITLES), *lines])
-    if args.output:
-        args.output.write_text(text + "\n")
-    else:
-        print(text)
+    give(text, args.output)
 
 
 if __name__ == "__main__":

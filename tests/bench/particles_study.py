@@ -30,7 +30,7 @@ from command_line import shown_command  # noqa: E402
 from domain import Domain as Polygon  # noqa: E402
 from progress import Progress  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
-from tables import grouped, table_head, table_row  # noqa: E402
+from tables import give, grouped, table_head, table_row  # noqa: E402
 
 DATA = ROOT / "examples" / "data"
 NEAR = 0.7  # d; pairs that are closer are counted
@@ -336,10 +336,7 @@ def main():
         f"{machine.date.today().isoformat()}, {os.environ['OMP_NUM_THREADS']} thread of an "
         f"{machine.processor()}; {machine.system()}; load at the end {machine.load()}.{scaled} Made by", "",
         "```sh", command, "```", "", *table_head(TITLES), *lines, "", *table_head(SUM_TITLES), *sums])
-    if args.output:
-        args.output.write_text(text + "\n")
-    else:
-        print(text)
+    give(text, args.output)
 
 
 if __name__ == "__main__":

@@ -29,7 +29,7 @@ from evaluate import Mesh, lower_quantile, mendable, shape  # noqa: E402
 from progress import Progress  # noqa: E402
 from scipy.sparse import coo_matrix, triu  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
-from tables import grouped, table_head, table_row  # noqa: E402
+from tables import give, grouped, table_head, table_row  # noqa: E402
 
 # As in the library (src/method/constants.hpp, src/settings/options.cpp).
 SWEEP_WEIGHT, MAX_MOVE, GUARDS_BELOW, CLEARANCE = 0.6, 0.1, 0.75, 0.4
@@ -390,10 +390,7 @@ def main():
     text = "\n".join([f"{machine.date.today().isoformat()}, {machine.system()}. Made by", "", "```sh",
                       command, "```", "", *table_head(WORST_TITLES), *worst, "", *table_head(TITLES),
                       *lines])
-    if args.output:
-        args.output.write_text(text + "\n")
-    else:
-        print(text)
+    give(text, args.output)
 
 
 if __name__ == "__main__":

@@ -12,3 +12,11 @@ def table_row(cells):
 
 def table_head(titles):
     return [table_row(titles), "|" + " --- |" * len(titles)]
+
+
+def give(text, path):
+    """Into the file, or to standard output where there is none."""
+    if path:
+        path.write_text(text + "\n")
+    else:
+        print(text)
