@@ -90,16 +90,20 @@ void count_stars(Level<3>& level, const std::vector<char>& wanted) {
                    }));
 }
 
+void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<char>& wanted) {
+  const PhaseTimer timer(level.timers, Phase::stars);
+  level.stars.add(star_input(level, known), wanted);
+  count_stars(level, wanted);
+}
+
 // Before the others are found: those of before, if they hold.
 void begin_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) {
   const PhaseTimer timer(level.timers, Phase::stars);
   const VolumeStarInput input = star_input(level, known);
   level.stars.build_none(input);
   if (!taken_hold) return;
-  level.stars_before.put_back(input, level.stars);
-  level.timers.add(Phase::stars, nodes_worked_for(level.nodes, [&](std::int64_t i) {
-                     return level.stars.found(i);  // confirmed at once, as others are one by one
-                   }));
+  // These are confirmed at once, as others are one by one.
+  count_stars(level, level.stars_before.put_back(input, level.stars));
 }
 
 // Of the owned nodes, those whose stars are yet to be found.
@@ -113,11 +117,9 @@ std::vector<char> owned_without_star(const Level<3>& level) {
 // Those of these owned nodes: most are as they were before, if that is known.
 void find_owned_stars(Level<3>& level, const KnownRegion<3>& known,
                       const std::vector<char>& wanted) {
+  if (!level.stars_before.any()) return add_stars(level, known, wanted);
   const PhaseTimer timer(level.timers, Phase::stars);
-  if (level.stars_before.any())
-    level.stars_before.find_stars(star_input(level, known), wanted, level.stars);
-  else
-    level.stars.add(star_input(level, known), wanted);
+  level.stars_before.find_stars(star_input(level, known), wanted, level.stars);
   count_stars(level, wanted);
 }
 
@@ -190,12 +192,6 @@ std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& 
     for (const std::int64_t i : front) unknown.ask_around(i);
   }
   return unknown.boxes();
-}
-
-void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<char>& wanted) {
-  const PhaseTimer timer(level.timers, Phase::stars);
-  level.stars.add(star_input(level, known), wanted);
-  count_stars(level, wanted);
 }
 
 struct OwnedNodesBox {

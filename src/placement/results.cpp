@@ -7,9 +7,9 @@
 
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
-#include "base/mixed_hash.hpp"
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
+#include "level/node_digest.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "placement/element_angles.hpp"
 
@@ -210,18 +210,12 @@ const ElementQuality& Results<Dim>::element_quality() {
   return quality_;
 }
 
-// A sum over the nodes, so that it has no order.
 template <int Dim>
 std::uint64_t Results<Dim>::hash() const {
   if (!level_) return 0;
-  const Nodes<Dim>& nodes = level_->nodes;
-  return comm_->allreduce_sum(
-      sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) -> std::uint64_t {
-        if (!nodes.owned(i)) return 0;
-        std::uint64_t h = mixed(static_cast<std::uint64_t>(nodes.id(i)));
-        for (int k = 0; k < Dim; ++k) h = mixed_with(h, nodes.x[k](i));
-        return mixed(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(nodes.tag(i))));
-      }));
+  return sum_of_node_hashes(*level_, [&](std::int64_t i, std::uint64_t h) {
+    return mixed(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(level_->nodes.tag(i))));
+  });
 }
 
 template class Results<2>;

@@ -21,7 +21,7 @@ import space_law  # noqa: E402
 from programs import Failed, line_of_ranks, text_of  # noqa: E402
 from progress import Progress  # noqa: E402
 from space_law import Laws, depth, ghosts, part, step_ghosts  # noqa: E402
-from tables import grouped, table_head, table_row  # noqa: E402
+from tables import give, grouped, table_head, table_row  # noqa: E402
 
 BUILD = Path(__file__).resolve().parents[2] / "build" / "release" / "tests" / "bench"
 NODES_AT_SCALE_1 = {"even": 255649, "graded": 243000}  # of the cases of decomposition
@@ -220,11 +220,7 @@ def main():
     laws = Laws(pairs["even"])
     tables = [work_table(pairs, laws), ghosts_table(pairs), memory_table(pairs), phases_table(laws),
               model_table(args, laws)]
-    text = "\n".join("\n".join(rows) + "\n" for rows in tables)
-    if args.output:
-        args.output.write_text(text)
-    else:
-        print(text)
+    give("\n\n".join("\n".join(rows) for rows in tables), args.output)
     return 1 if failures else 0
 
 

@@ -66,6 +66,19 @@ struct Listed {
   std::vector<char> owned_;
 };
 
+// What there is to be taken: the bubbles are put, those beyond the plane are not ours, and stars
+// are found.
+StarsBefore taken(Listed& listed, const std::vector<Bubble<3>>& bubbles, double beyond,
+                  Random& random, std::uint64_t digest = 0) {
+  listed.put(bubbles, random);
+  listed.give_away(beyond);
+  VolumeStars stars;
+  stars.build(listed.input());
+  StarsBefore before;
+  before.take(listed.b.nodes, stars, digest);
+  return before;
+}
+
 void move(std::vector<Bubble<3>>& bubbles, double most, Random& random) {
   for (Bubble<3>& bubble : bubbles) {
     if (!bubble.moves) continue;
@@ -84,12 +97,7 @@ Count follow(double shaken_by, double moved_by, double beyond) {
   const volume_box::Crystal crystal{9};
   std::vector<Bubble<3>> bubbles = shaken(crystal, shaken_by);
   Listed listed(crystal);
-  listed.put(bubbles, random);
-  listed.give_away(kFar);
-  VolumeStars stars;
-  stars.build(listed.input());
-  StarsBefore before;
-  before.take(listed.b.nodes, stars);
+  StarsBefore before = taken(listed, bubbles, kFar, random);
   ck_assert(before.any());
 
   move(bubbles, moved_by, random);
@@ -102,6 +110,7 @@ Count follow(double shaken_by, double moved_by, double beyond) {
     ++count.found;
     return true;
   };
+  VolumeStars stars;
   stars.build_none(input);
   before.find_stars(input, listed.owned(), stars);
   ck_assert(!before.any());
@@ -148,12 +157,7 @@ START_TEST(put_back) {
   const volume_box::Crystal crystal{8};
   const std::vector<Bubble<3>> bubbles = shaken(crystal, 0.15);
   Listed listed(crystal);
-  listed.put(bubbles, random);
-  listed.give_away(kBeyond);
-  VolumeStars stars;
-  stars.build(listed.input());
-  StarsBefore before;
-  before.take(listed.b.nodes, stars, 7);
+  StarsBefore before = taken(listed, bubbles, kBeyond, random, 7);
   ck_assert_uint_eq(before.digest(), 7);
 
   std::vector<Bubble<3>> fewer = bubbles;
@@ -166,6 +170,7 @@ START_TEST(put_back) {
   const std::map<std::int64_t, Star> all = listed.found_anew();
   listed.put(fewer, random);
   listed.give_away(kBeyond);
+  VolumeStars stars;
   stars.build_none(listed.input());
   before.put_back(listed.input(), stars);
   ck_assert(!before.any());
@@ -190,12 +195,7 @@ START_TEST(other_nodes) {
   const volume_box::Crystal crystal{8};
   std::vector<Bubble<3>> bubbles = shaken(crystal, 0.15);
   Listed listed(crystal);
-  listed.put(bubbles, random);
-  listed.give_away(1e9);
-  VolumeStars stars;
-  stars.build(listed.input());
-  StarsBefore before;
-  before.take(listed.b.nodes, stars);
+  StarsBefore before = taken(listed, bubbles, 1e9, random);
   for (std::size_t k = bubbles.size() - 1; k > 0; k -= std::min<std::size_t>(k, 37)) {
     if (!bubbles[k].moves) continue;
     if (k % 2 == 0) {
@@ -208,6 +208,7 @@ START_TEST(other_nodes) {
   }
   listed.put(bubbles, random);
   listed.give_away(1e9);
+  VolumeStars stars;
   stars.build_none(listed.input());
   before.find_stars(listed.input(), listed.owned(), stars);
   quick_assert(listed.by_id(stars) == listed.found_anew());

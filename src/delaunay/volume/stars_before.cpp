@@ -185,9 +185,9 @@ std::vector<char> StarsBefore::put_in_place(const Places& places, const Keeps& k
   return kept;
 }
 
-void StarsBefore::put_back(const VolumeStarInput& input, VolumeStars& stars) {
+std::vector<char> StarsBefore::put_back(const VolumeStarInput& input, VolumeStars& stars) {
   const Nodes<3>& nodes = input.nodes;
-  put_in_place(
+  return put_in_place(
       find_places(nodes, [](std::int64_t) { return true; }),
       [&](std::int64_t i, std::int32_t before) {
         return nodes.owned(i) != 0 && stars_.found(before) && stars_.needs(before) == 0;

@@ -34,8 +34,8 @@ class StarsBefore {
   void find_stars(const VolumeStarInput& input, std::vector<char> wanted, VolumeStars& stars);
 
   // Puts back the stars of the owned nodes, which are where they were; not those with a ghost that
-  // is not known here any more. Uses up what was taken.
-  void put_back(const VolumeStarInput& input, VolumeStars& stars);
+  // is not known here any more. Returns for which nodes. Uses up what was taken.
+  std::vector<char> put_back(const VolumeStarInput& input, VolumeStars& stars);
 
  private:
   // Of nodes before: where each is now, -1: nowhere; and the star of which of them node i now has,
