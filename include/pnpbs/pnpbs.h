@@ -223,6 +223,33 @@ typedef int32_t (*pnpbs_curve_fn)(int64_t n, int32_t dim, const double *t, doubl
 PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
                                            pnpbs_domain *domain);
 
+/** Creates an empty domain on a sphere about the origin. Its nodes lie on the sphere, d and its
+ *  growth are lengths along it, and it has dimension 3: all points are x, y, z. Boundary curves
+ *  (pnpbs_domain_add_polyline) are the shortest ways along great circles from vertex to vertex. The
+ *  domain is what lies behind an odd number of them, seen from a point that is named here, which
+ *  must be outside: with coasts and a point on land the domain is the sea, with a point in the sea
+ *  it is the land. Nodes are placed in the stereographic projection from that point, so that it
+ *  should be ten d or more away from the domain: best in the middle of a continent, or of an ocean.
+ *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
+ *  there. Not on a sphere yet: Voronoi cells, particles, arcs, parametric curves, files of
+ *  curves, questions of the shape, and spacing given on grids, meshes or points. Local.
+ *  @param[in] radius   > 0
+ *  @param[in] outside  [3], any length but 0: its direction counts */
+PNPBS_API pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,
+                                                  const double *outside, pnpbs_domain *domain);
+
+/** Computes points on a sphere about the origin from longitude and latitude. Local.
+ *  @param[in]  radius       > 0
+ *  @param[in]  degrees      [n][2]: longitude, in any turn, and latitude, -90 .. 90
+ *  @param[out] coordinates  [n][3] */
+PNPBS_API pnpbs_status pnpbs_sphere_points(double radius, int64_t n, const double *degrees,
+                                           double *coordinates);
+
+/** Computes longitude and latitude of the directions of points. Local.
+ *  @param[in]  coordinates  [n][3], not 0
+ *  @param[out] degrees      [n][2]: longitude, -180 .. 180, and latitude, -90 .. 90 */
+PNPBS_API pnpbs_status pnpbs_sphere_degrees(int64_t n, const double *coordinates, double *degrees);
+
 /** Destroys the handle and sets it to NULL; accepts NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
 

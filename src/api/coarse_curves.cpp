@@ -3,6 +3,7 @@
 #include "api/domain_calls.hpp"
 #include "api/spacing_callback.hpp"
 #include "spacing/files/field_file.hpp"
+#include "spacing/sphere_spacing.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -25,8 +26,15 @@ pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_an
 pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing, void* user,
                                    double tolerance, double smallest, int64_t* vertices,
                                    int64_t* curves) {
-  return change_plane(domain, [&](PlaneDomain& plane) {
-    simplify_by(plane, spacing_from<2>(spacing, user), {tolerance, smallest}, vertices, curves);
+  return change_domain(domain, [&](DomainObject& object) {
+    const SimplifyRule rule{tolerance, smallest};
+    if (const StereographicChart* chart = chart_of(object)) {
+      const SphereSpacing along(
+          std::make_shared<CallbackSpacing<3>>(spacing_from<3>(spacing, user)), *chart);
+      simplify_by(*object.plane, along, rule, vertices, curves);
+    } else {
+      simplify_by(plane_of(object), spacing_from<2>(spacing, user), rule, vertices, curves);
+    }
   });
 }
 

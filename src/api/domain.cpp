@@ -4,7 +4,9 @@
 #include <string_view>
 
 #include "api/domain_calls.hpp"
+#include "api/sphere_points.hpp"
 #include "domain/from_files.hpp"
+#include "domain/plane/sphere_area.hpp"
 #include "formats/surface_triangles.hpp"
 
 using namespace pnpbs;
@@ -27,10 +29,17 @@ pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
   });
 }
 
-double whole_measure(const PlaneDomain& domain) { return domain.area(); }
+double whole_measure(const PlaneDomain& domain) {
+  return domain.chart() ? area_on_sphere(domain) : domain.area();
+}
 double whole_measure(const VolumeDomain& domain) { return domain.measure(); }
 
-Point<2> point_from(const double* x) { return {x[0], x[1]}; }
+// In the plane, or in the chart of a sphere.
+Point<2> point_from(const PlaneDomain& domain, const double* x) {
+  if (domain.chart()) return domain.chart()->in_chart(require_direction("point", x));
+  return {x[0], x[1]};
+}
+Point<2> plane_point_from(const double* x) { return {x[0], x[1]}; }
 Point<3> space_point_from(const double* x) { return {x[0], x[1], x[2]}; }
 
 }  // namespace
@@ -58,7 +67,7 @@ pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) { return destroy(domain,
 pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t* dim) {
   return guarded(domain, [&](DomainObject& object) {
     require_pointer(dim, "dim");
-    *dim = object.plane ? 2 : 3;
+    *dim = object.plane && !chart_of(object) ? 2 : 3;
     return PNPBS_OK;
   });
 }
@@ -70,6 +79,12 @@ pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_
     require_count(n, "n");
     require_pointer(coordinates, "coordinates");
     const CurveRole as = role_from(role);
+    if (chart_of(object)) {
+      object.plane->add_great_circles(as, closed != 0,
+                                      require_directions("coordinates", n, coordinates), tags,
+                                      corner_angle);
+      return;
+    }
     if (object.plane) {
       object.plane->add_polyline(as, closed != 0, n, coordinates, tags, corner_angle);
       return;
@@ -157,7 +172,7 @@ pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const doubl
                                   double radius, double begin, double end, int32_t tag) {
   return change_plane(domain, [&](PlaneDomain& plane) {
     require_pointer(centre, "centre");
-    plane.add_arc(role_from(role), point_from(centre), radius, begin, end, tag);
+    plane.add_arc(role_from(role), plane_point_from(centre), radius, begin, end, tag);
   });
 }
 
@@ -207,7 +222,7 @@ pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double* point) {
   return change_domain(domain, [&](DomainObject& object) {
     require_pointer(point, "point");
     if (object.plane)
-      object.plane->add_hole(point_from(point));
+      object.plane->add_hole(point_from(*object.plane, point));
     else
       object.volume->add_hole(space_point_from(point));
   });
@@ -217,7 +232,7 @@ pnpbs_status pnpbs_domain_add_region(pnpbs_domain domain, const double* point, i
   return change_domain(domain, [&](DomainObject& object) {
     require_pointer(point, "point");
     if (object.plane)
-      object.plane->add_region(point_from(point), tag);
+      object.plane->add_region(point_from(*object.plane, point), tag);
     else
       object.volume->add_region(space_point_from(point), tag);
   });
@@ -228,6 +243,11 @@ pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n, const 
   return change_domain(domain, [&](DomainObject& object) {
     require_count(n, "n");
     if (n > 0) require_pointer(coordinates, "coordinates");
+    std::vector<double> charted;
+    if (const StereographicChart* chart = chart_of(object)) {
+      charted = in_chart(*chart, require_directions("coordinates", n, coordinates));
+      coordinates = charted.data();
+    }
     in_its_dimension(object, [&](auto& d) { d.add_fixed_nodes(n, coordinates, tags); });
   });
 }
@@ -260,6 +280,10 @@ pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double* low, double* high)
     const auto& box = checked.bounds();
     std::copy(box.low.begin(), box.low.end(), low);
     std::copy(box.high.begin(), box.high.end(), high);
+    if (const StereographicChart* chart = pnpbs::chart_of(checked)) {
+      std::fill_n(low, 3, -chart->radius());
+      std::fill_n(high, 3, chart->radius());
+    }
     return PNPBS_OK;
   });
 }

@@ -8,7 +8,15 @@
 
 namespace pnpbs::api {
 
+// Of the sphere that the domain is on, or null.
+inline const StereographicChart* chart_of(const DomainObject& object) {
+  return object.plane ? object.plane->chart() : nullptr;
+}
+
 inline PlaneDomain& plane_of(const DomainObject& object) {
+  if (chart_of(object))
+    throw Error(ErrorKind::argument,
+                "argument domain is on a sphere; this function is for domains in the plane");
   if (!object.plane)
     throw Error(ErrorKind::argument,
                 "argument domain has three dimensions; this function is for domains in the plane");
@@ -18,7 +26,9 @@ inline PlaneDomain& plane_of(const DomainObject& object) {
 inline VolumeDomain& volume_of(const DomainObject& object) {
   if (!object.volume)
     throw Error(ErrorKind::argument,
-                "argument domain has two dimensions; this function is for domains in space");
+                std::string("argument domain ") +
+                    (chart_of(object) ? "is on a sphere" : "has two dimensions") +
+                    "; this function is for domains in space");
   return *object.volume;
 }
 
@@ -57,6 +67,7 @@ inline std::shared_ptr<DomainObject> body_with(const Context& context, bool in_p
   std::shared_ptr<DomainObject> object = require(body);
   if (object->context.get() != &context)
     throw Error(ErrorKind::argument, "argument body belongs to another context");
+  if (chart_of(*object)) throw Error(ErrorKind::argument, "argument body is on a sphere");
   if ((object->plane != nullptr) != in_plane)
     throw Error(ErrorKind::argument, std::string("argument body has ") +
                                          (object->plane ? "two" : "three") +

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/placement_calls.hpp"
+#include "base/space_vectors.hpp"
 #include "placement/element_regions.hpp"
 #include "placement/node_normal.hpp"
 #include "placement/result_check.hpp"
@@ -48,7 +49,7 @@ void for_star(const Results<3>& results, std::int64_t i, const Visit& visit) {
 void copy_nodes(const NodalResults& results, std::int64_t first, std::int64_t n,
                 double* coordinates, std::int64_t* ids, std::int32_t* tags, double* spacing) {
   const NodeColumns nodes = results.nodes();
-  const int dim = results.dimension();
+  const int dim = results.coordinates();
   for_each("pnpbs::copy_nodes", n, [&](std::int64_t k) {
     const std::int64_t i = results.node_at(first + k);
     if (coordinates)
@@ -65,7 +66,7 @@ void copy_nodes(const NodalResults& results, std::int64_t first, std::int64_t n,
 pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t* dim) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(dim, "dim");
-    *dim = object.placement->dimension();
+    *dim = object.placement->results().coordinates();
     return PNPBS_OK;
   });
 }
@@ -95,11 +96,21 @@ pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capa
                                          double* normals) {
   return guarded(placement, [&](PlacementObject& object) {
     NodalResults& results = object.placement->results();
-    const Results<3>& in = require_dimension<3>(results);
+    const bool on_sphere = results.coordinates() > results.dimension();
+    if (!on_sphere) require_dimension<3>(results);
     require_capacity(capacity, results.count());
     if (results.count() == 0) return PNPBS_OK;
     require_pointer(normals, "normals");
     results.prepare_order();
+    if (on_sphere) {
+      copy_nodes(results, 0, results.count(), normals, nullptr, nullptr, nullptr);
+      for (std::int64_t place = 0; place < results.count(); ++place) {
+        const Point<3> normal = unit_vector(Point<3>{normals[0], normals[1], normals[2]});
+        normals = std::copy(normal.begin(), normal.end(), normals);
+      }
+      return PNPBS_OK;
+    }
+    const Results<3>& in = require_dimension<3>(results);
     std::vector<std::int64_t> nodes;
     for (std::int64_t place = 0; place < results.count(); ++place)
       nodes.push_back(results.node_at(place));

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "api/shape.hpp"
@@ -51,6 +52,7 @@ struct PlacementObject {
 struct TransferObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<FieldTransfer> transfer;
+  std::optional<StereographicChart> chart{};  // of the sphere that its nodes are on
 };
 
 struct MeshObject {

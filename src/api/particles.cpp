@@ -6,6 +6,7 @@
 #include "api/domain_calls.hpp"
 #include "api/file_wishes.hpp"
 #include "api/placement_calls.hpp"
+#include "api/sphere_points.hpp"
 #include "io/write_particles.hpp"
 
 using namespace pnpbs;
@@ -49,6 +50,7 @@ pnpbs_status pnpbs_particles_create(pnpbs_placement placement, pnpbs_domain body
       require_pointer(particles, "particles");
       within = body_with(*object.context, results.dimension() == 2, body);
       require_body(results);
+      require_no_sphere(object.placement->chart(), "placement", "particles are made");
       in_its_dimension(*within, [](auto& domain) { domain.check(); });
     });
     agreed(results.communicator(), [&] {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/placement_calls.hpp"
+#include "api/sphere_points.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "base/mixed_hash.hpp"
 #include "base/point_text.hpp"
@@ -154,7 +155,12 @@ pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
   return local_change(placement, [&](Placement& p) {
     return in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& placement_of) {
       IncomingNodes<Dim> nodes;
-      agreed(p.communicator(), [&] { nodes = checked_nodes<Dim>(n, coordinates, ids); });
+      agreed(p.communicator(), [&] {
+        std::vector<double> charted;
+        if (const StereographicChart* chart = p.chart())
+          charted = in_chart(*chart, require_directions("coordinates", n, coordinates));
+        nodes = checked_nodes<Dim>(n, p.chart() ? charted.data() : coordinates, ids);
+      });
       placement_of.set_nodes(std::move(nodes));  // on all ranks or none
       return PNPBS_OK;
     });

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "api/placement_calls.hpp"
+#include "api/sphere_points.hpp"
 #include "base/point_text.hpp"
 #include "base/started_execution.hpp"
 
@@ -50,6 +51,7 @@ const Point<Dim>* points_from(const double* coordinates) {
 template <class Ask>
 pnpbs_status ask_shape(pnpbs_domain domain, const Ask& ask) {
   return guarded(domain, [&](DomainObject& object) {
+    require_no_sphere(chart_of(object), "domain", "shapes are asked for");
     const auto ask_in = [&]<int Dim>(Domain<Dim>& checked,
                                      std::shared_ptr<DomainShapes<Dim>>& shapes) {
       if (!shapes) {
@@ -114,6 +116,7 @@ pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
                                                     double nodes_per_edge, double growth,
                                                     double min_spacing, double max_spacing) {
   return collective(placement, [&](Placement& p) {
+    require_no_sphere(p.chart(), "placement", "d follows the shape");
     const ShapeDemands demands = demands_from(nodes_per_turn, nodes_across, nodes_per_edge);
     const ShapeLimits limits = limits_from(growth, min_spacing, max_spacing);
     in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {

@@ -5,12 +5,14 @@
 #include <limits>
 
 #include "api/placement_calls.hpp"
+#include "api/sphere_points.hpp"
 #include "api/spacing_callback.hpp"
 #include "domain/given_values.hpp"
 #include "placement/nodal_values.hpp"
 #include "spacing/beside_domain.hpp"
 #include "spacing/files/field_file.hpp"
 #include "spacing/given_field.hpp"
+#include "spacing/sphere_spacing.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -29,6 +31,19 @@ pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
     });
     return PNPBS_OK;
   });
+}
+
+// make<Dim>() is a spacing that every rank has; on a sphere of points in space.
+template <int Dim, class Make>
+std::shared_ptr<const Spacing<Dim>> local_spacing(const PlacementOf<Dim>& in, const Make& make) {
+  const auto shared = [&]<int In>() {
+    using Made = decltype(make.template operator()<In>());
+    return std::make_shared<const Made>(make.template operator()<In>());
+  };
+  if constexpr (Dim == 2)
+    if (const StereographicChart* chart = in.chart())
+      return std::make_shared<const SphereSpacing>(shared.template operator()<3>(), *chart);
+  return shared.template operator()<Dim>();
 }
 
 void require_spacing(double d, const std::string& what) {
@@ -104,6 +119,9 @@ void add_elements(GivenField<Dim>& field, std::int64_t elements, const std::int6
 template <class Read>
 pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
   return local_change(placement, [&](Placement& p) {
+    agreed(p.communicator(), [&] {
+      require_no_sphere(p.chart(), "placement", "meshes and points give the spacing");
+    });
     in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
       const Communicator& comm = p.communicator();
       std::shared_ptr<const Spacing<Dim>> spacing;
@@ -152,16 +170,16 @@ pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement, const c
 }
 
 pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d) {
-  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>&) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
     require_spacing(d, "d");
-    return std::make_shared<ConstantSpacing<Dim>>(d);
+    return local_spacing<Dim>(in, [&]<int In>() { return ConstantSpacing<In>(d); });
   });
 }
 
 pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                   pnpbs_spacing_fn spacing, void* user) {
-  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>&) {
-    return std::make_shared<CallbackSpacing<Dim>>(spacing_from<Dim>(spacing, user));
+  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
+    return local_spacing<Dim>(in, [&]<int In>() { return spacing_from<In>(spacing, user); });
   });
 }
 
@@ -169,6 +187,7 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
                                               const double* origin, const double* step,
                                               const double* values) {
   return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
+    require_no_sphere(in.chart(), "placement", "grids give the spacing");
     require_pointer(size, "size");
     require_pointer(origin, "origin");
     require_pointer(step, "step");
@@ -207,6 +226,12 @@ pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int
                     "argument d[" + std::to_string(i) + "] = " + number_text(d[i]) + " at node " +
                         std::to_string(results.level().nodes.id(results.node_at(i))) +
                         ": the spacing must be finite and greater than 0");
-    return spacing_from(results, std::vector<double>(d, d + n));
+    std::vector<double> values(d, d + n);
+    if constexpr (Dim == 2)
+      if (const StereographicChart* chart = in.chart())
+        for (std::int64_t i = 0; i < n; ++i)
+          values[static_cast<std::size_t>(i)] *=
+              chart->stretch(results.level().nodes.position(results.node_at(i)));
+    return spacing_from(results, std::move(values));
   });
 }

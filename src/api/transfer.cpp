@@ -4,6 +4,7 @@
 #include <string>
 
 #include "api/placement_calls.hpp"
+#include "api/sphere_points.hpp"
 #include "base/kokkos_runtime.hpp"
 
 using namespace pnpbs;
@@ -60,6 +61,7 @@ pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t
       auto made = std::make_shared<TransferObject>();
       made->context = object.context;
       made->transfer = make_field_transfer(results, order, components, values);
+      if (const StereographicChart* chart = object.placement->chart()) made->chart = *chart;
       *transfer = transfers().add(std::move(made));
     });
     return PNPBS_OK;
@@ -94,7 +96,7 @@ pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer* transfer) {
 
 pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t* dim, int32_t* components) {
   return guarded(transfer, [&](TransferObject& object) {
-    if (dim) *dim = object.transfer->dimension();
+    if (dim) *dim = object.chart ? 3 : object.transfer->dimension();
     if (components) *components = static_cast<std::int32_t>(object.transfer->components());
     return PNPBS_OK;
   });
@@ -107,6 +109,11 @@ pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n, const 
     if (n > 0) require_pointer(coordinates, "coordinates");
     if (n > 0) require_pointer(values, "values");
     require_kokkos();
+    std::vector<double> charted;
+    if (object.chart) {
+      charted = in_chart(*object.chart, require_directions("coordinates", n, coordinates));
+      coordinates = charted.data();
+    }
     object.transfer->evaluate(n, coordinates, values);
   });
 }
@@ -121,6 +128,10 @@ pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement pl
         throw Error(ErrorKind::argument,
                     "argument placement belongs to another context than the transfer");
       NodalResults& results = target->placement->results();
+      if (const StereographicChart* chart = target->placement->chart();
+          (chart ? *chart == object.chart : !object.chart) == false)
+        throw Error(ErrorKind::argument,
+                    "argument placement is not on the sphere that the transfer's nodes are on");
       if (results.dimension() != object.transfer->dimension())
         throw Error(ErrorKind::argument, "argument placement has " +
                                              std::to_string(results.dimension()) +

@@ -16,4 +16,8 @@ using Domain = std::conditional_t<Dim == 2, PlaneDomain, VolumeDomain>;
 inline double measure_of(const PlaneDomain& domain) { return domain.area(); }
 inline double measure_of(const VolumeDomain& domain) { return domain.volume(); }
 
+// Of the sphere that a domain is on, if it is on one; as long as the domain is there.
+inline const StereographicChart* chart_of(const PlaneDomain& domain) { return domain.chart(); }
+inline const StereographicChart* chart_of(const VolumeDomain&) { return nullptr; }
+
 }  // namespace pnpbs

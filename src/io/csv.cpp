@@ -24,7 +24,7 @@ std::string field_names(const OutputField& field) {
 }
 
 std::string column_names(const Contents& all) {
-  std::string names = all.dimension == 2 ? "id,x,y,tag,spacing" : "id,x,y,z,tag,spacing";
+  std::string names = all.coordinates == 2 ? "id,x,y,tag,spacing" : "id,x,y,z,tag,spacing";
   for (std::size_t k = 0; k < all.field_count(); ++k) names += field_names((*all.fields)[k]);
   return names + "\n";
 }
@@ -41,7 +41,7 @@ void write_fields(const std::vector<FieldColumns>& fields, std::size_t place, Si
 }  // namespace
 
 void write_csv(const NodeSource& nodes, SharedFile& file) {
-  const auto dimension = static_cast<std::size_t>(nodes.contents().dimension);
+  const auto coordinates = static_cast<std::size_t>(nodes.contents().coordinates);
   const std::vector<FieldColumns> fields = all_columns(nodes);
   std::size_t before = 0;  // nodes of windows that have been
   file.append_text(column_names(nodes.contents()));
@@ -50,8 +50,8 @@ void write_csv(const NodeSource& nodes, SharedFile& file) {
       for (std::size_t i = 0; i < rows.ids.size(); ++i) {
         sink.number(rows.ids[i]);
         sink.text(",");
-        for (std::size_t k = 0; k < dimension; ++k) {
-          sink.number(rows.x[dimension * i + k]);
+        for (std::size_t k = 0; k < coordinates; ++k) {
+          sink.number(rows.x[coordinates * i + k]);
           sink.text(",");
         }
         sink.number(rows.tags[i]);

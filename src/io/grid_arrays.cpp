@@ -107,14 +107,14 @@ std::vector<GridArray> cell_data(const Contents& all) {
 
 GridArray point_array(const Contents& all, int coordinates) {
   return {"Points", NumberType::real, all.nodes, coordinates,
-          [dimension = static_cast<std::size_t>(all.dimension),
+          [given = static_cast<std::size_t>(all.coordinates),
            size = static_cast<std::size_t>(coordinates) * sizeof(double)](const NodeSource& nodes,
                                                                           SharedFile& file) {
             nodes.for_nodes([&](const NodeRows& rows) {
               file.append([&](Sink& sink) {
                 for (std::size_t i = 0; i < rows.ids.size(); ++i) {
                   std::array<double, 3> point{};
-                  std::copy_n(&rows.x[dimension * i], dimension, point.data());
+                  std::copy_n(&rows.x[given * i], given, point.data());
                   sink.bytes(point.data(), size);
                 }
               });

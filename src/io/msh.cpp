@@ -169,9 +169,9 @@ class Writer {
   }
 
   HeldNode row(const NodeRows& rows, std::size_t i) const {
-    const auto dimension = static_cast<std::size_t>(all_.dimension);
+    const auto coordinates = static_cast<std::size_t>(all_.coordinates);
     HeldNode node{block_of(rows, i), rows.first + static_cast<std::int64_t>(i) + 1, {}};
-    for (std::size_t k = 0; k < dimension; ++k) node.x[k] = rows.x[dimension * i + k];
+    for (std::size_t k = 0; k < coordinates; ++k) node.x[k] = rows.x[coordinates * i + k];
     return node;
   }
 

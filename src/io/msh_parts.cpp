@@ -55,7 +55,6 @@ class MshPart {
   }
 
  private:
-  bool of_surfaces_alone() const { return mesh_.corners == mesh_.dimension; }
   int dimension_of(MshKind kind) const { return mesh_.corners - (kind == kMshFacets ? 2 : 1); }
   int corners_of(MshKind kind) const { return mesh_.corners - (kind == kMshFacets ? 1 : 0); }
   const std::vector<std::int32_t>& nodes_of(MshKind kind) const {
@@ -86,7 +85,7 @@ class MshPart {
   // Those of all ranks, on each of them.
   void find_groups() {
     groups_[kMshFacets] = tagged_groups(contents(mesh_.corners - 1), boxes_by_tag(kMshFacets));
-    if (of_surfaces_alone()) {
+    if (mesh_.surfaces_alone) {
       groups_[kMshElements] = tagged_groups(contents(mesh_.corners), boxes_by_tag(kMshElements));
     } else {
       find_regions();
@@ -125,7 +124,7 @@ class MshPart {
     for (std::size_t row = 0; row < tags_of(kind).size(); ++row) {
       if (owners_of(kind)[row] != comm_.rank()) continue;
       for (std::size_t k = 0; k < n; ++k) corners[k] = position(nodes_of(kind)[n * row + k]);
-      own.add<3>(tags_of(kind)[row], corners);
+      own.add(tags_of(kind)[row], corners);
     }
     return own.of_all(comm_);
   }
@@ -162,7 +161,7 @@ class MshPart {
   // Of nodes inside, that of their elements.
   void find_regions_of_nodes() {
     node_regions_.assign(mesh_.numbers.size(), 0);
-    if (of_surfaces_alone()) return;
+    if (mesh_.surfaces_alone) return;
     const auto n = static_cast<std::size_t>(mesh_.corners);
     for (std::size_t e = 0; e < mesh_.element_tags.size(); ++e)
       for (std::size_t k = n * e; k < n * (e + 1); ++k) {
@@ -174,9 +173,9 @@ class MshPart {
   // Of a tag that only the node has: inside.
   EntityPart part_of_node(std::size_t i) const {
     const std::int32_t tag = mesh_.tags[i], owner = mesh_.owners[i];
-    const std::int32_t tag_within = of_surfaces_alone() ? tag : node_regions_[i];
+    const std::int32_t tag_within = mesh_.surfaces_alone ? tag : node_regions_[i];
     const bool within = group_of(groups_[kMshElements], tag_within) != nullptr;
-    if (group_of(groups_[kMshFacets], tag) && !(within && of_surfaces_alone()))
+    if (group_of(groups_[kMshFacets], tag) && !(within && mesh_.surfaces_alone))
       return part(kMshFacets, tag, owner);
     return within ? part(kMshElements, tag_within, owner) : EntityPart{kMshElements, 0, owner};
   }

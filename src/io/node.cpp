@@ -9,7 +9,7 @@ namespace pnpbs::io {
 
 void write_node(const NodeSource& nodes, SharedFile& file) {
   const Contents& all = nodes.contents();
-  file.append_text(std::to_string(all.nodes) + " " + std::to_string(all.dimension) + " 0 1\n");
+  file.append_text(std::to_string(all.nodes) + " " + std::to_string(all.coordinates) + " 0 1\n");
   append_numbered_points(nodes, file, [](const NodeRows& rows, std::size_t i, Sink& sink) {
     sink.text(" ");
     sink.number(rows.tags[i]);

@@ -21,7 +21,8 @@ enum class Cells { nodes, elements, facets };
 
 // What all ranks hold together. Nodes, elements and facets are numbered through, from 0.
 struct Contents {
-  int dimension = 2;
+  int dimension = 2;    // of elements
+  int coordinates = 2;  // of nodes: 3 on a sphere, too
   bool is_piece = false;       // one of many, which stands for itself and knows ghosts
   bool with_elements = false;  // and facets?
   Cells cells = Cells::nodes;  // of surfaces alone, which have no elements, the facets
@@ -45,7 +46,7 @@ struct Contents {
 
 struct NodeRows {
   std::int64_t first = 0;             // number of the first one here
-  std::vector<double> x;              // [nodes][dimension]
+  std::vector<double> x;              // [nodes][coordinates]
   std::vector<std::int64_t> ids;      // [nodes]
   std::vector<std::int32_t> tags;     // [nodes], 0: inner node
   std::vector<std::int32_t> regions;  // [nodes], where they lie; with_regions only, not of pieces

@@ -17,7 +17,7 @@ namespace {
 template <int Dim>
 struct NodeRow {
   std::int64_t id;
-  Point<Dim> x;
+  Point<3> x;  // of which `coordinates` count
   double d;
   std::int32_t tag, region;
 };
@@ -43,18 +43,19 @@ struct FacetRow {
 };
 
 template <int Dim>
-NodeRow<Dim> node_row(const Nodes<Dim>& nodes, std::int64_t i, std::int32_t region) {
-  return {nodes.id(i), nodes.position(i), nodes.d(i), static_cast<std::int32_t>(nodes.tag(i)),
-          region};
+NodeRow<Dim> node_row(const Results<Dim>& results, std::int64_t i, std::int32_t region) {
+  const Nodes<Dim>& nodes = results.level().nodes;
+  return {nodes.id(i), results.place_in_space(i), results.spacing_at(i),
+          static_cast<std::int32_t>(nodes.tag(i)), region};
 }
 
 template <int Dim>
-NodeRows sorted_nodes(std::vector<NodeRow<Dim>> rows, bool with_regions) {
+NodeRows sorted_nodes(std::vector<NodeRow<Dim>> rows, int coordinates, bool with_regions) {
   std::ranges::sort(rows, {}, &NodeRow<Dim>::id);
   NodeRows sorted;
   for (const NodeRow<Dim>& row : rows) {
     sorted.ids.push_back(row.id);
-    sorted.x.insert(sorted.x.end(), row.x.begin(), row.x.end());
+    sorted.x.insert(sorted.x.end(), row.x.begin(), row.x.begin() + coordinates);
     sorted.spacing.push_back(row.d);
     sorted.tags.push_back(row.tag);
     if (with_regions) sorted.regions.push_back(row.region);
@@ -95,6 +96,7 @@ NodesById<Dim>::NodesById(Results<Dim>& results, bool elements,
   prepare(results, elements);
   owned_ = results.count();
   contents_.dimension = Dim;
+  contents_.coordinates = results.coordinates();
   contents_.with_elements = elements;
   contents_.cells = cells_of(results, elements);
   if (contents_.cells == Cells::elements) region_of_.emplace(results);
@@ -183,16 +185,15 @@ void NodesById<Dim>::label_by_numbers(std::vector<std::int64_t>& labels) const {
 
 template <int Dim>
 void NodesById<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
-  const Nodes<Dim>& nodes = results_.level().nodes;
   for_windows([&](const Window& window) {
     std::vector<NodeRow<Dim>> own;
     for (std::int64_t place = window.begin; place < window.end; ++place) {
       const std::int64_t i = results_.node_at(place);
-      own.push_back(node_row<Dim>(nodes, i, region_of_ ? region_of_->at_node(i) : 0));
+      own.push_back(node_row<Dim>(results_, i, region_of_ ? region_of_->at_node(i) : 0));
     }
     NodeRows rows =
         sorted_nodes<Dim>(brought(std::move(own), [](const NodeRow<Dim>& n) { return n.id; }),
-                          region_of_.has_value());
+                          contents_.coordinates, region_of_.has_value());
     rows.first = window.first;
     visit(rows);
   });
@@ -234,7 +235,7 @@ void NodesById<Dim>::for_elements(const std::function<void(const ElementRows&)>&
   for_windows([&](const Window& window) {
     std::vector<ElementRow<Dim>> own;
     results_.for_elements(window.begin, window.end, [&](const auto& places) {
-      own.push_back({labels(places), quality_of(positions_at(results_, places)),
+      own.push_back({labels(places), element_quality(results_, places),
                      region_of_ ? (*region_of_)(places) : 0});
     });
     ElementRows rows = sorted_elements<Dim>(
@@ -281,8 +282,8 @@ std::vector<TagGroup> NodesById<Dim>::node_groups() const {
   TagGroups groups;
   for (std::int64_t place = 0; place < owned_; ++place) {
     const std::int64_t i = results_.node_at(place);
-    const Point<Dim> x = nodes.position(i);
-    groups.add<Dim>(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
+    const Point<3> x = results_.place_in_space(i);
+    groups.add(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
   }
   return groups.of_all(comm_);
 }
@@ -291,8 +292,7 @@ template <int Dim>
 std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
   TagGroups groups;
   const auto add = [&](const auto& places, std::int32_t tag) {
-    const auto corners = positions_at(results_, places);
-    groups.add<Dim>(tag, corners);
+    groups.add(tag, places_in_space(results_, places));
   };
   results_.for_boundary_facets(add);
   if constexpr (Dim == 3) results_.for_inner_facets(add);
@@ -304,8 +304,7 @@ std::vector<TagGroup> NodesById<Dim>::region_groups() const {
   TagGroups groups;
   if (!region_of_) return {};
   results_.for_elements([&](const auto& places) {
-    const auto corners = positions_at(results_, places);
-    groups.add<Dim>((*region_of_)(places), corners);
+    groups.add((*region_of_)(places), places_in_space(results_, places));
   });
   return groups.of_all(comm_);
 }

@@ -10,15 +10,15 @@ namespace pnpbs::io {
 // rest(rows, i, sink) writes what follows the coordinates of a node, and ends the line.
 template <class Rest>
 void append_numbered_points(const NodeSource& nodes, SharedFile& file, const Rest& rest) {
-  const auto dimension = static_cast<std::size_t>(nodes.contents().dimension);
+  const auto coordinates = static_cast<std::size_t>(nodes.contents().coordinates);
   nodes.for_nodes([&](const NodeRows& rows) {
     file.append([&](Sink& sink) {
       std::int64_t number = rows.first;
       for (std::size_t i = 0; i < rows.ids.size(); ++i) {
         sink.number(++number);
-        for (std::size_t k = 0; k < dimension; ++k) {
+        for (std::size_t k = 0; k < coordinates; ++k) {
           sink.text(" ");
-          sink.number(rows.x[dimension * i + k]);
+          sink.number(rows.x[coordinates * i + k]);
         }
         rest(rows, i, sink);
       }

@@ -44,7 +44,7 @@ std::uint64_t hash_of_nodes(NodalResults& results) {
   for (std::int64_t place = 0; place < owned; ++place) {
     const std::int64_t i = results.node_at(place);
     hash = mixed(hash ^ static_cast<std::uint64_t>(nodes.id(i)));
-    for (int axis = 0; axis < results.dimension(); ++axis)
+    for (int axis = 0; axis < results.coordinates(); ++axis)
       hash = mixed_with(hash, nodes.x[static_cast<std::size_t>(axis)](i));
   }
   return hash;

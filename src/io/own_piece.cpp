@@ -15,6 +15,7 @@ OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
       owned_(results.count()),
       number_(static_cast<std::size_t>(results.level().nodes.count - owned_), -1) {
   contents_.dimension = Dim;
+  contents_.coordinates = results.coordinates();
   contents_.is_piece = true;
   contents_.fields = &fields;
   contents_.with_elements = elements;
@@ -57,10 +58,11 @@ void OwnPiece<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit)
     rows.first = begin;
     for (std::int64_t k = begin; k < std::min(begin + kWindow, contents_.nodes); ++k) {
       const std::int64_t i = results_.node_at(place_of_number(k));
-      for (std::size_t axis = 0; axis < Dim; ++axis) rows.x.push_back(nodes.x[axis](i));
+      const Point<3> x = results_.place_in_space(i);
+      rows.x.insert(rows.x.end(), x.begin(), x.begin() + contents_.coordinates);
       rows.ids.push_back(nodes.id(i));
       rows.tags.push_back(nodes.tag(i));
-      rows.spacing.push_back(nodes.d(i));
+      rows.spacing.push_back(results_.spacing_at(i));
       rows.ghosts.push_back(k >= owned_);
     }
     visit(rows);
@@ -99,7 +101,7 @@ void OwnPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& 
     rows.first = before;
     results_.for_elements(begin, end, [&](const auto& places) {
       for (const std::int64_t place : places) rows.corners.push_back(number(place));
-      rows.quality.push_back(quality_of(positions_at(results_, places)));
+      rows.quality.push_back(element_quality(results_, places));
       if (contents_.with_regions) rows.regions.push_back(region_of(places));
     });
     before += static_cast<std::int64_t>(rows.quality.size());

@@ -23,12 +23,12 @@ struct ParticleValue {
   double value;
 };
 
-template <int Dim>
 void add_to_groups(const Particles& particles, TagGroups& groups) {
+  const auto dimension = static_cast<std::size_t>(particles.dimension);
   for (std::size_t i = 0; i < particles.ids.size(); ++i) {
-    Point<Dim> x;
-    std::copy_n(&particles.x[Dim * i], Dim, x.begin());
-    groups.add<Dim>(particles.tags[i], {&x, 1});
+    Point<3> x{};
+    std::copy_n(&particles.x[dimension * i], dimension, x.begin());
+    groups.add(particles.tags[i], {&x, 1});
   }
 }
 
@@ -40,7 +40,7 @@ ParticlesById::ParticlesById(const Communicator& comm, const Particles& particle
       particles_(particles),
       blocks_(comm, static_cast<std::int64_t>(particles.ids.size()),
               [&](std::int64_t i) { return particles.ids[static_cast<std::size_t>(i)]; }) {
-  contents_.dimension = particles.dimension;
+  contents_.dimension = contents_.coordinates = particles.dimension;
   contents_.nodes = particles.all;
   contents_.names = &names;
   contents_.fields = &fields;
@@ -94,10 +94,7 @@ void ParticlesById::for_field(std::size_t field,
 
 std::vector<TagGroup> ParticlesById::node_groups() const {
   TagGroups groups;
-  if (particles_.dimension == 2)
-    add_to_groups<2>(particles_, groups);
-  else
-    add_to_groups<3>(particles_, groups);
+  add_to_groups(particles_, groups);
   return groups.of_all(comm_);
 }
 

@@ -29,6 +29,23 @@ std::array<Point<Dim>, n> positions_at(const Results<Dim>& results,
   return x;
 }
 
+// As they are handed out.
+template <int Dim, std::size_t n>
+std::array<Point<3>, n> places_in_space(const Results<Dim>& results,
+                                        const std::array<std::int64_t, n>& places) {
+  std::array<Point<3>, n> x;
+  for (std::size_t k = 0; k < n; ++k) x[k] = results.place_in_space(results.node_at(places[k]));
+  return x;
+}
+
+// Of an element, see ElementRows.
+template <int Dim, std::size_t n>
+float element_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {
+  if constexpr (Dim == 2)
+    if (results.chart()) return quality_of(places_in_space(results, places));
+  return quality_of(positions_at(results, places));
+}
+
 // Of a facet: see FacetRows.
 template <int Dim, std::size_t n>
 float facet_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {

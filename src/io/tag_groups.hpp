@@ -19,15 +19,13 @@ namespace pnpbs::io {
 // Of this rank, then of all.
 class TagGroups {
  public:
-  template <int Dim>
-  void add(std::int32_t tag, std::span<const Point<Dim>> corners) {
+  void add(std::int32_t tag, std::span<const Point<3>> corners) {
     TagGroup& group = at(tag);
     ++group.count;
-    for (const Point<Dim>& x : corners)
+    for (const Point<3>& x : corners)
       for (std::size_t k = 0; k < 3; ++k) {
-        const double coordinate = k < Dim ? x[k] : 0;
-        group.low[k] = std::min(group.low[k], coordinate);
-        group.high[k] = std::max(group.high[k], coordinate);
+        group.low[k] = std::min(group.low[k], x[k]);
+        group.high[k] = std::max(group.high[k], x[k]);
       }
   }
 

@@ -30,7 +30,7 @@ std::vector<PlacedArray> xdmf_cell_data(const Contents& all) {
 }
 
 PlacedArray placed_points(const Contents& all) {
-  return {"/points", point_array(all, all.dimension)};
+  return {"/points", point_array(all, all.coordinates)};
 }
 
 // ------------------------------------------------------------------ the part in XML ------------
@@ -95,7 +95,7 @@ void write_xdmf(const NodeSource& nodes, SharedFile& file) {
       std::string(all.is_beside ? "facets" : "mesh") +
       "\" GridType=\"Uniform\">\n      <Time Value=\"0\"/>\n" + topology(all) +
       item(heavy, placed_cells(all)) + "      </Topology>\n" + "      <Geometry GeometryType=\"" +
-      (all.dimension == 2 ? "XY" : "XYZ") + "\">\n" + item(heavy, placed_points(all)) +
+      (all.coordinates == 2 ? "XY" : "XYZ") + "\">\n" + item(heavy, placed_points(all)) +
       "      </Geometry>\n" + attributes(heavy, "Cell", xdmf_cell_data(all)) +
       attributes(heavy, "Node", xdmf_point_data(all)) + "    </Grid>\n  </Domain>\n</Xdmf>\n");
 }

@@ -71,6 +71,20 @@ double expected_nodes(const Level<Dim>& level) {
   return level.comm->allreduce_sum(nodes).value();
 }
 
+namespace {
+
+// By which d grows in the chart of a sphere where it does not along the sphere: bubbles of the
+// sphere are bubbles of the chart, and such growth is none to them.
+double growth_of_chart(const Level<2>& level, std::int32_t leaf, double d) {
+  const StereographicChart* chart = level.ground.domain().chart();
+  if (!chart) return 0;
+  const BackgroundTree<2>& tree = level.map().tree();
+  return d * chart->relative_growth(tree.cell_centre(tree.leaf_cell(leaf)));
+}
+double growth_of_chart(const Level<3>&, std::int32_t, double) { return 0; }
+
+}  // namespace
+
 template <int Dim>
 SpacingVariation spacing_variation(const Level<Dim>& level) {
   const DomainMap<Dim>& map = level.map();
@@ -84,7 +98,8 @@ SpacingVariation spacing_variation(const Level<Dim>& level) {
                  way = kBetweenSamples * (map.leaf_has_facets(leaf) ? 2 * cell : cell);
     own.min = std::min(own.min, min);
     own.max = std::max(own.max, max);
-    own.steepest = std::max(own.steepest, (max - min) / way);
+    own.steepest = std::max(own.steepest,
+                            (max - min) / way - growth_of_chart(level, leaf, min));
   }
   return SpacingVariation{-level.comm->allreduce_max(-own.min), level.comm->allreduce_max(own.max),
                           level.comm->allreduce_max(own.steepest)};

@@ -48,9 +48,7 @@ template <int Dim>
 MeshNode mesh_node(const Results<Dim>& results, const RankRanges& nodes, std::int64_t number) {
   const Nodes<Dim>& from = results.level().nodes;
   const std::int64_t i = results.node_at(number - nodes.first());
-  MeshNode node{number, from.id(i), {}, from.tag(i)};
-  for (std::size_t k = 0; k < Dim; ++k) node.x[k] = from.x[k](i);
-  return node;
+  return {number, from.id(i), results.place_in_space(i), from.tag(i)};
 }
 
 template <std::size_t Corners, int Dim>
@@ -98,7 +96,8 @@ void make(Results<Dim>& results, int layers, DistributedMesh& mesh) {
 
 std::unique_ptr<DistributedMesh> make_distributed_mesh(NodalResults& results, int layers) {
   auto mesh = std::make_unique<DistributedMesh>();
-  mesh->dimension = results.dimension();
+  mesh->dimension = results.coordinates();
+  mesh->surfaces_alone = results.surfaces_alone();
   in_its_dimension(results, [&]<int Dim>(Results<Dim>& in) {
     mesh->names = in.domain().names();
     if (in.surfaces_alone())

@@ -25,6 +25,7 @@ class Fingerprint {
 
 std::uint64_t fingerprint_of(const PlaneDomain& domain) {
   Fingerprint print;
+  if (const StereographicChart* chart = domain.chart()) print.add(chart->projected_from());
   for (const BoundaryCurve& curve : domain.curves()) {
     print.add(curve.tag);
     print.add(curve.left_inside);  // the role, and holes

@@ -58,7 +58,7 @@ std::unique_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPla
     const PhaseTimer timer(timers_, Phase::spacing);
     placed.steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
-        next->ground.evaluator(), placed.unheld->known_values());
+        next->ground.evaluator(), placed.unheld->known_values(), chart_of(*domain_));
   }
   if (too_steep(placed.steepest) && settings.growth_limit > 0) {
     next.reset();

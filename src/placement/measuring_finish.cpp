@@ -30,7 +30,7 @@ void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunStat
   const PhaseTimer timer(level.timers, Phase::conformity);
   const View<char> held = held_nodes(level, placed);  // there d is not the user's
   agreed(*level.comm, [&] {
-    run.edge_bands = edge_bands_to_judge<3>(*level.comm, level.nodes, level.stars, held);
+    run.edge_bands = edge_bands_to_judge<3>(*level.comm, {level.nodes}, level.stars, held);
   });
   run.surface_fit = measure_surface_fit(level);
 }

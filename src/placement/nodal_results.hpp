@@ -23,7 +23,7 @@ namespace pnpbs {
 // The nodes of a rank, as they lie in memory.
 struct NodeColumns {
   std::int64_t count = 0;
-  std::array<View<const double>, 3> x;  // as many as there are dimensions
+  std::array<View<const double>, 3> x;  // as many as there are coordinates
   View<const double> d;
   View<const std::int64_t> id;
   View<const std::int32_t> tag;
@@ -50,7 +50,9 @@ class NodalResults {
   NodalResults(const NodalResults&) = delete;
   NodalResults& operator=(const NodalResults&) = delete;
 
+  // Of what the nodes fill; a sphere is filled like the plane.
   virtual int dimension() const = 0;
+  virtual int coordinates() const = 0;  // of a node, as they are handed out
   // Whether the domain is surfaces alone, and of what its bubbles fill.
   virtual bool surfaces_alone() const = 0;
   const Communicator& communicator() const { return *comm_; }

@@ -240,7 +240,8 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
   }
   return {nodes,
           steepest_growth<Dim>(
-              comm, map, [](std::int32_t) { return true; }, evaluator, spacing.known_values())};
+              comm, map, [](std::int32_t) { return true; }, evaluator, spacing.known_values(),
+              chart_of(domain))};
 }
 
 template NodeEstimate<2> estimate_nodes<2>(const Communicator&, const Domain<2>&, const Spacing<2>&,

@@ -17,6 +17,7 @@
 #include "placement/outcome.hpp"
 #include "placement/run_state.hpp"
 #include "settings/options.hpp"
+#include "sphere/stereographic_chart.hpp"
 
 namespace pnpbs {
 
@@ -28,6 +29,7 @@ class Placement {
   virtual ~Placement() = default;
 
   virtual int dimension() const = 0;
+  virtual const StereographicChart* chart() const = 0;  // of the sphere that it is on, or null
   Options& options() { return options_; }
   const Options& options() const { return options_; }
   virtual void forget_nodes() = 0;  // lets go of everything that lives in Kokkos' memory

@@ -138,7 +138,42 @@ NodeColumns Results<Dim>::nodes() const {
   NodeColumns columns{nodes.count,       {}, nodes.d.view(), nodes.id.view(), nodes.tag.view(),
                       nodes.owned.view()};
   for (std::size_t k = 0; k < Dim; ++k) columns.x[k] = nodes.x[k].view();
+  if (!chart()) return columns;
+  put_on_sphere();
+  for (std::size_t k = 0; k < 3; ++k) columns.x[k] = on_sphere_[k];
+  columns.d = spacing_on_sphere_;
   return columns;
+}
+
+template <int Dim>
+void Results<Dim>::put_on_sphere() const {
+  if (on_sphere_stamp_ == level_->stamp()) return;
+  const std::int64_t n = level_->nodes.count;
+  for (View<double>& x : on_sphere_) x = make_view<double>("pnpbs::Results::on_sphere", n);
+  spacing_on_sphere_ = make_view<double>("pnpbs::Results::spacing_on_sphere", n);
+  for_each("pnpbs::Results::put_on_sphere", n, [this](std::int64_t i) {
+    const Point<3> x = place_in_space(i);
+    for (std::size_t k = 0; k < 3; ++k) on_sphere_[k](i) = x[k];
+    spacing_on_sphere_(i) = spacing_at(i);
+  });
+  on_sphere_stamp_ = level_->stamp();
+}
+
+template <int Dim>
+Point<3> Results<Dim>::place_in_space(std::int64_t node) const {
+  const Point<Dim> x = level_->nodes.position(node);
+  if constexpr (Dim == 2)
+    return chart() ? chart()->on_sphere(x) : Point<3>{x[0], x[1], 0};
+  else
+    return x;
+}
+
+template <int Dim>
+double Results<Dim>::spacing_at(std::int64_t node) const {
+  const double d = level_->nodes.d(node);
+  if constexpr (Dim == 2)
+    if (chart()) return d / chart()->stretch(level_->nodes.position(node));
+  return d;
 }
 
 // ------------------------------------------------------------------ figures --------------------
@@ -163,17 +198,18 @@ template <int Dim>
 NearestNeighbourError Results<Dim>::spacing_error() {
   prepare_lists();
   const Nodes<Dim>& nodes = level_->nodes;
+  const MeasuredNodes<Dim> measured{nodes, chart()};
   const AdjacencyList<Dim>& lists = level_->lists();
   // Nodes with no listed neighbour count as far as the lists reach.
   View<double> ratio;
   agreed(*comm_, [&] { ratio = make_view<double>("pnpbs::spacing_error::ratio", nodes.count); });
   for_each("pnpbs::spacing_error::ratio", nodes.count, [&](std::int64_t i) {
     if (!nodes.owned(i)) return;
-    double nearest = lists.radius() * nodes.d(i);
+    double nearest = lists.radius() * measured.d(i);
     lists.for_neighbours(i, [&](std::int64_t j) {
-      nearest = std::min(nearest, distance<Dim>(nodes.position(i), nodes.position(j)));
+      nearest = std::min(nearest, measured.distance_between(i, j));
     });
-    ratio(i) = nearest / nodes.d(i);
+    ratio(i) = nearest / measured.d(i);
   });
   const double n = static_cast<double>(global_count());
   const auto mean_of = [&](const auto& value) {
@@ -196,7 +232,7 @@ template <int Dim>
 const ElementQuality& Results<Dim>::element_quality() {
   prepare_stars();
   if (quality_stamp_ != level_->stamp()) {
-    quality_ = measure_elements<Dim>(*comm_, level_->nodes, level_->stars);
+    quality_ = measure_elements<Dim>(*comm_, {level_->nodes, chart()}, level_->stars);
     quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
     if constexpr (Dim == 3) {
       if (!level_->ground.surfaces_alone()) {

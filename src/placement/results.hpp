@@ -31,6 +31,8 @@ class Results : public NodalResults {
   Level<Dim>* shown() const { return level_; }
 
   int dimension() const override { return Dim; }
+  int coordinates() const override { return chart() ? 3 : Dim; }
+  const StereographicChart* chart() const { return chart_of(*domain_); }
   bool has_nodes() const override { return level_ != nullptr; }
   const Level<Dim>& level() const { return *level_; }
   // The user's, who may have changed it since.
@@ -85,6 +87,9 @@ class Results : public NodalResults {
     if constexpr (Dim == 3) return !domain_->filled();
     return false;
   }
+  // Of a node, as it is handed out: on a sphere not that of the chart; z is 0 in the plane.
+  Point<3> place_in_space(std::int64_t node) const;
+  double spacing_at(std::int64_t node) const;
   int owner_of(std::int64_t node) const {
     return level_->tree->owner_at(level_->nodes.position(node));
   }
@@ -102,8 +107,14 @@ class Results : public NodalResults {
   void require_nodes() const;
   LevelStamp stamp() const override { return level_ ? level_->stamp() : LevelStamp(); }
 
+  void put_on_sphere() const;
+
   std::shared_ptr<const Domain<Dim>> domain_;
   Level<Dim>* level_ = nullptr;
+  // On a sphere: of the nodes as they lie in memory, made when they are asked for.
+  mutable std::array<View<double>, 3> on_sphere_;
+  mutable View<double> spacing_on_sphere_;
+  mutable LevelStamp on_sphere_stamp_;
 };
 
 // While it is there, results are those of another level, which is worked on.

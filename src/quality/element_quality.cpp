@@ -87,22 +87,24 @@ double off(const EdgeRatio& ratio) { return std::fabs(ratio.mean - 1); }
 double off(const RatioSums& sums) { return off(ratio_of(sums)); }
 
 template <int Dim>
-SpacingBands bands_of_nodes(const Communicator& comm, const Nodes<Dim>& nodes) {
-  const SpacingRange d = spacing_range<Dim>(comm, nodes);
+SpacingBands bands_of_nodes(const Communicator& comm, const MeasuredNodes<Dim>& measured) {
+  const SpacingRange d = spacing_range<Dim>(
+      comm, measured.nodes, [&](std::int64_t i) { return measured.d(i); });
   return {d.min, d.max};
 }
 
 // Of the edges for which counts(i, j).
 template <int Dim, class Counts>
-EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
+EdgeSums local_edge_sums(const MeasuredNodes<Dim>& measured, const Stars<Dim>& stars,
                          const SpacingBands& bands, const Counts& counts) {
+  const Nodes<Dim>& nodes = measured.nodes;
   return sums_over(
       "pnpbs::edge_sums", nodes.count, EdgeSums(), [&](std::int64_t i, EdgeSums& sums) {
         if (!nodes.owned(i)) return;
         for_edges(nodes, stars, i, [&](std::int64_t j) {
           if (!counts(i, j)) return;
-          const double d = 0.5 * (nodes.d(i) + nodes.d(j));
-          const double ratio = distance<Dim>(nodes.position(i), nodes.position(j)) / d;
+          const double d = 0.5 * (measured.d(i) + measured.d(j));
+          const double ratio = measured.distance_between(i, j) / d;
           const bool moves = nodes.moves(i) || nodes.moves(j);
           sums.of[static_cast<std::size_t>(moves ? bands.band_of(d) : SpacingBands::kMaxBands)].add(
               ratio);
@@ -112,9 +114,9 @@ EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
 
 // Over all ranks.
 template <int Dim, class Counts>
-EdgeSums edge_sums(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
-                   const SpacingBands& bands, const Counts& counts) {
-  EdgeSums sums = local_edge_sums<Dim>(nodes, stars, bands, counts);
+EdgeSums edge_sums(const Communicator& comm, const MeasuredNodes<Dim>& measured,
+                   const Stars<Dim>& stars, const SpacingBands& bands, const Counts& counts) {
+  EdgeSums sums = local_edge_sums<Dim>(measured, stars, bands, counts);
   std::vector<std::int64_t> edges;
   std::vector<FixedPointSum> ratios;
   for (const RatioSums& part : sums.of) {
@@ -141,12 +143,18 @@ std::vector<EdgeBand> bands_with_edges(const SpacingBands& bands, const EdgeSums
 // The quality of an element in steps of 2^-16.
 constexpr std::int64_t kQualitySteps = 1 << 16;
 
-// Triangles in the plane, tetrahedra, and the triangles of surfaces alone, by their corners.
+// Triangles in the plane, tetrahedra, and the triangles of surfaces alone and of a sphere, by their
+// corners.
 using PlaneTriangle = std::array<Point<2>, 3>;
 using SpaceTriangle = std::array<Point<3>, 3>;
 
 template <class Visit>
 void for_simplices_around(const DelaunayStars& stars, std::int64_t i, const PlaneTriangle*,
+                          const Visit& visit) {
+  stars.for_simplices(i, visit);
+}
+template <class Visit>
+void for_simplices_around(const DelaunayStars& stars, std::int64_t i, const SpaceTriangle*,
                           const Visit& visit) {
   stars.for_simplices(i, visit);
 }
@@ -163,15 +171,17 @@ void for_simplices_around(const VolumeStars& stars, std::int64_t i, const SpaceT
 
 // Calls visit(corners) for the elements of that kind whose node with the least id is i.
 template <class Element, int Dim, class Visit>
-void for_elements_of(const Nodes<Dim>& nodes, const Stars<Dim>& stars, std::int64_t i,
+void for_elements_of(const MeasuredNodes<Dim>& measured, const Stars<Dim>& stars, std::int64_t i,
                      const Visit& visit) {
+  const Nodes<Dim>& nodes = measured.nodes;
   if (!nodes.owned(i)) return;
   constexpr const Element* kKind = nullptr;
   for_simplices_around(stars, i, kKind, [&](const auto& others) {
-    Element corners{nodes.position(i)};
+    Element corners;
+    measured.put(i, corners[0]);
     for (std::size_t k = 0; k < others.size(); ++k) {
       if (nodes.id(others[k]) < nodes.id(i)) return;
-      corners[k + 1] = nodes.position(others[k]);
+      measured.put(others[k], corners[k + 1]);
     }
     visit(corners);
   });
@@ -226,16 +236,16 @@ double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t e
 
 // Of the elements of this rank; and how many there are of each step of quality.
 template <class Element, int Dim>
-QualitySums local_quality_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
+QualitySums local_quality_sums(const MeasuredNodes<Dim>& measured, const Stars<Dim>& stars,
                                std::vector<std::int64_t>& histogram) {
   constexpr bool kTriangles = std::tuple_size_v<Element> == 3;
   constexpr double kOfLargestMin = kTriangles ? 0.5 : 1.0 / 3;  // 60 degrees, 70.5 degrees
   const View<std::int64_t> steps = make_view<std::int64_t>("pnpbs::quality", kQualitySteps);
   Kokkos::deep_copy(steps, 0);
   const QualitySums sums = sums_over(
-      "pnpbs::quality_sums", nodes.count, QualitySums(kOfLargestMin),
+      "pnpbs::quality_sums", measured.nodes.count, QualitySums(kOfLargestMin),
       [&](std::int64_t i, QualitySums& sum) {
-        for_elements_of<Element, Dim>(nodes, stars, i, [&](const Element& corners) {
+        for_elements_of<Element, Dim>(measured, stars, i, [&](const Element& corners) {
           const double quality = quality_of(corners);
           const auto step = static_cast<std::int64_t>(kQualitySteps * quality);
           Kokkos::atomic_inc(&steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
@@ -250,10 +260,10 @@ QualitySums local_quality_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
 }
 
 template <class Element, int Dim>
-SimplexQuality measure_simplices(const Communicator& comm, const Nodes<Dim>& nodes,
+SimplexQuality measure_simplices(const Communicator& comm, const MeasuredNodes<Dim>& measured,
                                  const Stars<Dim>& stars) {
   std::vector<std::int64_t> histogram;
-  const QualitySums own = local_quality_sums<Element, Dim>(nodes, stars, histogram);
+  const QualitySums own = local_quality_sums<Element, Dim>(measured, stars, histogram);
   SimplexQuality found;
   found.elements =
       static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(own.elements)));
@@ -286,18 +296,20 @@ double irregular_share(const Communicator& comm, const Nodes<Dim>& nodes, const 
 }  // namespace
 
 template <int Dim>
-std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm, const Nodes<Dim>& nodes,
+std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm,
+                                          const MeasuredNodes<Dim>& measured,
                                           const Stars<Dim>& stars, const View<char>& left_out) {
+  const Nodes<Dim>& nodes = measured.nodes;
   const auto counts = [&](std::int64_t i, std::int64_t j) {
     return left_out.extent(0) == 0 || !(left_out(i) || left_out(j));
   };
   const auto counts_inside = [&](std::int64_t i, std::int64_t j) {
     return nodes.moves(i) && nodes.moves(j) && counts(i, j);
   };
-  const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
-  EdgeSums judged = edge_sums<Dim>(comm, nodes, stars, bands, counts);
+  const SpacingBands bands = bands_of_nodes<Dim>(comm, measured);
+  EdgeSums judged = edge_sums<Dim>(comm, measured, stars, bands, counts);
   if (!worst_missed_band(bands_with_edges(bands, judged))) return bands_with_edges(bands, judged);
-  const EdgeSums inside = edge_sums<Dim>(comm, nodes, stars, bands, counts_inside);
+  const EdgeSums inside = edge_sums<Dim>(comm, measured, stars, bands, counts_inside);
   for (std::size_t k = 0; k < judged.of.size(); ++k)
     if (inside.of[k].edges >= kEnoughEdges && off(inside.of[k]) < off(judged.of[k]))
       judged.of[k] = inside.of[k];
@@ -306,14 +318,15 @@ std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm, const Nodes<
 
 namespace {
 
-SimplexQuality measure_simplices(const Communicator& comm, const Nodes<2>& nodes,
+SimplexQuality measure_simplices(const Communicator& comm, const MeasuredNodes<2>& measured,
                                  const DelaunayStars& stars) {
-  return measure_simplices<PlaneTriangle, 2>(comm, nodes, stars);
+  return measured.chart ? measure_simplices<SpaceTriangle, 2>(comm, measured, stars)
+                        : measure_simplices<PlaneTriangle, 2>(comm, measured, stars);
 }
-SimplexQuality measure_simplices(const Communicator& comm, const Nodes<3>& nodes,
+SimplexQuality measure_simplices(const Communicator& comm, const MeasuredNodes<3>& measured,
                                  const VolumeStars& stars) {
-  return stars.are_on_surfaces() ? measure_simplices<SpaceTriangle, 3>(comm, nodes, stars)
-                                 : measure_simplices<TetrahedronCorners, 3>(comm, nodes, stars);
+  return stars.are_on_surfaces() ? measure_simplices<SpaceTriangle, 3>(comm, measured, stars)
+                                 : measure_simplices<TetrahedronCorners, 3>(comm, measured, stars);
 }
 
 int regular_neighbours(const DelaunayStars&) { return Lattice<2>::kNeighbours; }
@@ -324,16 +337,16 @@ int regular_neighbours(const VolumeStars& stars) {
 }  // namespace
 
 template <int Dim>
-ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
+ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Dim>& measured,
                                 const Stars<Dim>& stars) {
-  const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
+  const SpacingBands bands = bands_of_nodes<Dim>(comm, measured);
   const EdgeSums edges =
-      edge_sums<Dim>(comm, nodes, stars, bands, [](std::int64_t, std::int64_t) { return true; });
+      edge_sums<Dim>(comm, measured, stars, bands, [](std::int64_t, std::int64_t) { return true; });
   ElementQuality found;
-  found.simplex = measure_simplices(comm, nodes, stars);
+  found.simplex = measure_simplices(comm, measured, stars);
   found.edge = ratio_of(edges.all());
   found.bands = bands_with_edges(bands, edges);
-  found.irregular = irregular_share<Dim>(comm, nodes, stars, regular_neighbours(stars));
+  found.irregular = irregular_share<Dim>(comm, measured.nodes, stars, regular_neighbours(stars));
   return found;
 }
 
@@ -346,11 +359,13 @@ const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands) {
   return worst;
 }
 
-template std::vector<EdgeBand> edge_bands_to_judge<2>(const Communicator&, const Nodes<2>&,
+template std::vector<EdgeBand> edge_bands_to_judge<2>(const Communicator&, const MeasuredNodes<2>&,
                                                       const Stars<2>&, const View<char>&);
-template std::vector<EdgeBand> edge_bands_to_judge<3>(const Communicator&, const Nodes<3>&,
+template std::vector<EdgeBand> edge_bands_to_judge<3>(const Communicator&, const MeasuredNodes<3>&,
                                                       const Stars<3>&, const View<char>&);
-template ElementQuality measure_elements<2>(const Communicator&, const Nodes<2>&, const Stars<2>&);
-template ElementQuality measure_elements<3>(const Communicator&, const Nodes<3>&, const Stars<3>&);
+template ElementQuality measure_elements<2>(const Communicator&, const MeasuredNodes<2>&,
+                                            const Stars<2>&);
+template ElementQuality measure_elements<3>(const Communicator&, const MeasuredNodes<3>&,
+                                            const Stars<3>&);
 
 }  // namespace pnpbs

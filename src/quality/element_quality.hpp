@@ -9,6 +9,7 @@
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
 #include "delaunay/stars.hpp"
+#include "quality/measured_nodes.hpp"
 
 namespace pnpbs {
 
@@ -45,7 +46,7 @@ struct ElementQuality {
 
 // From stars that are right for the owned nodes, and exact ghosts around these. Collective.
 template <int Dim>
-ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
+ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Dim>& measured,
                                 const Stars<Dim>& stars);
 
 // The bands in which d may be missed, without those that have no edge: of each the edges with an
@@ -54,7 +55,8 @@ ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& node
 // those inside may be too short.) Edges of nodes that are left out, if it is told which are, do not
 // count. Collective.
 template <int Dim>
-std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm, const Nodes<Dim>& nodes,
+std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm,
+                                          const MeasuredNodes<Dim>& measured,
                                           const Stars<Dim>& stars, const View<char>& left_out = {});
 
 // The band in which edges are most off d, by more than 10 % in the mean, of those with enough edges

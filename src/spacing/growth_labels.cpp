@@ -77,15 +77,15 @@ struct GrowthLabels<Dim>::Waiting {
 
 template <int Dim>
 GrowthLabels<Dim>::GrowthLabels(const Communicator& comm, const OpenWays<Dim>& ways,
-                                const std::vector<GrowthLeaf<Dim>>& own, double growth,
-                                const Beat& beat)
-    : growth_(growth), tree_(tree_of(comm, ways.bounds(), own)) {
+                                const std::vector<GrowthLeaf<Dim>>& own,
+                                const GrowthRule<Dim>& rule, const Beat& beat)
+    : rule_(rule), tree_(tree_of(comm, ways.bounds(), own)) {
   using Side = typename GrowthLeaf<Dim>::Side;
   for (const GrowthLeaf<Dim>& leaf : own) {
     spots_.push_back({leaf.place, leaf.placed,
                       leaf.placed && (leaf.side == Side::inside || ways.inside(leaf.place)),
                       leaf.side == Side::crossed});
-    labels_.push_back(label_at<Dim>(leaf.place, leaf.source, growth_));
+    labels_.push_back(label_at<Dim>(leaf.place, leaf.source, rule_));
   }
   spots_.resize(static_cast<std::size_t>(tree_.count()));
   labels_.resize(spots_.size());
@@ -135,11 +135,11 @@ void GrowthLabels<Dim>::hand_on(const OpenWays<Dim>& ways, const std::vector<std
       if (!tree_.owns(other)) continue;
       const Spot& to = spot(other);
       Label& there = labels_[static_cast<std::size_t>(other)];
-      Label offer = label_at<Dim>(to.place, handed[k].source, growth_);
+      Label offer = label_at<Dim>(to.place, handed[k].source, rule_);
       if (!(offer < there)) continue;  // nor is anything by a longer way
       if (!open_way(ways, handed[k].source.x, to)) {
         if (!from.placed) continue;
-        offer = label_at<Dim>(to.place, {from.place, handed[k].value}, growth_);
+        offer = label_at<Dim>(to.place, {from.place, handed[k].value}, rule_);
         if (!(offer < there)) continue;
       }
       there = offer;
@@ -152,10 +152,10 @@ template <int Dim>
 double GrowthLabels<Dim>::limit_at(const OpenWays<Dim>& ways, const Point<Dim>& x) const {
   const std::int64_t leaf = tree_.leaf_at(x);
   if (!tree_.owns(leaf)) return kInfinite;
-  double limit = label(leaf).source.limit(x, growth_);
+  double limit = rule_.limit(label(leaf).source, x);
   for (const std::int32_t other : tree_.touching_leaves(leaf)) {
     const GrowthSource<Dim>& source = label(other).source;
-    const double by_other = source.limit(x, growth_);
+    const double by_other = rule_.limit(source, x);
     if (!(by_other < limit)) continue;
     const bool beside_boundary = spot(leaf).crossed || spot(other).crossed;
     if (!beside_boundary || ways.open(x, source.x)) limit = by_other;

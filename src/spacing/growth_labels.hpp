@@ -23,7 +23,8 @@ class GrowthLabels {
   GrowthLabels() = default;
   // Collective.
   GrowthLabels(const Communicator& comm, const OpenWays<Dim>& ways,
-               const std::vector<GrowthLeaf<Dim>>& own, double growth, const Beat& beat);
+               const std::vector<GrowthLeaf<Dim>>& own, const GrowthRule<Dim>& rule,
+               const Beat& beat);
 
   const TreePart<Dim>& tree() const { return tree_; }
   // The limit of d at a point in one of this rank's leaves: by the source of that leaf, and by
@@ -46,7 +47,7 @@ class GrowthLabels {
   const Spot& spot(std::int64_t leaf) const { return spots_[static_cast<std::size_t>(leaf)]; }
   const Label& label(std::int64_t leaf) const { return labels_[static_cast<std::size_t>(leaf)]; }
 
-  double growth_ = 0;
+  GrowthRule<Dim> rule_;
   TreePart<Dim> tree_;
   std::vector<Spot> spots_;  // of own leaves and copies, as the labels
   std::vector<Label> labels_;

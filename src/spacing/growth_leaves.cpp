@@ -15,9 +15,10 @@
 namespace pnpbs {
 
 template <int Dim>
-GrowthLeaves<Dim>::GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, double growth,
-                                const NodeLimit& limit, std::vector<Point<Dim>> places)
-    : comm_(comm), ways_(ways), growth_(growth), limit_(limit), points_(ways, std::move(places)) {
+GrowthLeaves<Dim>::GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways,
+                                const GrowthRule<Dim>& rule, const NodeLimit& limit,
+                                std::vector<Point<Dim>> places)
+    : comm_(comm), ways_(ways), rule_(rule), limit_(limit), points_(ways, std::move(places)) {
   if (comm.rank() != 0) return;
   leaves_.emplace_back();
   look_at_domain(leaves_.front());
@@ -136,9 +137,9 @@ void GrowthLeaves<Dim>::take_sources(const Samples& samples) {
   for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
     GrowthLeaf<Dim>& leaf = leaves_[samples.leaves[k]];
     leaf.fresh = false;
-    GrowthLabel<Dim> best = label_at<Dim>(leaf.place, leaf.source, growth_);
+    GrowthLabel<Dim> best = label_at<Dim>(leaf.place, leaf.source, rule_);
     for (std::size_t s = samples.first[k]; s < samples.first[k + 1]; ++s)
-      best = std::min(best, label_at<Dim>(leaf.place, {samples.x[s], samples.d[s]}, growth_));
+      best = std::min(best, label_at<Dim>(leaf.place, {samples.x[s], samples.d[s]}, rule_));
     leaf.source = best.source;
   }
 }
@@ -166,7 +167,7 @@ void GrowthLeaves<Dim>::refine(const SpacingEvaluator<Dim>& raw,
     expect_known(samples, expected);
     take_sources(samples);
     require_few_nodes();
-    split_open(growth_);
+    split_open(rule_.growth);
   }
   spread_evenly(comm_, leaves_);
 }

@@ -31,9 +31,10 @@ template <int Dim>
 GrowthLimitedSpacing<Dim>::GrowthLimitedSpacing(std::shared_ptr<const Communicator> comm,
                                                 std::unique_ptr<const OpenWays<Dim>> ways,
                                                 std::shared_ptr<const Spacing<Dim>> raw,
-                                                double growth, const NodeLimit& limit,
+                                                const GrowthRule<Dim>& rule,
+                                                const NodeLimit& limit,
                                                 const Beat& beat)
-    : comm_(std::move(comm)), raw_(std::move(raw)), growth_(growth), ways_(std::move(ways)) {
+    : comm_(std::move(comm)), raw_(std::move(raw)), rule_(rule), ways_(std::move(ways)) {
   const SpacingEvaluator<Dim> checked = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     beat();
     evaluate_spacing<Dim>(*raw_, ways_->measure(), n, x, d);
@@ -56,15 +57,15 @@ void GrowthLimitedSpacing<Dim>::find_labels(const SpacingEvaluator<Dim>& raw,
   const KnownValues<Dim> known = raw_->known_values();
   std::vector<Point<Dim>> places;
   for (const GrowthSource<Dim>& value : known.in_domain) places.push_back(value.x);
-  GrowthLeaves<Dim> leaves(*comm_, *ways_, growth_, limit, std::move(places));
+  GrowthLeaves<Dim> leaves(*comm_, *ways_, rule_, limit, std::move(places));
   leaves.refine(raw, known.values);
-  labels_ = {*comm_, *ways_, leaves.own(), growth_, beat};
+  labels_ = {*comm_, *ways_, leaves.own(), rule_, beat};
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     bool changed = leaves.fit(limited);
     if constexpr (Dim == 3) changed = leaves.find_dips(raw, limited) || changed;
     if (!changed) break;
     leaves.look_into_new(raw);
-    labels_ = {*comm_, *ways_, leaves.own(), growth_, beat};
+    labels_ = {*comm_, *ways_, leaves.own(), rule_, beat};
   }
 }
 

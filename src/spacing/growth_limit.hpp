@@ -30,7 +30,7 @@ class GrowthLimitedSpacing : public Spacing<Dim> {
   // Collective.
   GrowthLimitedSpacing(
       std::shared_ptr<const Communicator> comm, std::unique_ptr<const OpenWays<Dim>> ways,
-      std::shared_ptr<const Spacing<Dim>> raw, double growth, const NodeLimit& limit,
+      std::shared_ptr<const Spacing<Dim>> raw, const GrowthRule<Dim>& rule, const NodeLimit& limit,
       const Beat& beat = [] {});
 
   // Collective: all ranks ask at the same time, as many points as each wants. Of points in its own
@@ -48,7 +48,7 @@ class GrowthLimitedSpacing : public Spacing<Dim> {
 
   std::shared_ptr<const Communicator> comm_;
   std::shared_ptr<const Spacing<Dim>> raw_;
-  double growth_;
+  GrowthRule<Dim> rule_;
   std::unique_ptr<const OpenWays<Dim>> ways_;
   GrowthLabels<Dim> labels_;
 };

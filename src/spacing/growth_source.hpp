@@ -2,10 +2,12 @@
 // What limits a spacing whose growth is limited: in the leaves of a tree, the least by far seen.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "base/types.hpp"
+#include "sphere/stereographic_chart.hpp"
 
 namespace pnpbs {
 
@@ -38,9 +40,35 @@ struct GrowthLabel {
   }
 };
 
+// By how much d may grow per unit of length: in the chart of a sphere, d and lengths are those along
+// the sphere.
 template <int Dim>
-GrowthLabel<Dim> label_at(const Point<Dim>& place, const GrowthSource<Dim>& source, double growth) {
-  return {source.limit(place, growth), source};
+struct GrowthRule {
+  double growth = 0;
+  const StereographicChart* chart = nullptr;  // in the plane; outlives this
+
+  // What d is at most at a point, with this source.
+  double limit(const GrowthSource<Dim>& source, const Point<Dim>& at) const {
+    if constexpr (Dim == 2)
+      if (chart)
+        return chart->stretch(at) * (source.d / chart->stretch(source.x) +
+                                     growth * chart->distance(source.x, at));
+    return source.limit(at, growth);
+  }
+
+  // Between points with those d.
+  double between(const Point<Dim>& x, double d_x, const Point<Dim>& y, double d_y) const {
+    if constexpr (Dim == 2)
+      if (chart)
+        return std::abs(d_x / chart->stretch(x) - d_y / chart->stretch(y)) / chart->distance(x, y);
+    return std::abs(d_x - d_y) / distance<Dim>(x, y);
+  }
+};
+
+template <int Dim>
+GrowthLabel<Dim> label_at(const Point<Dim>& place, const GrowthSource<Dim>& source,
+                          const GrowthRule<Dim>& rule) {
+  return {rule.limit(source, place), source};
 }
 
 }  // namespace pnpbs

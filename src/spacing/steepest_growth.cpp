@@ -55,7 +55,8 @@ struct Slope {
 template <int Dim>
 std::vector<Slope<Dim>> slopes_of_own(const DomainMap<Dim>& map,
                                       const std::function<bool(std::int32_t)>& owns_leaf,
-                                      const SpacingEvaluator<Dim>& spacing) {
+                                      const SpacingEvaluator<Dim>& spacing,
+                                      const GrowthRule<Dim>& rule) {
   const std::vector<Sample<Dim>> samples = samples_of_own(map, owns_leaf);
   std::vector<Point<Dim>> points;
   for (const Sample<Dim>& sample : samples) points.push_back(sample.x);
@@ -68,7 +69,7 @@ std::vector<Slope<Dim>> slopes_of_own(const DomainMap<Dim>& map,
     // Those on the boundary are the last of their leaf, and not compared with each other.
     if (samples[a].on_boundary) continue;
     for (std::size_t b = a + 1; b < samples.size() && samples[b].leaf == leaf; ++b) {
-      const double growth = std::abs(d[b] - d[a]) / distance<Dim>(points[a], points[b]);
+      const double growth = rule.between(points[a], d[a], points[b], d[b]);
       const std::size_t low = d[a] < d[b] ? a : b;
       if (growth > slopes.back().growth && !map.facet_between(leaf, points[a], points[b]))
         slopes.back() = {growth, d[low], points[low]};
@@ -104,7 +105,8 @@ template <int Dim>
 SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Dim>& map,
                                     const std::function<bool(std::int32_t)>& owns_leaf,
                                     const SpacingEvaluator<Dim>& spacing,
-                                    const KnownValues<Dim>& known) {
+                                    const KnownValues<Dim>& known,
+                                    const StereographicChart* chart) {
   std::vector<Slope<Dim>> slopes;
   std::vector<Slope<Dim>> known_slopes;
   const auto is_own = [&](const Slope<Dim>& slope) {
@@ -114,7 +116,7 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
     return slope.in_domain || (!map.leaf_outside(leaf) && map.inside_in_leaf(leaf, slope.at));
   };
   agreed(comm, [&] {
-    slopes = slopes_of_own<Dim>(map, owns_leaf, spacing);
+    slopes = slopes_of_own<Dim>(map, owns_leaf, spacing, {0, chart});
     for (const auto& [growth, d, at, in_domain] : known.slopes)
       known_slopes.push_back({growth, d, at, in_domain});
     add_steepest<Dim>(known_slopes, is_own, slopes);
@@ -142,9 +144,11 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
 
 template SteepestGrowth<2> steepest_growth<2>(const Communicator&, const DomainMap<2>&,
                                               const std::function<bool(std::int32_t)>&,
-                                              const SpacingEvaluator<2>&, const KnownValues<2>&);
+                                              const SpacingEvaluator<2>&, const KnownValues<2>&,
+                                              const StereographicChart*);
 template SteepestGrowth<3> steepest_growth<3>(const Communicator&, const DomainMap<3>&,
                                               const std::function<bool(std::int32_t)>&,
-                                              const SpacingEvaluator<3>&, const KnownValues<3>&);
+                                              const SpacingEvaluator<3>&, const KnownValues<3>&,
+                                              const StereographicChart*);
 
 }  // namespace pnpbs

@@ -19,11 +19,12 @@ struct SteepestGrowth {
 
 // By samples in the middle and on the sides of the leaves that this rank owns, and at the boundary
 // nodes in them: of each pair with one inside the domain and no boundary between. The same on any
-// number of ranks. Collective.
+// number of ranks. In the chart of a sphere growth is that along the sphere. Collective.
 template <int Dim>
 SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Dim>& map,
                                     const std::function<bool(std::int32_t)>& owns_leaf,
                                     const SpacingEvaluator<Dim>& spacing,
-                                    const KnownValues<Dim>& known = {});
+                                    const KnownValues<Dim>& known = {},
+                                    const StereographicChart* chart = nullptr);
 
 }  // namespace pnpbs

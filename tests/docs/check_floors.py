@@ -12,7 +12,7 @@ import tempfile
 
 import checks
 
-FLOORS = ("base method comm predicates tree geometry formats surfaces implicit domain shape spacing "
+FLOORS = ("base sphere method comm predicates tree geometry formats surfaces implicit domain shape spacing "
           "initial partition neighbors dynamics population delaunay quality settings level "
           "placement mesh voronoi particles io picture api geo tool").split()
 PUBLIC_HEADER_FOR = "api", "geo", "tool"

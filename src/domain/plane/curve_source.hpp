@@ -34,6 +34,9 @@ struct CurveSource {
   std::vector<Point<2>> points;
   std::vector<std::int32_t> tags;  // of the segments
   double corner_angle = 0;         // polylines: degrees
+  // Polylines on a sphere: of points, is it none of those given, and only follows the shortest way
+  // between two of these? Empty: none is.
+  std::vector<char> on_the_way;
 
   std::vector<double> parameters;  // smooth: of the samples
   CurveFunction evaluate;          // smooth

@@ -32,6 +32,7 @@ bool is_corner(const CurveSource& source, std::int64_t point) {
   if (source.kind == Kind::graph) return source.corners.empty() || source.corners[point];
   if (source.ends_at(point)) return true;
   if (source.kind == Kind::smooth) return false;
+  if (!source.on_the_way.empty() && source.on_the_way[point]) return false;
   if (source.corner_angle == 0) return true;
   const auto count = static_cast<std::int64_t>(source.points.size());
   const std::int64_t before = point == 0 ? count - 1 : point - 1;

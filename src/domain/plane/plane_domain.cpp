@@ -14,6 +14,7 @@
 #include "domain/plane/sampling.hpp"
 #include "domain/plane/simplify.hpp"
 #include "domain/plane/smooth_graph.hpp"
+#include "sphere/great_circle.hpp"
 
 namespace pnpbs {
 
@@ -33,6 +34,8 @@ void require_not_negative(const char* argument, double value) {
   require_number(argument, value);
   if (value < 0) reject(std::string(argument) + " is " + number_text(value) + ", less than 0");
 }
+
+constexpr double kNearlyOpposite = 3.14159;  // radians
 
 // A full circle closes exactly.
 double snap_to_full_turn(double begin, double end) {
@@ -90,6 +93,54 @@ void PlaneDomain::add_polyline(CurveRole role, bool closed, std::int64_t n, cons
   source.corner_angle = corner_angle;
   given_values::require_distinct_neighbours<2>(source.points, closed);
   add_source(std::move(source));
+}
+
+void PlaneDomain::add_great_circles(CurveRole role, bool closed,
+                                    const std::vector<Point<3>>& vertices,
+                                    const std::int32_t* tags, double corner_angle) {
+  const auto n = static_cast<std::int64_t>(vertices.size());
+  require_count("n", n, closed ? 3 : 2);
+  given_values::require_angle("corner_angle", corner_angle);
+  given_values::require_distinct_neighbours<3>(vertices, closed);
+  const std::vector<std::int32_t> given_tags = read_tags("tags", closed ? n : n - 1, tags);
+  CurveSource source;
+  source.kind = CurveSource::Kind::polyline;
+  source.role = role;
+  source.closed = closed;
+  source.corner_angle = corner_angle;
+  for (std::int64_t v = 0; v < n; ++v) add_way(source, vertices, given_tags, v);
+  add_source(std::move(source));
+}
+
+// A vertex, and the way from it to the next, if it is not the last one of an open curve.
+void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vertices,
+                          const std::vector<std::int32_t>& tags, std::int64_t v) const {
+  const auto place = [&](std::int64_t i) { return vertices[static_cast<std::size_t>(i)]; };
+  const auto add = [&](const Point<2>& u, bool on_the_way) {
+    if (!is_usable(u))
+      reject("vertex " + std::to_string(v) + " " + point_text(place(v)) + (on_the_way ?
+             ", the way from it to the next" : std::string()) +
+             ": the point that is named as outside of the domain lies on the curve");
+    source.points.push_back(u);
+    source.on_the_way.push_back(on_the_way);
+    source.point_numbers.push_back(v);
+  };
+  const auto add_segment = [&] {
+    source.tags.push_back(tags[static_cast<std::size_t>(v)]);
+    source.segment_numbers.push_back(v);
+  };
+  const auto n = static_cast<std::int64_t>(vertices.size());
+  add(chart_->in_chart(place(v)), false);
+  if (v + 1 == n && !source.closed) return;
+  const Point<3> next = place(v + 1 == n ? 0 : v + 1);
+  if (angle_between(place(v), next) > kNearlyOpposite)
+    reject("vertices " + std::to_string(v) + " and " + std::to_string(v + 1 == n ? 0 : v + 1) +
+           " are opposite points of the sphere: no way between them is the shortest");
+  add_segment();
+  for (const Point<2>& u : points_on_the_way(*chart_, place(v), next)) {
+    add(u, true);
+    add_segment();
+  }
 }
 
 void PlaneDomain::add_arc(CurveRole role, const Point<2>& centre, double radius, double begin,

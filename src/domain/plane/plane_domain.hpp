@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "domain/plane/curve_source.hpp"
 #include "domain/region_index.hpp"
 #include "domain/spacing_evaluator.hpp"
+#include "sphere/stereographic_chart.hpp"
 
 namespace pnpbs {
 
@@ -64,12 +66,23 @@ struct ResolvedDomain {
   std::shared_ptr<const RegionIndex<2>> regions;  // null if none has a tag
 };
 
+// Or a domain on a sphere, in a chart of it: then all coordinates are those of the chart. The point
+// that it is projected from lies outside.
 class PlaneDomain : public DomainBase<2> {
  public:
+  PlaneDomain() = default;
+  explicit PlaneDomain(const StereographicChart& chart) : chart_(chart) {}
+
+  // Null in the plane.
+  const StereographicChart* chart() const { return chart_ ? &*chart_ : nullptr; }
+
   // Building; see pnpbs.h for what each means. They throw Error(ErrorKind::argument) naming
   // the argument and its value, and leave the domain as it was.
   void add_polyline(CurveRole role, bool closed, std::int64_t n, const double* xy,
                     const std::int32_t* tags, double corner_angle);
+  // On a sphere, the same by the shortest ways from point to point.
+  void add_great_circles(CurveRole role, bool closed, const std::vector<Point<3>>& vertices,
+                         const std::int32_t* tags, double corner_angle);
   void add_arc(CurveRole role, const Point<2>& centre, double radius, double begin, double end,
                std::int32_t tag);
   void add_curve(CurveRole role, CurveFunction curve, double begin, double end, std::int32_t tag);
@@ -97,13 +110,16 @@ class PlaneDomain : public DomainBase<2> {
   const std::vector<std::string>& warnings() const { return resolved_.warnings; }
   // Holds all curves, true ones too.
   const Box<2>& bounds() const { return resolved_.bounds; }
-  double area() const { return resolved_.area; }
+  double area() const { return resolved_.area; }  // in the chart, of a domain on a sphere
   // Of the tags of regions; null if none has one.
   const RegionIndex<2>* regions() const { return resolved_.regions.get(); }
 
  private:
   void add_source(CurveSource source);
+  void add_way(CurveSource& source, const std::vector<Point<3>>& vertices,
+               const std::vector<std::int32_t>& tags, std::int64_t v) const;
 
+  std::optional<StereographicChart> chart_;
   std::vector<CurveSource> sources_;
   double corner_angle_ = 0;  // of graphs
   std::int64_t curves_given_ = 0, graphs_given_ = 0;

@@ -244,6 +244,7 @@ class Simplifier {
   void rewrite_polyline(CurveSource& source, const std::vector<std::int32_t>& edges) {
     const CurveSource given = source;
     source.points.clear();
+    source.on_the_way.clear();
     source.tags.clear();
     source.segment_numbers.clear();
     source.point_numbers.clear();

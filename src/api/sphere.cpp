@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Spheres through the C interface.
+#include <cmath>
+#include <numbers>
+
+#include "api/domain_calls.hpp"
+#include "api/sphere_points.hpp"
+#include "domain/given_values.hpp"
+
+using namespace pnpbs;
+using namespace pnpbs::api;
+
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180;
+
+void require_degrees(std::int64_t i, const double* degrees) {
+  constexpr double kMostTurns = 3600;
+  const auto reject = [&](int k, const char* expected) {
+    throw Error(ErrorKind::argument, "argument degrees[" + std::to_string(i) + "][" +
+                                         std::to_string(k) + "] = " + number_text(degrees[k]) +
+                                         ": expected a " + expected);
+  };
+  if (!(std::fabs(degrees[0]) <= kMostTurns)) reject(0, "longitude in degrees");
+  if (!(std::fabs(degrees[1]) <= 90)) reject(1, "latitude from -90 to 90 degrees");
+}
+
+}  // namespace
+
+pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,
+                                        const double* outside, pnpbs_domain* domain) {
+  return guarded(context, [&](Context& owner) {
+    require_pointer(domain, "domain");
+    *domain = nullptr;
+    require_not_in_callback(owner);
+    given_values::require_radius(radius);
+    require_pointer(outside, "outside");
+    auto object = std::make_shared<DomainObject>();
+    object->context = require(context);
+    object->plane = std::make_shared<PlaneDomain>(
+        StereographicChart(radius, require_direction("outside", outside)));
+    *domain = domains().add(std::move(object));
+    return PNPBS_OK;
+  });
+}
+
+// The poles are exact, and so is the meridian of 180 degrees.
+pnpbs_status pnpbs_sphere_points(double radius, int64_t n, const double* degrees,
+                                 double* coordinates) {
+  return guarded([&] {
+    given_values::require_radius(radius);
+    require_count(n, "n");
+    if (n > 0) require_pointer(degrees, "degrees");
+    if (n > 0) require_pointer(coordinates, "coordinates");
+    for (std::int64_t i = 0; i < n; ++i) require_degrees(i, degrees + 2 * i);
+    for (std::int64_t i = 0; i < n; ++i) {
+      const double turn = std::remainder(degrees[2 * i], 360), latitude = degrees[2 * i + 1];
+      const double across = std::fabs(latitude) == 90 ? 0 : radius * std::cos(kRadian * latitude);
+      const bool opposite = std::fabs(turn) == 180;
+      coordinates[3 * i] = across * (opposite ? -1 : std::cos(kRadian * turn));
+      coordinates[3 * i + 1] = opposite ? 0 : across * std::sin(kRadian * turn);
+      coordinates[3 * i + 2] = radius * std::sin(kRadian * latitude);
+    }
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_sphere_degrees(int64_t n, const double* coordinates, double* degrees) {
+  return guarded([&] {
+    const std::vector<Point<3>> points = require_directions("coordinates", n, coordinates);
+    if (n > 0) require_pointer(degrees, "degrees");
+    for (const Point<3>& x : points) {
+      *degrees++ = std::atan2(x[1], x[0]) / kRadian;
+      *degrees++ = std::atan2(x[2], std::hypot(x[0], x[1])) / kRadian;
+    }
+    return PNPBS_OK;
+  });
+}

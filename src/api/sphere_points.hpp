@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of a sphere, as the C interface has them, and in the chart that the library places nodes
+// in.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "api/guard.hpp"
+#include "base/point_text.hpp"
+#include "sphere/stereographic_chart.hpp"
+
+namespace pnpbs::api {
+
+// Throws unless the point has a direction from the centre of the sphere.
+inline Point<3> require_direction(const std::string& argument, const double* x) {
+  const Point<3> point{x[0], x[1], x[2]};
+  const double square = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+  if (!(square > 0) || !(square < 1e120))
+    throw Error(ErrorKind::argument, "argument " + argument + " = " + point_text(point) +
+                                         " has no direction from the centre of the sphere");
+  return point;
+}
+
+inline std::vector<Point<3>> require_directions(const char* argument, std::int64_t n,
+                                                const double* coordinates) {
+  require_count(n, "n");
+  if (n > 0) require_pointer(coordinates, argument);
+  std::vector<Point<3>> points;
+  for (std::int64_t i = 0; i < n; ++i)
+    points.push_back(require_direction(std::string(argument) + "[" + std::to_string(i) + "]",
+                                       coordinates + 3 * i));
+  return points;
+}
+
+inline std::vector<double> in_chart(const StereographicChart& chart,
+                                    const std::vector<Point<3>>& points) {
+  std::vector<double> coordinates;
+  for (const Point<3>& x : points) {
+    const Point<2> u = chart.in_chart(x);
+    coordinates.insert(coordinates.end(), u.begin(), u.end());
+  }
+  return coordinates;
+}
+
+// Throws for what is not there on a sphere yet.
+inline void require_no_sphere(const StereographicChart* chart, const char* argument,
+                              const char* what) {
+  if (chart)
+    throw Error(ErrorKind::argument, std::string("argument ") + argument + " is on a sphere: " +
+                                         what + " in the plane and in space only");
+}
+
+}  // namespace pnpbs::api

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nodes as they are measured: those in a chart of a sphere along the sphere, where it is without
+// the stretch of the chart.
+#pragma once
+
+#include "base/nodes.hpp"
+#include "sphere/stereographic_chart.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+struct MeasuredNodes {
+  const Nodes<Dim>& nodes;
+  const StereographicChart* chart = nullptr;  // in the plane, of a sphere
+
+  double d(std::int64_t i) const {
+    if constexpr (Dim == 2)
+      if (chart) return nodes.d(i) / chart->stretch(nodes.position(i));
+    return nodes.d(i);
+  }
+
+  double distance_between(std::int64_t i, std::int64_t j) const {
+    if constexpr (Dim == 2)
+      if (chart) return chart->distance(nodes.position(i), nodes.position(j));
+    return distance<Dim>(nodes.position(i), nodes.position(j));
+  }
+
+  // As a corner of an element: in space those of the plane's nodes, which are in a chart.
+  void put(std::int64_t i, Point<Dim>& corner) const { corner = nodes.position(i); }
+  void put(std::int64_t i, Point<3>& corner) const requires(Dim == 2) {
+    corner = chart->on_sphere(nodes.position(i));
+  }
+};
+
+}  // namespace pnpbs

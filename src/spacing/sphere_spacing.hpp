@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A spacing along a sphere, in a chart of it: there it is what the chart makes of that length.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "spacing/spacing.hpp"
+#include "sphere/stereographic_chart.hpp"
+
+namespace pnpbs {
+
+class SphereSpacing : public LocalSpacing<2> {
+ public:
+  // along: d at points of the sphere.
+  SphereSpacing(std::shared_ptr<const LocalSpacing<3>> along, const StereographicChart& chart)
+      : along_(std::move(along)), chart_(chart) {}
+
+  // Throws Error(ErrorKind::spacing) where d is not finite and greater than 0.
+  void evaluate(std::int64_t n, const Point<2>* u, double* d) const override;
+
+ private:
+  std::shared_ptr<const LocalSpacing<3>> along_;
+  StereographicChart chart_;
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sphere/great_circle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/space_vectors.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+struct PlaceOnSphere {
+  Point<3> direction;
+  Point<2> in_chart;
+};
+
+// A straight line of the chart bends by |u| / (2 R^2) per length on the sphere, at most: the
+// gradient of the stretch. Half of that over a piece is the angle that it makes with the great
+// circle at its ends.
+double longest_piece(double radius, const Point<2>& u) {
+  constexpr double kAngle = 0.3 * 3.14159265358979323846 / 180, kLongest = 0.1;
+  const double away = length(Point<3>{u[0], u[1], 0}) / radius;
+  return std::min(kLongest, 4 * kAngle / away);
+}
+
+void add_between(const StereographicChart& chart, const PlaceOnSphere& a, const PlaceOnSphere& b,
+                 std::vector<Point<2>>& points) {
+  const Point<3> sum{a.direction[0] + b.direction[0], a.direction[1] + b.direction[1],
+                     a.direction[2] + b.direction[2]};
+  const Point<3> middle = unit_vector(sum);
+  const PlaceOnSphere m{middle, chart.in_chart(middle)};
+  double longest = longest_piece(chart.radius(), m.in_chart);
+  for (const PlaceOnSphere* end : {&a, &b})
+    longest = std::min(longest, longest_piece(chart.radius(), end->in_chart));
+  if (!(longest > 0) || angle_between(a.direction, b.direction) <= longest) return;
+  add_between(chart, a, m, points);
+  points.push_back(m.in_chart);
+  add_between(chart, m, b, points);
+}
+
+}  // namespace
+
+double angle_between(const Point<3>& a, const Point<3>& b) {
+  return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+std::vector<Point<2>> points_on_the_way(const StereographicChart& chart, const Point<3>& a,
+                                        const Point<3>& b) {
+  std::vector<Point<2>> points;
+  add_between(chart, {unit_vector(a), chart.in_chart(a)}, {unit_vector(b), chart.in_chart(b)},
+              points);
+  return points;
+}
+
+}  // namespace pnpbs
