@@ -232,7 +232,7 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  should be ten d or more away from the domain: best in the middle of a continent, or of an ocean.
  *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
  *  there. Not on a sphere yet: Voronoi cells, particles, arcs, parametric curves, files of
- *  curves, questions of the shape, and spacing given on grids, meshes or points. Local.
+ *  curves other than those of pnpbs_geo.h, and spacing given on grids, meshes or points. Local.
  *  @param[in] radius   > 0
  *  @param[in] outside  [3], any length but 0: its direction counts */
 PNPBS_API pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,

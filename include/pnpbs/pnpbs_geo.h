@@ -67,7 +67,9 @@ PNPBS_API const char *pnpbs_geo_build_info(void);
  *                         projection chosen for the data, on their own ellipsoid: the UTM zone that
  *                         they lie in, to half a degree beyond its edges, else Lambert's azimuthal
  *                         equal-area projection about their middle, in whole degrees. "none": the
- *                         coordinates of the file, even if in degrees. Otherwise a code
+ *                         coordinates of the file, even if in degrees. "sphere(LON,LAT)": for a
+ *                         domain on a sphere (pnpbs_domain_create_sphere) with a point outside at
+ *                         that longitude and latitude, in degrees. Otherwise a code
  *                         ("EPSG:2180"), a PROJ string, WKT, or the path of a .prj file. x points
  *                         east and y north, whatever the axis order of the register
  *  @param[in] unit        "m" or "km"; NULL: the projection's own, mostly metres
@@ -82,7 +84,7 @@ PNPBS_API pnpbs_status pnpbs_geo_read(const char *path, const char *layer, const
  *  Local. */
 PNPBS_API pnpbs_status pnpbs_geo_destroy(pnpbs_geo_shapes *shapes);
 
-/** Adds the shapes to a domain in the plane: curves as pnpbs_domain_add_polyline does, points as
+/** Adds the shapes to a domain in the plane, or on a sphere: curves as pnpbs_domain_add_polyline does, points as
  *  pnpbs_domain_add_fixed_nodes does, names of tags for dimension 1. Curves that cross or do not
  *  close are found by pnpbs_domain_check; see pnpbs_geo_explain. May be called for several domains.
  *  For a second layer of the same domain, read it with the projection of the first

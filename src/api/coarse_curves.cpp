@@ -28,7 +28,7 @@ pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing
                                    int64_t* curves) {
   return change_domain(domain, [&](DomainObject& object) {
     const SimplifyRule rule{tolerance, smallest};
-    if (const StereographicChart* chart = chart_of(object)) {
+    if (const StereographicChart* chart = sphere_of(object)) {
       const SphereSpacing along(
           std::make_shared<CallbackSpacing<3>>(spacing_from<3>(spacing, user)), *chart);
       simplify_by(*object.plane, along, rule, vertices, curves);

@@ -67,7 +67,7 @@ pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) { return destroy(domain,
 pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t* dim) {
   return guarded(domain, [&](DomainObject& object) {
     require_pointer(dim, "dim");
-    *dim = object.plane && !chart_of(object) ? 2 : 3;
+    *dim = object.plane && !sphere_of(object) ? 2 : 3;
     return PNPBS_OK;
   });
 }
@@ -79,7 +79,7 @@ pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_
     require_count(n, "n");
     require_pointer(coordinates, "coordinates");
     const CurveRole as = role_from(role);
-    if (chart_of(object)) {
+    if (sphere_of(object)) {
       object.plane->add_great_circles(as, closed != 0,
                                       require_directions("coordinates", n, coordinates), tags,
                                       corner_angle);
@@ -244,7 +244,7 @@ pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n, const 
     require_count(n, "n");
     if (n > 0) require_pointer(coordinates, "coordinates");
     std::vector<double> charted;
-    if (const StereographicChart* chart = chart_of(object)) {
+    if (const StereographicChart* chart = sphere_of(object)) {
       charted = in_chart(*chart, require_directions("coordinates", n, coordinates));
       coordinates = charted.data();
     }

@@ -33,7 +33,7 @@ pnpbs_status pnpbs_domain_read_msh(pnpbs_domain domain, const char* path, double
   return change_domain(domain, [&](DomainObject& object) {
     require_pointer(path, "path");
     given_values::require_angle("feature_angle", feature_angle);
-    require_no_sphere(chart_of(object), "domain", "meshes are read");
+    require_no_sphere(sphere_of(object), "domain", "meshes are read");
     const MshMesh mesh = read_msh(path);
     in_its_dimension(object, [&](auto& d) { add_msh(d, mesh, feature_angle); });
   });

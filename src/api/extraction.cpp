@@ -45,6 +45,8 @@ void for_star(const Results<3>& results, std::int64_t i, const Visit& visit) {
   results.level().stars.for_neighbours(i, [&](std::int64_t j) { visit(j, false); });
 }
 
+bool on_sphere(const NodalResults& results) { return results.coordinates() > results.dimension(); }
+
 // Copies nodes with places first .. first + n - 1 out; arrays may be NULL.
 void copy_nodes(const NodalResults& results, std::int64_t first, std::int64_t n,
                 double* coordinates, std::int64_t* ids, std::int32_t* tags, double* spacing) {
@@ -96,13 +98,13 @@ pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capa
                                          double* normals) {
   return guarded(placement, [&](PlacementObject& object) {
     NodalResults& results = object.placement->results();
-    const bool on_sphere = results.coordinates() > results.dimension();
-    if (!on_sphere) require_dimension<3>(results);
+    const bool of_sphere = on_sphere(results);
+    if (!of_sphere) require_dimension<3>(results);
     require_capacity(capacity, results.count());
     if (results.count() == 0) return PNPBS_OK;
     require_pointer(normals, "normals");
     results.prepare_order();
-    if (on_sphere) {
+    if (of_sphere) {
       copy_nodes(results, 0, results.count(), normals, nullptr, nullptr, nullptr);
       for (std::int64_t place = 0; place < results.count(); ++place) {
         const Point<3> normal = unit_vector(Point<3>{normals[0], normals[1], normals[2]});
@@ -216,9 +218,10 @@ pnpbs_status get_elements(pnpbs_placement placement, std::int64_t capacity, std:
                           std::int64_t* elements) {
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
+    *count = 0;
+    if (Dim == 3 && on_sphere(results)) return PNPBS_OK;  // as on surfaces alone
     const Results<Dim>& in = require_dimension<Dim>(results);
     results.prepare_stars();
-    *count = 0;
     in.for_elements([&](const auto&) { ++*count; });
     if (capacity == 0 && !elements) return PNPBS_OK;
     require_capacity(capacity, *count);
@@ -242,6 +245,24 @@ pnpbs_status copy_boundary_facets(const Results<Dim>& in, std::int64_t capacity,
     if (facets) std::copy(places.begin(), places.end(), facets + Dim * at);
     if (tags) tags[at] = tag;
     ++at;
+  });
+  return PNPBS_OK;
+}
+
+// The triangles of a sphere stand for its surface, as those of surfaces alone do, with the tags of
+// regions.
+pnpbs_status copy_triangles_of_sphere(NodalResults& results, std::int64_t capacity,
+                                      std::int64_t* count, std::int64_t* triangles,
+                                      std::int32_t* tags) {
+  const Results<2>& in = require_dimension<2>(results);
+  results.prepare_stars();
+  in.for_elements([&](const auto&) { ++*count; });
+  if (capacity == 0 && !triangles && !tags) return PNPBS_OK;
+  require_capacity(capacity, *count);
+  ElementRegions<2> region_of(in);
+  in.for_elements([&](const auto& places) {
+    if (triangles) triangles = std::copy(places.begin(), places.end(), triangles);
+    if (tags) *tags++ = region_of(places);
   });
   return PNPBS_OK;
 }
@@ -299,6 +320,8 @@ pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, i
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
     *count = 0;
+    if (on_sphere(results))
+      return copy_triangles_of_sphere(results, capacity, count, triangles, tags);
     const Results<3>& in = require_dimension<3>(results);
     results.prepare_stars();
     return copy_boundary_facets(in, capacity, count, triangles, tags);
@@ -313,7 +336,7 @@ pnpbs_status pnpbs_placement_check(pnpbs_placement placement) {
   });
   if (status != PNPBS_OK || lacking.empty()) return status;
   return guarded(placement, [&](PlacementObject& object) {
-    thread_error() = object.context->last_error = lacking;
+    thread_error() = object.context->last_error = in_degrees(sphere_of(object), lacking);
     return PNPBS_NOT_CONFORMING;
   });
 }

@@ -16,6 +16,22 @@ std::string& thread_error();
 
 pnpbs_status status_of(ErrorKind kind) noexcept;
 
+// The sphere that an object is on, or null: messages name places by the chart of it, and users want
+// to know longitude and latitude.
+inline const StereographicChart* sphere_of(const Context&) { return nullptr; }
+template <class Object>
+const StereographicChart* sphere_of(const Object&) {
+  return nullptr;
+}
+inline const StereographicChart* sphere_of(const DomainObject& object) {
+  return object.plane ? object.plane->chart() : nullptr;
+}
+inline const StereographicChart* sphere_of(const PlacementObject& object) {
+  return object.placement->chart();
+}
+std::string in_degrees(const StereographicChart* chart, std::string text);
+void tell_in_degrees(const StereographicChart* chart, Context& context) noexcept;
+
 // Turns the exception in flight into a status; puts the message where last_error finds it.
 pnpbs_status report_failure(Context* context) noexcept;
 
@@ -86,7 +102,9 @@ pnpbs_status guarded(Handle handle, const Body& body) noexcept {
     try {
       return body(*object);
     } catch (...) {
-      return report_failure(context);
+      const pnpbs_status status = report_failure(context);
+      tell_in_degrees(sphere_of(*object), *context);
+      return status;
     }
   } catch (...) {
     return report_failure(nullptr);

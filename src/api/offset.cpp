@@ -25,7 +25,7 @@ pnpbs_status pnpbs_domain_add_offset(pnpbs_domain domain, pnpbs_domain body, dou
                                      double high, pnpbs_spacing_fn spacing, void* user,
                                      double resolution, int32_t tag) {
   return change_domain(domain, [&](DomainObject& object) {
-    require_no_sphere(chart_of(object), "domain", "bodies have offsets");
+    require_no_sphere(sphere_of(object), "domain", "bodies have offsets");
     const std::shared_ptr<DomainObject> of =
         body_with(*object.context, object.plane != nullptr, body);
     const auto add = [&]<int Dim>(Domain<Dim>& to, Domain<Dim>& from) {

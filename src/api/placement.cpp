@@ -280,7 +280,8 @@ pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t inde
       throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) +
                                            "; there are " + std::to_string(warnings.size()) +
                                            " warnings");
-    object.context->returned_text = warnings[static_cast<std::size_t>(index)];
+    object.context->returned_text =
+        in_degrees(sphere_of(object), warnings[static_cast<std::size_t>(index)]);
     *text = object.context->returned_text.c_str();
     return PNPBS_OK;
   });

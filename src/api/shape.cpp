@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "api/placement_calls.hpp"
-#include "api/sphere_points.hpp"
 #include "base/point_text.hpp"
 #include "base/started_execution.hpp"
+#include "spacing/sphere_spacing.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -51,9 +51,7 @@ const Point<Dim>* points_from(const double* coordinates) {
 template <class Ask>
 pnpbs_status ask_shape(pnpbs_domain domain, const Ask& ask) {
   return guarded(domain, [&](DomainObject& object) {
-    require_no_sphere(chart_of(object), "domain", "shapes are asked for");
-    const auto ask_in = [&]<int Dim>(Domain<Dim>& checked,
-                                     std::shared_ptr<DomainShapes<Dim>>& shapes) {
+    const auto ask_in = [&]<int Dim>(auto& checked, std::shared_ptr<DomainShapes<Dim>>& shapes) {
       if (!shapes) {
         const Computing computing(*object.context);
         checked.check();
@@ -62,6 +60,7 @@ pnpbs_status ask_shape(pnpbs_domain domain, const Ask& ask) {
       ask(*shapes);
       return PNPBS_OK;
     };
+    if (sphere_of(object)) return ask_in.template operator()<3>(*object.plane, object.volume_shapes);
     return object.plane ? ask_in.template operator()<2>(*object.plane, object.plane_shapes)
                         : ask_in.template operator()<3>(*object.volume, object.volume_shapes);
   });
@@ -92,7 +91,7 @@ pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
     require_tag_in(index, tag);
     const Point<Dim>* const x = points_from<Dim>(coordinates);
     for_each_if_started("pnpbs_domain_distance", n, [&](std::int64_t i) {
-      distances[i] = tag == 0 ? index.distance_to_boundary(x[i]) : index.distance_to_tag(tag, x[i]);
+      distances[i] = shapes.distance(tag, x[i]);
     });
   });
 }
@@ -116,13 +115,19 @@ pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
                                                     double nodes_per_edge, double growth,
                                                     double min_spacing, double max_spacing) {
   return collective(placement, [&](Placement& p) {
-    require_no_sphere(p.chart(), "placement", "d follows the shape");
     const ShapeDemands demands = demands_from(nodes_per_turn, nodes_across, nodes_per_edge);
     const ShapeLimits limits = limits_from(growth, min_spacing, max_spacing);
     in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
       std::shared_ptr<const Spacing<Dim>> spacing;
       agreed(p.communicator(), [&] {
         in.domain().check();
+        if constexpr (Dim == 2)
+          if (const StereographicChart* chart = in.chart()) {
+            DomainShapes<3> shapes(in.domain());
+            spacing = std::make_shared<SphereSpacing>(
+                std::make_shared<ShapeSpacing<3>>(shapes.spacing(demands, limits)), *chart);
+            return;
+          }
         spacing = std::make_shared<ShapeSpacing<Dim>>(ShapeIndex<Dim>(shape_of(in.domain())),
                                                       demands, limits);
       });

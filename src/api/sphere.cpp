@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Spheres through the C interface.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "api/domain_calls.hpp"
 #include "api/sphere_points.hpp"
+#include "base/places_in_text.hpp"
 #include "domain/given_values.hpp"
 
 using namespace pnpbs;
@@ -13,6 +15,11 @@ using namespace pnpbs::api;
 namespace {
 
 constexpr double kRadian = std::numbers::pi / 180;
+
+Point<2> degrees_of(const Point<3>& x) {
+  return {std::atan2(x[1], x[0]) / kRadian,
+          std::atan2(x[2], std::hypot(x[0], x[1])) / kRadian};
+}
 
 void require_degrees(std::int64_t i, const double* degrees) {
   constexpr double kMostTurns = 3600;
@@ -26,6 +33,22 @@ void require_degrees(std::int64_t i, const double* degrees) {
 }
 
 }  // namespace
+
+std::string pnpbs::api::in_degrees(const StereographicChart* chart, std::string text) {
+  if (!chart) return text;
+  return with_places(text, [chart](const Point<2>& u, const std::string&) {
+    return "(" + degrees_text(degrees_of(chart->on_sphere(u))) + ")";
+  });
+}
+
+// No room for it: then the message is as it was.
+void pnpbs::api::tell_in_degrees(const StereographicChart* chart, Context& context) noexcept {
+  if (!chart) return;
+  try {
+    thread_error() = context.last_error = in_degrees(chart, context.last_error);
+  } catch (...) {
+  }
+}
 
 pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,
                                         const double* outside, pnpbs_domain* domain) {
@@ -70,8 +93,8 @@ pnpbs_status pnpbs_sphere_degrees(int64_t n, const double* coordinates, double* 
     const std::vector<Point<3>> points = require_directions("coordinates", n, coordinates);
     if (n > 0) require_pointer(degrees, "degrees");
     for (const Point<3>& x : points) {
-      *degrees++ = std::atan2(x[1], x[0]) / kRadian;
-      *degrees++ = std::atan2(x[2], std::hypot(x[0], x[1])) / kRadian;
+      const Point<2> at = degrees_of(x);
+      degrees = std::copy(at.begin(), at.end(), degrees);
     }
     return PNPBS_OK;
   });

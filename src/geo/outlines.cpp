@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "base/error.hpp"
 #include "geo/chains.hpp"
+#include "sphere/area_in_chart.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -35,14 +38,26 @@ double turning_area(const std::vector<Place>& places, const std::vector<Point<2>
   return area;
 }
 
+// On a sphere an outline encloses the smaller of its two sides, which may hold the point that is
+// projected from.
+bool turns_left(const std::vector<Place>& places, const std::vector<Point<2>>& points,
+                double radius) {
+  if (radius == 0) return turning_area(places, points) > 0;
+  double area = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    area += area_beside(points[places[i]], points[places[(i + 1) % places.size()]], radius);
+  const bool is_smaller = std::fabs(area) < 2 * std::numbers::pi * radius * radius;
+  return (area > 0) == is_smaller;
+}
+
 // Each place once in a row; the inside on the left of outlines and holes.
-void straighten(Route& route, const std::vector<Point<2>>& points) {
+void straighten(Route& route, const std::vector<Point<2>>& points, double radius) {
   std::vector<Place>& places = route.places;
   places.erase(std::unique(places.begin(), places.end()), places.end());
   if (route.kind == PathKind::line) return;
   while (places.size() > 1 && places.front() == places.back()) places.pop_back();
   if (places.empty()) return;
-  if ((turning_area(places, points) > 0) != (route.kind == PathKind::outline))
+  if (turns_left(places, points, radius) != (route.kind == PathKind::outline))
     std::reverse(places.begin(), places.end());
 }
 
@@ -151,8 +166,8 @@ std::int64_t Places::add(const Point<2>& point) {
 }
 
 Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
-                     const WordsFor& where) {
-  for (Route& route : routes) straighten(route, points);
+                     const WordsFor& where, double radius) {
+  for (Route& route : routes) straighten(route, points, radius);
   const std::vector<Piece> pieces = pieces_of(routes);
   Outlines outlines;
   std::vector<Edge> edges;

@@ -56,7 +56,8 @@ struct Outlines {
 // Outlines enclose areas that do not overlap. Closed lines outside of all of them bound the domain,
 // too. Throws Error with the place, for which `where` finds words.
 using WordsFor = std::function<std::string(std::int64_t place)>;
+// radius: of the sphere that the points are in a stereographic projection of, or 0 for the plane.
 Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
-                     const WordsFor& where);
+                     const WordsFor& where, double radius = 0);
 
 }  // namespace pnpbs::geo

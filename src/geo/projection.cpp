@@ -2,8 +2,11 @@
 #include "geo/projection.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
@@ -43,6 +46,30 @@ LongitudeRange longitudes_of(const std::vector<Point<2>>& degrees) {
     west = longitudes[i];
   }
   return {west, 360 - gap};
+}
+
+// Longitude and latitude in "sphere(LONGITUDE,LATITUDE)".
+std::optional<Point<2>> sphere_seen_from(const std::string& wish) {
+  constexpr std::string_view word = "sphere";
+  if (!std::string_view(wish).starts_with(word)) return std::nullopt;
+  Point<2> degrees{};
+  const char *at = wish.data() + word.size(), *const end = wish.data() + wish.size();
+  for (const auto& [sign, k] : {std::pair{'(', 0}, std::pair{',', 1}}) {
+    while (at != end && *at == ' ') ++at;
+    const bool is_there = at != end && *at == sign;
+    at += is_there;
+    while (at != end && *at == ' ') ++at;
+    const auto read = std::from_chars(at, end, degrees[static_cast<std::size_t>(k)]);
+    if (!is_there || read.ec != std::errc()) at = end;
+    else at = read.ptr;
+  }
+  if (at == end || std::string_view(at, end) != ")" || !(std::fabs(degrees[1]) <= 90) ||
+      !(std::fabs(degrees[0]) <= 360))
+    throw Error(ErrorKind::argument,
+                "argument projection = '" + wish +
+                    "': expected sphere(LONGITUDE,LATITUDE), in degrees, of a point outside of the "
+                    "domain");
+  return degrees;
 }
 
 ReferenceSystem local_projection(const ReferenceSystem& data,
@@ -104,6 +131,11 @@ void Projection::choose_target(const std::vector<Point<2>>& points, const std::s
             "': the file does not say what its coordinates "
             "are, so they cannot be projected; for a shapefile a .prj beside it says it, for "
             "others ogr2ogr -a_srs EPSG:4326, if they are longitude and latitude");
+  if (const auto outside = sphere_seen_from(wish)) {
+    target_ = ReferenceSystem::stereographic(data_, *outside);
+    on_sphere_ = true;
+    return;
+  }
   if (!wish.empty() && wish != "auto") {
     target_ = ReferenceSystem::called(wish);
     if (target_.is_geographic())
@@ -126,6 +158,9 @@ void Projection::choose_target(const std::vector<Point<2>>& points, const std::s
 
 void Projection::take_unit(const std::string& unit) {
   if (unit.empty()) return;
+  if (on_sphere_)
+    throw Error(ErrorKind::argument, "argument unit = '" + unit +
+                                         "': on a sphere the unit is that of its radius");
   if (unit != "m" && unit != "km")
     throw Error(ErrorKind::argument, "argument unit = '" + unit + "' must be m or km");
   if (!target_ || target_.is_geographic())
@@ -136,9 +171,17 @@ void Projection::take_unit(const std::string& unit) {
   target_ = unit == "km" ? target_.in_unit("kilometre", 1000) : target_.in_unit("metre", 1);
 }
 
+double Projection::sphere_radius() const {
+  return on_sphere_ ? OSRGetSemiMajor(target_.get(), nullptr) : 0;
+}
+
 Point<2> Projection::canonical(const Point<2>& point) const {
   if (!wraps_) return point;
   auto [longitude, latitude] = point;
+  // Files are cut at 180 degrees but for rounding; this is a tenth of a millimetre.
+  constexpr double kSame = 1e-9;
+  if (std::fabs(std::fabs(longitude) - 180) < kSame) longitude = 180;
+  if (std::fabs(std::fabs(latitude) - 90) < kSame) latitude = std::copysign(90, latitude);
   if (longitude <= -180 && longitude > -540) longitude += 360;
   if (longitude > 180 && longitude <= 540) longitude -= 360;
   if (std::fabs(latitude) == 90) longitude = 0;

@@ -15,11 +15,13 @@ class Projection {
  public:
   // What `wish` makes of points in the system of `data`: "" longitude and latitude projected as
   // auto does, anything else as it is; "none" as they are; "auto" the UTM zone that they lie in, or
-  // else Lambert's azimuthal equal-area projection about their middle; or a name, see
-  // ReferenceSystem::called. `unit` is "", "m" or "km". Throws Error.
+  // else Lambert's azimuthal equal-area projection about their middle; "sphere(LONGITUDE,LATITUDE)"
+  // the stereographic one of a sphere from that point; or a name, see ReferenceSystem::called. `unit` is "", "m" or "km". Throws Error.
   Projection(const ReferenceSystem& data, const std::vector<Point<2>>& points,
              const std::string& wish, const std::string& unit);
 
+  bool on_sphere() const { return on_sphere_; }
+  double sphere_radius() const;  // in the unit of its points; 0 if it is not on one
   bool is_identity() const { return !forward_; }
   const ReferenceSystem& system() const { return target_; }  // none if the data's is none
   // Which of two ways to write the same place on the ellipsoid is used for points that are to be
@@ -47,6 +49,7 @@ class Projection {
   void take_unit(const std::string& unit);
 
   ReferenceSystem data_, target_;
+  bool on_sphere_ = false;
   bool wraps_ = false;  // the data are degrees on an ellipsoid, to be projected
   std::optional<Transformation> forward_, backward_;    // none: the same coordinates
   std::optional<Transformation> degrees_, of_degrees_;  // from and to the target

@@ -72,6 +72,14 @@ ReferenceSystem ReferenceSystem::azimuthal(const ReferenceSystem& data, double l
   return system;
 }
 
+ReferenceSystem ReferenceSystem::stereographic(const ReferenceSystem& data, const Point<2>& from) {
+  ReferenceSystem system = data.geographic();
+  const std::string name = system.name() + " on a sphere";
+  OSRSetProjCS(system.get(), name.c_str());
+  OSRSetStereographic(system.get(), -from[1], std::remainder(from[0] + 180, 360), 1, 0, 0);
+  return system;
+}
+
 bool ReferenceSystem::is_geographic() const { return handle_ && OSRIsGeographic(get()); }
 
 bool ReferenceSystem::has_degrees() const {

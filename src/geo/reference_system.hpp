@@ -26,6 +26,9 @@ class ReferenceSystem {
   // The same: Lambert's azimuthal equal-area projection about a point in degrees.
   static ReferenceSystem azimuthal(const ReferenceSystem& data, double longitude, double latitude);
 
+  // The same: the stereographic projection from a point in degrees.
+  static ReferenceSystem stereographic(const ReferenceSystem& data, const Point<2>& from);
+
   explicit operator bool() const { return handle_ != nullptr; }
   OGRSpatialReferenceH get() const { return handle_.get(); }
   bool is_geographic() const;

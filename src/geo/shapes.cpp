@@ -2,12 +2,11 @@
 #include "geo/shapes.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
-#include <string_view>
 
 #include "base/error.hpp"
+#include "base/places_in_text.hpp"
 #include "base/point_text.hpp"
 #include "geo/shores.hpp"
 #include "geo/touching.hpp"
@@ -57,33 +56,6 @@ double extent_of(const std::vector<Point<2>>& points) {
       high[k] = std::max(high[k], point[k]);
     }
   return std::max(high[0] - low[0], high[1] - low[1]);
-}
-
-// A place as messages show it: "x, y)", and where in the text that ends.
-struct PlaceInText {
-  Point<2> point;
-  std::size_t end;
-};
-
-std::optional<PlaceInText> place_in(const std::string& text, std::size_t begin) {
-  PlaceInText place{};
-  const char* at = text.data() + begin;
-  const char* const end = text.data() + text.size();
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    const auto read = std::from_chars(at, end, place.point[k]);
-    const std::string_view behind = k == 0 ? ", " : ")";
-    if (read.ec != std::errc() || !std::string_view(read.ptr, end).starts_with(behind))
-      return std::nullopt;
-    at = read.ptr + behind.size();
-  }
-  place.end = static_cast<std::size_t>(at - text.data());
-  return place;
-}
-
-// Seven digits after the point are a centimetre.
-std::string degrees_text(const Point<2>& degrees) {
-  const auto rounded = [](double value) { return number_text(std::round(value * 1e7) / 1e7); };
-  return "longitude " + rounded(degrees[0]) + ", latitude " + rounded(degrees[1]);
 }
 
 }  // namespace
@@ -138,9 +110,10 @@ void Shapes::project() {
   places_ = places.points();
   const double extent = places_.empty() ? 0 : extent_of(places_);
   scale_ = projection_.scale_at(places_);
-  outlines_ = outlines_of(std::move(routes), places_, [&](std::int64_t place) {
+  const auto where = [&](std::int64_t place) {
     return with_degrees(point_text(places_[place]));
-  });
+  };
+  outlines_ = outlines_of(std::move(routes), places_, where, projection_.sphere_radius());
   lines_along_shore_ = retag_shores(outlines_.curves, places_, along_shore * extent);
 }
 
@@ -152,7 +125,7 @@ void Shapes::take_notes() {
         "are taken as x and y in a plane");
   if (projection_.is_identity() && projection_.system().is_geographic())
     notes.emplace_back("longitude and latitude are taken as x and y in a plane, as asked");
-  if (scale_.least < 1 - told_scale || scale_.greatest > 1 + told_scale)
+  if (!on_sphere() && (scale_.least < 1 - told_scale || scale_.greatest > 1 + told_scale))
     notes.push_back("in the projection '" + projection_.system().name() + "' lengths are " +
                     rounded_text(scale_.least) + " to " + rounded_text(scale_.greatest) +
                     " times what they are on the Earth, and d is meant in the projection");
@@ -180,10 +153,12 @@ void Shapes::take_notes() {
 void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const {
   std::int32_t dimension = 0;
   check(pnpbs_domain_dimension(domain, &dimension), context);
-  if (dimension != 2)
+  if (dimension != (on_sphere() ? 3 : 2))
     throw Error(ErrorKind::argument,
-                "argument domain: shapes are for domains in the plane, and "
-                "this one is in space");
+                on_sphere() ? "argument domain: the shapes were read for a domain on a sphere"
+                            : "argument domain: the shapes were read for a domain in the plane, and "
+                              "this one is in space; for one on a sphere name the projection "
+                              "sphere(LONGITUDE,LATITUDE)");
   if (!(corner_angle >= 0 && corner_angle <= 180))
     throw Error(ErrorKind::argument, "argument corner_angle is " + number_text(corner_angle) +
                                          ", expected degrees from 0 to 180");
@@ -198,7 +173,7 @@ void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_an
   }
   if (!points.empty())
     check(pnpbs_domain_add_fixed_nodes(domain, static_cast<std::int64_t>(points.size()),
-                                       points.front().data(), tags.data()),
+                                       coordinates_of(std::move(points)).data(), tags.data()),
           context);
 }
 
@@ -209,9 +184,20 @@ void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corne
     for (const std::int64_t place : curve.places) points.push_back(places_[place]);
     check(pnpbs_domain_add_polyline(domain, curve.bounds ? PNPBS_BOUNDARY : PNPBS_INNER,
                                     curve.closed, static_cast<std::int64_t>(points.size()),
-                                    points.front().data(), curve.tags.data(), corner_angle),
+                                    coordinates_of(points).data(), curve.tags.data(), corner_angle),
           context);
   }
+}
+
+// As a domain takes them.
+std::vector<double> Shapes::coordinates_of(std::vector<Point<2>> points) const {
+  if (on_sphere()) projection_.to_degrees(points);
+  std::vector<double> coordinates;
+  for (const Point<2>& point : points) coordinates.insert(coordinates.end(), point.begin(), point.end());
+  if (!on_sphere()) return coordinates;
+  std::vector<double> in_space(3 * points.size());
+  check(pnpbs_sphere_points(1, std::ssize(points), coordinates.data(), in_space.data()), nullptr);
+  return in_space;
 }
 
 // ------------------------------------------------------------------ what there is --------------
@@ -228,22 +214,12 @@ std::int64_t Shapes::inner_curves() const {
 std::string Shapes::with_degrees(const std::string& text) const {
   const ReferenceSystem& system = projection_.system();
   if (!system || system.is_geographic()) return text;
-  std::string result;
-  std::size_t at = 0;
-  for (std::size_t begin; (begin = text.find('(', at)) != std::string::npos;) {
-    result.append(text, at, begin + 1 - at);
-    at = begin + 1;
-    const auto place = place_in(text, at);
-    if (!place) continue;
-    result.append(text, at, place->end - at);
-    at = place->end;
-    std::vector<Point<2>> degrees{place->point};
+  return with_places(text, [this](const Point<2>& place, const std::string& here) {
+    std::vector<Point<2>> degrees{place};
     projection_.to_degrees(degrees);
-    if (std::isfinite(degrees[0][0] + degrees[0][1]))
-      result += " [" + degrees_text(degrees[0]) + "]";
-  }
-  result.append(text, at);
-  return result;
+    if (!std::isfinite(degrees[0][0] + degrees[0][1])) return here;
+    return here + " [" + degrees_text(degrees[0]) + "]";
+  });
 }
 
 }  // namespace pnpbs::geo

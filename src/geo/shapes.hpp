@@ -26,6 +26,7 @@ class Shapes {
   void add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
 
   const Projection& projection() const { return projection_; }
+  bool on_sphere() const { return projection_.on_sphere(); }
   const std::vector<std::string>& notes() const { return layer_.notes; }
   const Projection::Scale& scale() const { return scale_; }
   std::int64_t vertices() const;
@@ -40,6 +41,7 @@ class Shapes {
   void project();
   void take_notes();
   void add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
+  std::vector<double> coordinates_of(std::vector<Point<2>> points) const;
   std::string words_for(const Point<2>& given, std::int64_t feature) const;
 
   LayerShapes layer_;  // its paths are empty once they are outlines

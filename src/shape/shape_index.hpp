@@ -36,7 +36,10 @@ class ShapeIndex {
   std::vector<std::int32_t> tags() const;
   // To the pieces with that tag, of which there are some.
   double distance_to_tag(std::int32_t tag, const Point<Dim>& x) const {
-    return distance<Dim>(nearest_of(tagged_.at(tag), x), x);
+    return distance<Dim>(nearest_with_tag(tag, x), x);
+  }
+  Point<Dim> nearest_with_tag(std::int32_t tag, const Point<Dim>& x) const {
+    return nearest_of(tagged_.at(tag), x);
   }
 
   // The diameter of the largest ball that touches the shape at the place, lies ahead of it, and

@@ -185,6 +185,20 @@ std::vector<ShapeSource<Dim>> shape_sources(const ShapeIndex<Dim>& index,
   return sources;
 }
 
+std::vector<ShapeSource<3>> sources_on_sphere(const ShapeIndex<2>& in_chart,
+                                              const StereographicChart& chart,
+                                              const ShapeDemands& demands, double max) {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  std::vector<ShapeSource<3>> sources;
+  for (const auto& [corners, d] : shape_sources<2>(in_chart, demands, kAny)) {
+    const auto [a, b] = corners;
+    const double along = d / chart.stretch(middle_of<2>(a, b));
+    if (along < max)
+      sources.push_back({{chart.on_sphere(a), chart.on_sphere(b), chart.on_sphere(b)}, along});
+  }
+  return sources;
+}
+
 template struct ShapeSource<2>;
 template struct ShapeSource<3>;
 template std::vector<ShapeSource<2>> shape_sources<2>(const ShapeIndex<2>&, const ShapeDemands&,

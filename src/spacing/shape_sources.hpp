@@ -41,4 +41,10 @@ template <int Dim>
 std::vector<ShapeSource<Dim>> shape_sources(const ShapeIndex<Dim>& index,
                                             const ShapeDemands& demands, double max);
 
+// Of a domain on a sphere, by the index of its chart: pieces of its curves in space, with d along
+// the sphere.
+std::vector<ShapeSource<3>> sources_on_sphere(const ShapeIndex<2>& in_chart,
+                                              const StereographicChart& chart,
+                                              const ShapeDemands& demands, double max);
+
 }  // namespace pnpbs

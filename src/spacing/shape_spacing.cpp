@@ -2,6 +2,7 @@
 #include "spacing/shape_spacing.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/started_execution.hpp"
 
@@ -10,11 +11,16 @@ namespace pnpbs {
 template <int Dim>
 ShapeSpacing<Dim>::ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeDemands& demands,
                                 const ShapeLimits& limits)
+    : ShapeSpacing(shape_sources(index, demands, limits.max_in(index.size())), index.size(),
+                   limits) {}
+
+template <int Dim>
+ShapeSpacing<Dim>::ShapeSpacing(std::vector<ShapeSource<Dim>> sources, double size,
+                                const ShapeLimits& limits)
     : min_(limits.min),
-      max_(limits.max > 0 ? limits.max : index.size()),
+      max_(limits.max_in(size)),
       growth_(limits.growth),
-      sources_(std::make_shared<const GrowthSources<Dim, ShapeSource<Dim>>>(
-          shape_sources(index, demands, max_))) {}
+      sources_(std::make_shared<const GrowthSources<Dim, ShapeSource<Dim>>>(std::move(sources))) {}
 
 template <int Dim>
 void ShapeSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {

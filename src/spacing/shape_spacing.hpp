@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "spacing/growth_sources.hpp"
 #include "spacing/shape_sources.hpp"
@@ -16,6 +17,7 @@ struct ShapeLimits {
   double min = 0;
   double max = 0;  // 0: the size of the domain
 
+  double max_in(double size) const { return max > 0 ? max : size; }
   bool operator==(const ShapeLimits&) const = default;
 };
 
@@ -25,6 +27,8 @@ class ShapeSpacing : public LocalSpacing<Dim> {
   // The index is looked at here alone.
   ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeDemands& demands,
                const ShapeLimits& limits);
+  // d of these pieces, in a domain of that size.
+  ShapeSpacing(std::vector<ShapeSource<Dim>> sources, double size, const ShapeLimits& limits);
 
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
   // What the pieces ask for and the bounds are multiplied.

@@ -35,6 +35,23 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
            " places particles, and --region gives tags to elements, which they have none of");
 }
 
+void require_what_spheres_have(const Arguments& arguments) {
+  if (!arguments.sphere) return;
+  const auto refuse_if = [](bool is_set, const std::string& option) {
+    if (is_set) refuse("--sphere and " + option + " exclude each other");
+  };
+  refuse_if(!arguments.projection.empty(), "--projection");
+  refuse_if(!arguments.unit.empty(), "--unit");
+  refuse_if(arguments.surfaces_only, "--surfaces-only");
+  refuse_if(arguments.at_centres, "--nodes-at");
+  refuse_if(arguments.volumes, "--volumes");
+  refuse_if(arguments.repair || arguments.repair_if_needed, "--repair");
+  refuse_if(arguments.feature_angle.has_value(), "--feature-angle");
+  refuse_if(!arguments.inner.empty(), "--inner");
+  refuse_if(!arguments.cut.empty(), "--cut");
+  refuse_if(spacing_file(arguments.spacing).has_value(), "a file of --spacing");
+}
+
 }  // namespace
 
 void ask_for_what_files_need(Arguments& arguments) {
@@ -80,6 +97,7 @@ void require_arguments_that_fit(const Arguments& arguments) {
         "--simplify goes by d as given, and --nodes multiplies that: find d by --nodes with "
         "--dry-run, and give it to --spacing");
   require_centres_that_fit(arguments, multiplied);
+  require_what_spheres_have(arguments);
   const auto colour = arguments.colour.value_or(picture::ElementColour::none);
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");
@@ -99,6 +117,12 @@ void require_arguments_that_fit(const Arguments& arguments) {
 }
 
 void refuse_other_dimension(const Arguments& arguments, int dimension) {
+  if (arguments.sphere) {
+    for (const Region& region : arguments.regions)
+      if (region.point.size() != 2)
+        refuse("--region: expected LON,LAT:TAG on a sphere, found '" + region.text + "'");
+    return;
+  }
   const std::string plane = ", and this domain is in the plane";
   const bool is_msh = extension_of(arguments.domain) == "msh";
   if (dimension == 2 && arguments.feature_angle && !is_msh)

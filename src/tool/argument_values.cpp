@@ -17,6 +17,19 @@ void take_angle(const std::string& option, const std::string& text, std::optiona
   angle = numbers->front();
 }
 
+void take_sphere(const std::string& text, Arguments& arguments) {
+  // Of Antarctica, the place farthest from any sea.
+  constexpr Point<2> deep_in_land{55, -82};
+  const auto numbers = numbers_between_commas(text);
+  const bool fits = numbers && (numbers->size() == 1 || numbers->size() == 3) &&
+                    (*numbers)[0] > 0 && (numbers->size() == 1 || std::fabs((*numbers)[2]) <= 90);
+  if (!fits)
+    refuse("--sphere: expected RADIUS or RADIUS,LON,LAT with a radius greater than 0 and degrees, "
+           "found '" + text + "'");
+  arguments.sphere = SphereWish{(*numbers)[0], deep_in_land};
+  if (numbers->size() == 3) arguments.sphere->outside = {(*numbers)[1], (*numbers)[2]};
+}
+
 void take_simplify(const std::string& text, Arguments& arguments) {
   const auto numbers = numbers_between_commas(text);
   const auto is_bad = [](double number) { return !(number >= 0); };

@@ -16,6 +16,7 @@ void take_angle(const std::string& option, const std::string& text, std::optiona
 void take_bound(const std::string& option, const std::string& text, std::optional<double>& bound);
 
 void take_simplify(const std::string& text, Arguments& arguments);
+void take_sphere(const std::string& text, Arguments& arguments);
 void take_nodes(const std::string& text, Arguments& arguments);
 void take_places(const std::string& text, Arguments& arguments);
 void take_wall_layers(const std::string& text, Arguments& arguments);

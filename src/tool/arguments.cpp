@@ -114,6 +114,15 @@ void add_curves(CLI::App& app, Arguments& arguments) {
 // Of files that GDAL reads.
 void add_geo(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to fill";
+  app.add_option_function<std::string>(
+         "--sphere", [&arguments](const std::string& text) { take_sphere(text, arguments); },
+         "on a sphere of this radius, in the unit of d, without a\n"
+         "projection: what the coasts in a GeoJSON file, a shapefile or the\n"
+         "like bound, seen from a point outside of it at a longitude and\n"
+         "latitude; default: 55,-82, in Antarctica, for the seas. Formulas\n"
+         "know lon and lat, and lengths are along the sphere")
+      ->type_name("RADIUS[,LON,LAT]")
+      ->group(group);
   app.add_option("--projection", arguments.projection,
                  "of GeoJSON, shapefiles and the like: the coordinate system of x\n"
                  "and y, as a code (EPSG:2180), a PROJ string or a .prj file; auto,\n"

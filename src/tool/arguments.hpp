@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/types.hpp"
 #include "picture/element_colour.hpp"
 #include "tool/checkpoints.hpp"
 
@@ -21,6 +22,12 @@ struct Region {
   std::vector<double> point;
   std::int32_t tag;
   std::string text;  // as the user gives it
+};
+
+// Of which a domain is the part that coasts bound.
+struct SphereWish {
+  double radius;
+  Point<2> outside;  // longitude and latitude of a point that is not in the domain
 };
 
 struct Arguments {
@@ -39,6 +46,7 @@ struct Arguments {
   std::optional<double> simplify;                            // tolerance, over d
   double smallest = 0;                                       // extent of curves, over d
   std::string layer, projection, unit, tag_field;            // of files that GDAL reads
+  std::optional<SphereWish> sphere;
   std::vector<std::string> inner;                            // groups of triangles, by name or tag
   std::vector<std::pair<std::int32_t, std::string>> names;   // of tags
   std::vector<Region> regions;

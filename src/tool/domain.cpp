@@ -67,6 +67,7 @@ DomainSource::DomainSource(const Arguments& arguments)
       geo_(GeoFile::is_meant_by(arguments) ? std::make_unique<GeoFile>(arguments) : nullptr),
       level_set_(LevelSet::in(path_)),
       primitive_(level_set_ ? std::nullopt : primitive_in(path_)),
+      sphere_(arguments.sphere),
       feature_angle_(arguments.feature_angle.value_or(default_feature_angle)),
       corner_angle_(arguments.corner_angle.value_or(0)),
       filled_(!arguments.surfaces_only),
@@ -76,6 +77,10 @@ DomainSource::DomainSource(const Arguments& arguments)
       inner_(arguments.inner),
       names_(arguments.names),
       regions_(arguments.regions) {
+  if (sphere_ && !geo_)
+    throw BadInput("--sphere is for the coasts in GeoJSON, shapefiles and what else GDAL reads, "
+                   "and '" + path_ + "' is none of these");
+  if (sphere_) dimension_ = 3;
   if (geo_) return;
   dimension_ = level_set_ || primitive_ ? 3 : dimension_of(path_, arguments.surfaces_only);
 }
@@ -122,15 +127,32 @@ void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context, bool
 
 void DomainSource::name_groups(pnpbs_domain domain, pnpbs_context context) const {
   for (const auto& [tag, name] : names_)
-    check(pnpbs_domain_set_tag_name(domain, dimension_ - 1, tag, name.c_str()), context);
+    check(pnpbs_domain_set_tag_name(domain, sphere_ ? 1 : dimension_ - 1, tag, name.c_str()),
+          context);
   const std::vector<GroupName> names = group_names(domain, context);
   for (const std::string& group : inner_)
     check(pnpbs_domain_set_role(domain, tag_of(group, names), PNPBS_INNER), context);
 }
 
 void DomainSource::add_regions(pnpbs_domain domain, pnpbs_context context) const {
-  for (const Region& region : regions_)
-    check(pnpbs_domain_add_region(domain, region.point.data(), region.tag), context);
+  for (const Region& region : regions_) {
+    std::vector<double> point = region.point;
+    if (sphere_) {
+      point.resize(3);
+      check(pnpbs_sphere_points(1, 1, region.point.data(), point.data()), context);
+    }
+    check(pnpbs_domain_add_region(domain, point.data(), region.tag), context);
+  }
+}
+
+void DomainSource::create(pnpbs_context context, pnpbs_domain* domain) const {
+  if (!sphere_) {
+    check(pnpbs_domain_create(context, dimension_, domain), context);
+    return;
+  }
+  Point<3> outside;
+  check(pnpbs_sphere_points(1, 1, sphere_->outside.data(), outside.data()), nullptr);
+  check(pnpbs_domain_create_sphere(context, sphere_->radius, outside.data(), domain), context);
 }
 
 void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {

@@ -25,7 +25,10 @@ class DomainSource {
 
   // nullptr if it is no file of geographers.
   const GeoFile* geo() const { return geo_.get(); }
-  int dimension() const { return dimension_; }  // 2: in the plane, 3: a body
+  int dimension() const { return dimension_; }  // 2: in the plane, 3: a body, or on a sphere
+  bool on_sphere() const { return sphere_.has_value(); }
+  // A domain of that kind, without anything in it. Local. Throws Failure.
+  void create(pnpbs_context context, pnpbs_domain* domain) const;
 
   // Standard input is the first rank's; files are read by every rank. This object must outlive the
   // domain. Collective. Throws Failure.
@@ -49,6 +52,7 @@ class DomainSource {
   std::unique_ptr<GeoFile> geo_;
   std::unique_ptr<LevelSet> level_set_;
   std::optional<Primitive> primitive_;
+  std::optional<SphereWish> sphere_;
   int dimension_ = 2;
   double feature_angle_;
   double corner_angle_;  // in the plane

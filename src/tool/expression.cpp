@@ -203,6 +203,8 @@ struct Expression::Parser {
   std::vector<FieldInFormula> fields;
   int dimension;
   double place[3] = {0, 0, 0};
+  double lon = 0, lat = 0;      // degrees, there
+  bool asks_for_degrees = false;
   double dist = 1, seglen = 1;  // there
   bool asks_for_shape = false;  // or for fields
   bool asks_dist = false, asks_seglen = false;
@@ -213,6 +215,7 @@ struct Expression::Parser {
     const auto& used = parser.GetUsedVar();
     asks_dist = used.contains("dist");
     asks_seglen = used.contains("seglen");
+    asks_for_degrees = used.contains("lon") || used.contains("lat");
     asks_for_shape = shape_was_asked || asks_dist || asks_seglen || !fields.empty();
   }
   // A name that means something else already is no group's.
@@ -239,6 +242,12 @@ struct Expression::Parser {
         throw BadInput("--spacing-grid: the formula of --spacing does not use '" + each.field.name +
                        "'");
   }
+  void go_to(const double* there) {
+    std::copy_n(there, dimension, place);
+    if (!asks_for_degrees) return;
+    lon = std::atan2(place[1], place[0]) * 180 / std::numbers::pi;
+    lat = std::atan2(place[2], std::hypot(place[0], place[1])) * 180 / std::numbers::pi;
+  }
   double value() {
     if (asks_dist) dist = distance_to(0);
     if (asks_seglen) seglen = shape_spacing("seglen", 1, 0, 0, 1);
@@ -251,7 +260,7 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
     : parser_(std::make_unique<Parser>()) {
   const FormulaSource source{option, given};
   std::string text = given;
-  if (names == Names::shape_too) parser_->groups = groups_in(text);
+  if (names != Names::coordinates) parser_->groups = groups_in(text);
   for (Field& field : fields) parser_->fields.push_back({std::move(field)});
   refuse_what_is_no_formula(source);
   refuse_other_hypots(source);
@@ -261,7 +270,11 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
     define_names(parser);
     for (int k = 0; k < dimension; ++k)
       parser.DefineVar(std::string(1, "xyz"[k]), &parser_->place[k]);
-    if (names == Names::shape_too) {
+    if (names == Names::shape_on_sphere) {
+      parser.DefineVar("lon", &parser_->lon);
+      parser.DefineVar("lat", &parser_->lat);
+    }
+    if (names != Names::coordinates) {
       define_shape_functions(parser);
       parser.DefineVar("dist", &parser_->dist);
       parser.DefineVar("seglen", &parser_->seglen);
@@ -302,7 +315,7 @@ bool Expression::is_constant() const {
 }
 
 double Expression::at(const double* place) const {
-  std::copy_n(place, parser_->dimension, parser_->place);
+  parser_->go_to(place);
   return parser_->parser.Eval();
 }
 
@@ -321,7 +334,7 @@ void Expression::at(std::int64_t n, const double* coordinates, double* values) c
   const ShapeForBatch telling(shape, parser_->context);
   for (std::int64_t i = 0; i < n; ++i) {
     shape.place = i;
-    std::copy_n(coordinates + parser_->dimension * i, parser_->dimension, parser_->place);
+    parser_->go_to(coordinates + parser_->dimension * i);
     for (FieldInFormula& each : parser_->fields)
       each.value = each.values[static_cast<std::size_t>(i)];
     values[i] = parser_->value();
@@ -344,7 +357,7 @@ std::string expression_help() {
   define_names(parser);
   std::string list;
   for (const auto& [name, function] : parser.GetFunDef()) list += (list.empty() ? "" : " ") + name;
-  return "x, y, z (of bodies), pi, e, numbers, + - * / ^ ( ), comparisons, a ? b : c, and the "
+  return "x, y, z (of bodies), lon, lat (degrees, with --sphere), pi, e, numbers, + - * / ^ ( ), comparisons, a ? b : c, and the "
          "functions " +
          list +
          "; in --spacing also dist, the distance to the boundary, dist(TAG) and dist(NAME), to "

@@ -15,7 +15,7 @@ namespace pnpbs::tool {
 
 class Expression {
  public:
-  enum class Names { coordinates, shape_too };
+  enum class Names { coordinates, shape_too, shape_on_sphere };  // the last: lon and lat, too
   // What a name in it stands for: values at n places.
   struct Field {
     std::string name;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
 #include "base/extension.hpp"
 #include "tool/exit.hpp"
 #include "tool/library.hpp"
@@ -19,6 +20,10 @@ bool is_in(const std::string& word, const List& list) {
   return std::ranges::find(list, word) != std::end(list);
 }
 
+std::string projection_of(const SphereWish& sphere) {
+  return "sphere(" + number_text(sphere.outside[0]) + "," + number_text(sphere.outside[1]) + ")";
+}
+
 const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
 
 }  // namespace
@@ -27,7 +32,8 @@ bool GeoFile::is_meant_by(const Arguments& arguments) {
   const std::string ending = extension_of(arguments.domain);
   std::string option;
   for (const auto& [name, value] :
-       {std::pair{"--projection", arguments.projection}, std::pair{"--layer", arguments.layer},
+       {std::pair{"--sphere", std::string(arguments.sphere ? "given" : "")},
+        std::pair{"--projection", arguments.projection}, std::pair{"--layer", arguments.layer},
         std::pair{"--unit", arguments.unit}, std::pair{"--tag-field", arguments.tag_field}})
     if (!value.empty()) option = name;
   const bool is_other =
@@ -41,7 +47,7 @@ bool GeoFile::is_meant_by(const Arguments& arguments) {
 GeoFile::GeoFile(const Arguments& arguments)
     : path_(arguments.domain),
       layer_(arguments.layer),
-      projection_(arguments.projection),
+      projection_(arguments.sphere ? projection_of(*arguments.sphere) : arguments.projection),
       unit_(arguments.unit),
       tag_field_(arguments.tag_field) {}
 

@@ -95,9 +95,9 @@ bool leave_out_shapes(const std::vector<std::string>& warnings) {
 }
 
 // How a file of geographers was taken: before d is asked for, since its unit hangs on it.
-void tell_projection(const GeoFile& geo) {
+void tell_projection(const GeoFile& geo, bool on_sphere) {
   const GeoFile::Projection projection = geo.projection();
-  if (!projection.name.empty())
+  if (!projection.name.empty() && !on_sphere)
     std::cerr << "pnpbs: x and y are in '" << projection.name << "', in " << projection.unit
               << " (--projection, --unit)\n";
   for (const std::string& note : geo.notes()) std::cerr << "pnpbs: note: " << note << "\n";
@@ -218,8 +218,8 @@ struct Work {
 
 void measure_body(Work& work) {
   if (work.wishes.source->dimension() < 3) return;
-  work.ranks.agreed(
-      [&] { work.body = body_figures(work.domain, !work.arguments.surfaces_only, work.context); });
+  const bool filled = !work.arguments.surfaces_only && !work.arguments.sphere;
+  work.ranks.agreed([&] { work.body = body_figures(work.domain, filled, work.context); });
 }
 
 void centre_nodes(Work& work) {
@@ -236,10 +236,10 @@ void read_domain(Work& work) {
   work.ranks.create_context(work.context.out());
   work.ranks.agreed([&] {
     set_options(work.context, arguments);
-    check(pnpbs_domain_create(work.context, source.dimension(), work.domain.out()), work.context);
+    source.create(work.context, work.domain.out());
   });
   source.read(work.domain, work.context, work.ranks);
-  if (source.geo() && work.talks()) tell_projection(*source.geo());
+  if (source.geo() && work.talks()) tell_projection(*source.geo(), source.on_sphere());
   work.ranks.agreed([&] {
     spacing.read_grids(work.domain, work.context, source.geo());
     if (arguments.simplify)
@@ -285,7 +285,7 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   if (work.talks()) warn(of_grids);
   const std::vector<std::string> warnings =
       for_report(arguments, geo, context, placement, of_grids);
-  if (geo) outputs.write_projection(geo->projection().prj);
+  if (geo && !wishes.source->on_sphere()) outputs.write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
   const auto report = [&] {
     return report_text(work.arguments, geo, statistics, matter.volumes, matter.figures, groups,

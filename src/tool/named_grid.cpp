@@ -64,10 +64,11 @@ bool has_reference_beside(const std::string& path) {
 
 std::string path_of_grid(const std::string& text) { return words_of(text).path; }
 
-NamedGrid::NamedGrid(const std::string& text, int dimension) : dimension_(dimension) {
+NamedGrid::NamedGrid(const std::string& text, int dimension, bool on_sphere)
+    : dimension_(on_sphere ? 2 : dimension), on_sphere_(on_sphere) {
   const GridWords words = words_of(text);
   name_ = words.name, path_ = words.path, variable_ = words.variable;
-  if (!is_for_gdal(path_)) text_ = std::make_unique<Grid>(read_grid(path_, dimension));
+  if (!is_for_gdal(path_)) text_ = std::make_unique<Grid>(read_grid(path_, dimension_));
 }
 
 NamedGrid::~NamedGrid() {
@@ -116,6 +117,14 @@ Box<3> NamedGrid::extent() const {
 
 void NamedGrid::evaluate(std::int64_t n, const double* coordinates, double* values,
                          std::int32_t* inside) const {
+  if (!on_sphere_) return evaluate_in_plane(n, coordinates, values, inside);
+  std::vector<double> degrees(static_cast<std::size_t>(2 * n));
+  tool::check(pnpbs_sphere_degrees(n, coordinates, degrees.data()), nullptr);
+  evaluate_in_plane(n, degrees.data(), values, inside);
+}
+
+void NamedGrid::evaluate_in_plane(std::int64_t n, const double* coordinates, double* values,
+                                  std::int32_t* inside) const {
   if (text_) return evaluate_text(n, coordinates, values, inside);
   if (dimension_ == 2) return check(library_->grid_values(grid_, n, coordinates, values, inside));
   std::vector<double> plane(static_cast<std::size_t>(2 * n));

@@ -16,7 +16,8 @@ namespace pnpbs::tool {
 class NamedGrid {
  public:
   // "FILE" is called "grid". Reads what needs no GDAL. Throws BadInput.
-  NamedGrid(const std::string& text, int dimension);
+  // On a sphere its values are at longitudes and latitudes.
+  NamedGrid(const std::string& text, int dimension, bool on_sphere);
   ~NamedGrid();
   NamedGrid(const NamedGrid&) = delete;
   NamedGrid& operator=(const NamedGrid&) = delete;
@@ -35,11 +36,14 @@ class NamedGrid {
   Box<3> extent() const;
 
  private:
+  void evaluate_in_plane(std::int64_t n, const double* coordinates, double* values,
+                         std::int32_t* inside) const;
   void evaluate_text(std::int64_t n, const double* coordinates, double* values,
                      std::int32_t* inside) const;
   void check(pnpbs_status status) const;
 
-  int dimension_;
+  int dimension_;  // of its places
+  bool on_sphere_;
   std::string name_, path_, variable_;
   std::unique_ptr<Grid> text_;
   std::unique_ptr<GeoLibrary> library_;

@@ -65,7 +65,7 @@ Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
   const FileFormat* otherwise = format_called(arguments.format);
   for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
   if (!arguments.report.empty()) add(arguments.report, nullptr);
-  if (GeoFile::is_meant_by(arguments)) add_projections(arguments.domain);
+  if (GeoFile::is_meant_by(arguments) && !arguments.sphere) add_projections(arguments.domain);
   std::vector<std::string> inputs{arguments.domain, file_of_spacing(arguments),
                                   arguments.projection};
   for (const std::string& grid : arguments.spacing_grids) inputs.push_back(path_of_grid(grid));

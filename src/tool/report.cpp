@@ -54,7 +54,7 @@ void describe(const GeoFile& geo, const Arguments& arguments, Json& report) {
   if (!arguments.layer.empty()) report["layer"] = arguments.layer;
   if (!arguments.tag_field.empty()) report["tag_field"] = arguments.tag_field;
   const GeoFile::Projection projection = geo.projection();
-  if (projection.name.empty()) return;
+  if (projection.name.empty() || arguments.sphere) return;
   report["projection"] = {{"name", projection.name},
                           {"unit", projection.unit},
                           {"scale", {projection.least_scale, projection.greatest_scale}},
@@ -92,6 +92,9 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   Json report;
   report["domain"] = arguments.domain;
   if (geo) describe(*geo, arguments, report);
+  if (arguments.sphere)
+    report["sphere"] = {{"radius", arguments.sphere->radius},
+                        {"outside", arguments.sphere->outside}};
   if (arguments.feature_angle) report["feature_angle"] = *arguments.feature_angle;
   if (arguments.repair) report["repair"] = *arguments.repair;
   if (arguments.repair_if_needed) report["repair"] = "auto";

@@ -12,6 +12,8 @@ namespace {
 // What --spacing auto asks for.
 constexpr double nodes_per_turn = 20, nodes_across = 3, nodes_per_edge = 1, growth = 0.15;
 
+constexpr Box<3> all_degrees{{-180, -90, 0}, {180, 90, 0}};
+
 std::int32_t call_grid(std::int64_t n, std::int32_t dim, const double* coordinates, double* d,
                        void* user) {
   const Grid& grid = *static_cast<const Grid*>(user);
@@ -42,6 +44,7 @@ std::string extents_in(const Box<3>& grid, const Box<3>& domain) {
 
 Spacing::Spacing(const Arguments& arguments, int dimension)
     : dimension_(dimension),
+      sphere_(arguments.sphere.has_value()),
       min_(arguments.min_spacing.value_or(0)),
       max_(arguments.max_spacing.value_or(0)) {
   if (arguments.spacing == "auto") return;
@@ -49,17 +52,20 @@ Spacing::Spacing(const Arguments& arguments, int dimension)
   if (file_) return;
   std::vector<Expression::Field> fields;
   for (const std::string& text : arguments.spacing_grids) {
-    grids_.push_back(std::make_unique<NamedGrid>(text, dimension));
+    grids_.push_back(std::make_unique<NamedGrid>(text, dimension, sphere_));
     const NamedGrid* grid = grids_.back().get();
     fields.push_back({grid->name(), [grid](std::int64_t n, const double* x, double* values) {
                         grid->evaluate(n, x, values, nullptr);
                       }});
   }
   const bool alone = arguments.spacing.empty();
-  if (alone && grids_.size() == 1 && grids_[0]->text_grid()) return;
+  if (!sphere_ && alone && grids_.size() == 1 && grids_[0]->text_grid()) return;
   expression_ =
       std::make_unique<Expression>(alone ? grids_[0]->name() : arguments.spacing, dimension,
-                                   "--spacing", Expression::Names::shape_too, std::move(fields));
+                                   "--spacing",
+                                   sphere_ ? Expression::Names::shape_on_sphere
+                                           : Expression::Names::shape_too,
+                                   std::move(fields));
 }
 
 const Grid* Spacing::grid() const {
@@ -68,8 +74,8 @@ const Grid* Spacing::grid() const {
 
 void Spacing::read_grids(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo) {
   if (grids_.empty()) return;
-  const std::string projection = geo ? geo->projection().wkt : "";
-  const Box<3> bounds = bounds_of(domain, context);
+  const std::string projection = sphere_ ? "EPSG:4326" : geo ? geo->projection().wkt : "";
+  const Box<3> bounds = sphere_ ? all_degrees : bounds_of(domain, context);
   for (const auto& each : grids_) {
     each->open(projection, bounds);
     if (expression_ || each->text_grid()) continue;
@@ -184,8 +190,8 @@ std::vector<std::string> Spacing::warnings(pnpbs_placement placement, pnpbs_doma
           ") covers only a part of the domain: of " + std::to_string(nodes) + " nodes, " +
           std::to_string(outside) +
           " lie beyond its edge; there its values are those at the edge. The grid reaches " +
-          (dimension_ == 2 ? extents_in<2> : extents_in<3>)(each->extent(),
-                                                            bounds_of(domain, context)));
+          (dimension_ == 2 || sphere_ ? extents_in<2> : extents_in<3>)(
+              each->extent(), sphere_ ? all_degrees : bounds_of(domain, context)));
   }
   return warnings;
 }

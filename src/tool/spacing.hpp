@@ -60,6 +60,7 @@ class Spacing {
   pnpbs_status set_grid(pnpbs_placement placement) const;
 
   int dimension_;
+  bool sphere_;
   double min_, max_;  // of auto, 0: none
   std::vector<std::unique_ptr<NamedGrid>> grids_;
   std::unique_ptr<Expression> expression_;  // neither this nor a grid nor a file: auto

@@ -37,6 +37,28 @@ void require_not_negative(const char* argument, double value) {
 
 constexpr double kNearlyOpposite = 3.14159;  // radians
 
+// Of curves on a sphere, the vertices that are not at the same place as the one before; ends stay.
+// Coasts have many that are there but for rounding, and in the chart these could not be told from
+// each other.
+std::vector<std::int64_t> apart(const std::vector<Point<3>>& vertices, bool closed) {
+  constexpr double kSame = 1e-7;  // radians
+  const auto same = [&](std::int64_t a, std::int64_t b) {
+    return angle_between(vertices[static_cast<std::size_t>(a)],
+                         vertices[static_cast<std::size_t>(b)]) < kSame;
+  };
+  const auto n = static_cast<std::int64_t>(vertices.size());
+  std::vector<std::int64_t> kept{0};
+  for (std::int64_t v = 1; v < n; ++v)
+    if (!same(kept.back(), v)) kept.push_back(v);
+  if (!closed && kept.back() != n - 1) {
+    if (kept.size() > 1) kept.pop_back();
+    kept.push_back(n - 1);
+  }
+  while (closed && kept.size() > 1 && same(kept.back(), 0)) kept.pop_back();
+  if (kept.size() < (closed ? 3 : 2)) reject("the curve has no extent: its vertices are one place");
+  return kept;
+}
+
 // A full circle closes exactly.
 double snap_to_full_turn(double begin, double end) {
   constexpr double turn = 2 * std::numbers::pi;
@@ -108,13 +130,18 @@ void PlaneDomain::add_great_circles(CurveRole role, bool closed,
   source.role = role;
   source.closed = closed;
   source.corner_angle = corner_angle;
-  for (std::int64_t v = 0; v < n; ++v) add_way(source, vertices, given_tags, v);
+  const std::vector<std::int64_t> kept = apart(vertices, closed);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const bool is_last = k + 1 == kept.size();
+    add_way(source, vertices, given_tags, kept[k], is_last ? (closed ? kept[0] : -1) : kept[k + 1]);
+  }
   add_source(std::move(source));
 }
 
-// A vertex, and the way from it to the next, if it is not the last one of an open curve.
+// A vertex, and the way from it to the next one, if there is one.
 void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vertices,
-                          const std::vector<std::int32_t>& tags, std::int64_t v) const {
+                          const std::vector<std::int32_t>& tags, std::int64_t v,
+                          std::int64_t next_v) const {
   const auto place = [&](std::int64_t i) { return vertices[static_cast<std::size_t>(i)]; };
   const auto add = [&](const Point<2>& u, bool on_the_way) {
     if (!is_usable(u))
@@ -129,12 +156,11 @@ void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vert
     source.tags.push_back(tags[static_cast<std::size_t>(v)]);
     source.segment_numbers.push_back(v);
   };
-  const auto n = static_cast<std::int64_t>(vertices.size());
   add(chart_->in_chart(place(v)), false);
-  if (v + 1 == n && !source.closed) return;
-  const Point<3> next = place(v + 1 == n ? 0 : v + 1);
+  if (next_v < 0) return;
+  const Point<3> next = place(next_v);
   if (angle_between(place(v), next) > kNearlyOpposite)
-    reject("vertices " + std::to_string(v) + " and " + std::to_string(v + 1 == n ? 0 : v + 1) +
+    reject("vertices " + std::to_string(v) + " and " + std::to_string(next_v) +
            " are opposite points of the sphere: no way between them is the shortest");
   add_segment();
   for (const Point<2>& u : points_on_the_way(*chart_, place(v), next)) {

@@ -117,7 +117,7 @@ class PlaneDomain : public DomainBase<2> {
  private:
   void add_source(CurveSource source);
   void add_way(CurveSource& source, const std::vector<Point<3>>& vertices,
-               const std::vector<std::int32_t>& tags, std::int64_t v) const;
+               const std::vector<std::int32_t>& tags, std::int64_t v, std::int64_t next_v) const;
 
   std::optional<StereographicChart> chart_;
   std::vector<CurveSource> sources_;
