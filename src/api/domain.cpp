@@ -80,9 +80,8 @@ pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_
     require_pointer(coordinates, "coordinates");
     const CurveRole as = role_from(role);
     if (sphere_of(object)) {
-      object.plane->add_great_circles(as, closed != 0,
-                                      require_directions("coordinates", n, coordinates), tags,
-                                      corner_angle);
+      object.plane->add_great_circles(
+          as, closed != 0, require_directions("coordinates", n, coordinates), tags, corner_angle);
       return;
     }
     if (object.plane) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies at a distance from others, through the C interface.
 #include "api/domain_calls.hpp"
-#include "api/sphere_points.hpp"
 #include "api/spacing_callback.hpp"
+#include "api/sphere_points.hpp"
 #include "shape/offset_body.hpp"
 
 using namespace pnpbs;

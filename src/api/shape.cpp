@@ -60,7 +60,8 @@ pnpbs_status ask_shape(pnpbs_domain domain, const Ask& ask) {
       ask(*shapes);
       return PNPBS_OK;
     };
-    if (sphere_of(object)) return ask_in.template operator()<3>(*object.plane, object.volume_shapes);
+    if (sphere_of(object))
+      return ask_in.template operator()<3>(*object.plane, object.volume_shapes);
     return object.plane ? ask_in.template operator()<2>(*object.plane, object.plane_shapes)
                         : ask_in.template operator()<3>(*object.volume, object.volume_shapes);
   });
@@ -90,9 +91,8 @@ pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
     const ShapeIndex<Dim>& index = shapes.index();
     require_tag_in(index, tag);
     const Point<Dim>* const x = points_from<Dim>(coordinates);
-    for_each_if_started("pnpbs_domain_distance", n, [&](std::int64_t i) {
-      distances[i] = shapes.distance(tag, x[i]);
-    });
+    for_each_if_started("pnpbs_domain_distance", n,
+                        [&](std::int64_t i) { distances[i] = shapes.distance(tag, x[i]); });
   });
 }
 

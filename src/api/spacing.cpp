@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "api/placement_calls.hpp"
-#include "api/sphere_points.hpp"
 #include "api/spacing_callback.hpp"
+#include "api/sphere_points.hpp"
 #include "domain/given_values.hpp"
 #include "placement/nodal_values.hpp"
 #include "spacing/beside_domain.hpp"

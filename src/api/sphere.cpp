@@ -17,8 +17,7 @@ namespace {
 constexpr double kRadian = std::numbers::pi / 180;
 
 Point<2> degrees_of(const Point<3>& x) {
-  return {std::atan2(x[1], x[0]) / kRadian,
-          std::atan2(x[2], std::hypot(x[0], x[1])) / kRadian};
+  return {std::atan2(x[1], x[0]) / kRadian, std::atan2(x[2], std::hypot(x[0], x[1])) / kRadian};
 }
 
 void require_degrees(std::int64_t i, const double* degrees) {
@@ -50,8 +49,8 @@ void pnpbs::api::tell_in_degrees(const StereographicChart* chart, Context& conte
   }
 }
 
-pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,
-                                        const double* outside, pnpbs_domain* domain) {
+pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius, const double* outside,
+                                        pnpbs_domain* domain) {
   return guarded(context, [&](Context& owner) {
     require_pointer(domain, "domain");
     *domain = nullptr;

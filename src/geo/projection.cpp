@@ -60,8 +60,10 @@ std::optional<Point<2>> sphere_seen_from(const std::string& wish) {
     at += is_there;
     while (at != end && *at == ' ') ++at;
     const auto read = std::from_chars(at, end, degrees[static_cast<std::size_t>(k)]);
-    if (!is_there || read.ec != std::errc()) at = end;
-    else at = read.ptr;
+    if (!is_there || read.ec != std::errc())
+      at = end;
+    else
+      at = read.ptr;
   }
   if (at == end || std::string_view(at, end) != ")" || !(std::fabs(degrees[1]) <= 90) ||
       !(std::fabs(degrees[0]) <= 360))
@@ -159,8 +161,8 @@ void Projection::choose_target(const std::vector<Point<2>>& points, const std::s
 void Projection::take_unit(const std::string& unit) {
   if (unit.empty()) return;
   if (on_sphere_)
-    throw Error(ErrorKind::argument, "argument unit = '" + unit +
-                                         "': on a sphere the unit is that of its radius");
+    throw Error(ErrorKind::argument,
+                "argument unit = '" + unit + "': on a sphere the unit is that of its radius");
   if (unit != "m" && unit != "km")
     throw Error(ErrorKind::argument, "argument unit = '" + unit + "' must be m or km");
   if (!target_ || target_.is_geographic())

@@ -16,7 +16,8 @@ class Projection {
   // What `wish` makes of points in the system of `data`: "" longitude and latitude projected as
   // auto does, anything else as it is; "none" as they are; "auto" the UTM zone that they lie in, or
   // else Lambert's azimuthal equal-area projection about their middle; "sphere(LONGITUDE,LATITUDE)"
-  // the stereographic one of a sphere from that point; or a name, see ReferenceSystem::called. `unit` is "", "m" or "km". Throws Error.
+  // the stereographic one of a sphere from that point; or a name, see ReferenceSystem::called.
+  // `unit` is "", "m" or "km". Throws Error.
   Projection(const ReferenceSystem& data, const std::vector<Point<2>>& points,
              const std::string& wish, const std::string& unit);
 

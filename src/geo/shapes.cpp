@@ -110,9 +110,7 @@ void Shapes::project() {
   places_ = places.points();
   const double extent = places_.empty() ? 0 : extent_of(places_);
   scale_ = projection_.scale_at(places_);
-  const auto where = [&](std::int64_t place) {
-    return with_degrees(point_text(places_[place]));
-  };
+  const auto where = [&](std::int64_t place) { return with_degrees(point_text(places_[place])); };
   outlines_ = outlines_of(std::move(routes), places_, where, projection_.sphere_radius());
   lines_along_shore_ = retag_shores(outlines_.curves, places_, along_shore * extent);
 }
@@ -155,10 +153,11 @@ void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_an
   check(pnpbs_domain_dimension(domain, &dimension), context);
   if (dimension != (on_sphere() ? 3 : 2))
     throw Error(ErrorKind::argument,
-                on_sphere() ? "argument domain: the shapes were read for a domain on a sphere"
-                            : "argument domain: the shapes were read for a domain in the plane, and "
-                              "this one is in space; for one on a sphere name the projection "
-                              "sphere(LONGITUDE,LATITUDE)");
+                on_sphere()
+                    ? "argument domain: the shapes were read for a domain on a sphere"
+                    : "argument domain: the shapes were read for a domain in the plane, and "
+                      "this one is in space; for one on a sphere name the projection "
+                      "sphere(LONGITUDE,LATITUDE)");
   if (!(corner_angle >= 0 && corner_angle <= 180))
     throw Error(ErrorKind::argument, "argument corner_angle is " + number_text(corner_angle) +
                                          ", expected degrees from 0 to 180");
@@ -193,7 +192,8 @@ void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corne
 std::vector<double> Shapes::coordinates_of(std::vector<Point<2>> points) const {
   if (on_sphere()) projection_.to_degrees(points);
   std::vector<double> coordinates;
-  for (const Point<2>& point : points) coordinates.insert(coordinates.end(), point.begin(), point.end());
+  for (const Point<2>& point : points)
+    coordinates.insert(coordinates.end(), point.begin(), point.end());
   if (!on_sphere()) return coordinates;
   std::vector<double> in_space(3 * points.size());
   check(pnpbs_sphere_points(1, std::ssize(points), coordinates.data(), in_space.data()), nullptr);

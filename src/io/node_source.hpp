@@ -21,8 +21,8 @@ enum class Cells { nodes, elements, facets };
 
 // What all ranks hold together. Nodes, elements and facets are numbered through, from 0.
 struct Contents {
-  int dimension = 2;    // of elements
-  int coordinates = 2;  // of nodes: 3 on a sphere, too
+  int dimension = 2;           // of elements
+  int coordinates = 2;         // of nodes: 3 on a sphere, too
   bool is_piece = false;       // one of many, which stands for itself and knows ghosts
   bool with_elements = false;  // and facets?
   Cells cells = Cells::nodes;  // of surfaces alone, which have no elements, the facets

@@ -98,8 +98,7 @@ SpacingVariation spacing_variation(const Level<Dim>& level) {
                  way = kBetweenSamples * (map.leaf_has_facets(leaf) ? 2 * cell : cell);
     own.min = std::min(own.min, min);
     own.max = std::max(own.max, max);
-    own.steepest = std::max(own.steepest,
-                            (max - min) / way - growth_of_chart(level, leaf, min));
+    own.steepest = std::max(own.steepest, (max - min) / way - growth_of_chart(level, leaf, min));
   }
   return SpacingVariation{-level.comm->allreduce_max(-own.min), level.comm->allreduce_max(own.max),
                           level.comm->allreduce_max(own.steepest)};

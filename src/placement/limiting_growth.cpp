@@ -106,8 +106,7 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
           indexed_boundary(*domain_, unlimited, settings.max_nodes));
       spacing = std::make_shared<GrowthLimitedSpacing<Dim>>(
           comm_, std::move(ways), std::move(spacing),
-          GrowthRule<Dim>{settings.growth_limit, chart_of(*domain_)}, settings.node_limit(),
-          beat);
+          GrowthRule<Dim>{settings.growth_limit, chart_of(*domain_)}, settings.node_limit(), beat);
     } catch (const AgreedError& error) {
       if (!is_lack_of_room(error)) throw;
       throw AgreedError(error.kind(), explained(error));

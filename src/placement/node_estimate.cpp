@@ -238,10 +238,9 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
     if (is_filled(domain)) nodes += on_boundary;
     max = nodes / cells;
   }
-  return {nodes,
-          steepest_growth<Dim>(
-              comm, map, [](std::int32_t) { return true; }, evaluator, spacing.known_values(),
-              chart_of(domain))};
+  return {nodes, steepest_growth<Dim>(
+                     comm, map, [](std::int32_t) { return true; }, evaluator,
+                     spacing.known_values(), chart_of(domain))};
 }
 
 template NodeEstimate<2> estimate_nodes<2>(const Communicator&, const Domain<2>&, const Spacing<2>&,

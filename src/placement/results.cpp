@@ -206,9 +206,8 @@ NearestNeighbourError Results<Dim>::spacing_error() {
   for_each("pnpbs::spacing_error::ratio", nodes.count, [&](std::int64_t i) {
     if (!nodes.owned(i)) return;
     double nearest = lists.radius() * measured.d(i);
-    lists.for_neighbours(i, [&](std::int64_t j) {
-      nearest = std::min(nearest, measured.distance_between(i, j));
-    });
+    lists.for_neighbours(
+        i, [&](std::int64_t j) { nearest = std::min(nearest, measured.distance_between(i, j)); });
     ratio(i) = nearest / measured.d(i);
   });
   const double n = static_cast<double>(global_count());

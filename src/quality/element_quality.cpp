@@ -88,8 +88,8 @@ double off(const RatioSums& sums) { return off(ratio_of(sums)); }
 
 template <int Dim>
 SpacingBands bands_of_nodes(const Communicator& comm, const MeasuredNodes<Dim>& measured) {
-  const SpacingRange d = spacing_range<Dim>(
-      comm, measured.nodes, [&](std::int64_t i) { return measured.d(i); });
+  const SpacingRange d =
+      spacing_range<Dim>(comm, measured.nodes, [&](std::int64_t i) { return measured.d(i); });
   return {d.min, d.max};
 }
 

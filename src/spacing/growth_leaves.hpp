@@ -22,8 +22,8 @@ template <int Dim>
 class GrowthLeaves {
  public:
   // All of the domain in one leaf. `places` in it are samples like the boundary nodes.
-  GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways,
-               const GrowthRule<Dim>& rule, const NodeLimit& limit, std::vector<Point<Dim>> places = {});
+  GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, const GrowthRule<Dim>& rule,
+               const NodeLimit& limit, std::vector<Point<Dim>> places = {});
 
   // Splits leaves wider than some d, and those over which d grows faster than the limit, so that
   // the tips of steep funnels are found: down to a third of their least d. Keeps sources of d.

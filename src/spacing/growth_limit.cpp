@@ -31,8 +31,7 @@ template <int Dim>
 GrowthLimitedSpacing<Dim>::GrowthLimitedSpacing(std::shared_ptr<const Communicator> comm,
                                                 std::unique_ptr<const OpenWays<Dim>> ways,
                                                 std::shared_ptr<const Spacing<Dim>> raw,
-                                                const GrowthRule<Dim>& rule,
-                                                const NodeLimit& limit,
+                                                const GrowthRule<Dim>& rule, const NodeLimit& limit,
                                                 const Beat& beat)
     : comm_(std::move(comm)), raw_(std::move(raw)), rule_(rule), ways_(std::move(ways)) {
   const SpacingEvaluator<Dim> checked = [&](std::int64_t n, const Point<Dim>* x, double* d) {

@@ -40,8 +40,8 @@ struct GrowthLabel {
   }
 };
 
-// By how much d may grow per unit of length: in the chart of a sphere, d and lengths are those along
-// the sphere.
+// By how much d may grow per unit of length: in the chart of a sphere, d and lengths are those
+// along the sphere.
 template <int Dim>
 struct GrowthRule {
   double growth = 0;
@@ -51,8 +51,8 @@ struct GrowthRule {
   double limit(const GrowthSource<Dim>& source, const Point<Dim>& at) const {
     if constexpr (Dim == 2)
       if (chart)
-        return chart->stretch(at) * (source.d / chart->stretch(source.x) +
-                                     growth * chart->distance(source.x, at));
+        return chart->stretch(at) *
+               (source.d / chart->stretch(source.x) + growth * chart->distance(source.x, at));
     return source.limit(at, growth);
   }
 

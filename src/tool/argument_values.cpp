@@ -24,8 +24,10 @@ void take_sphere(const std::string& text, Arguments& arguments) {
   const bool fits = numbers && (numbers->size() == 1 || numbers->size() == 3) &&
                     (*numbers)[0] > 0 && (numbers->size() == 1 || std::fabs((*numbers)[2]) <= 90);
   if (!fits)
-    refuse("--sphere: expected RADIUS or RADIUS,LON,LAT with a radius greater than 0 and degrees, "
-           "found '" + text + "'");
+    refuse(
+        "--sphere: expected RADIUS or RADIUS,LON,LAT with a radius greater than 0 and degrees, "
+        "found '" +
+        text + "'");
   arguments.sphere = SphereWish{(*numbers)[0], deep_in_land};
   if (numbers->size() == 3) arguments.sphere->outside = {(*numbers)[1], (*numbers)[2]};
 }

@@ -47,8 +47,8 @@ struct Arguments {
   double smallest = 0;                                       // extent of curves, over d
   std::string layer, projection, unit, tag_field;            // of files that GDAL reads
   std::optional<SphereWish> sphere;
-  std::vector<std::string> inner;                            // groups of triangles, by name or tag
-  std::vector<std::pair<std::int32_t, std::string>> names;   // of tags
+  std::vector<std::string> inner;                           // groups of triangles, by name or tag
+  std::vector<std::pair<std::int32_t, std::string>> names;  // of tags
   std::vector<Region> regions;
   std::optional<picture::ElementColour> colour;  // of elements in pictures
   std::string cut;               // where pictures cut a body open; empty: through its middle

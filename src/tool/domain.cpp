@@ -78,8 +78,10 @@ DomainSource::DomainSource(const Arguments& arguments)
       names_(arguments.names),
       regions_(arguments.regions) {
   if (sphere_ && !geo_)
-    throw BadInput("--sphere is for the coasts in GeoJSON, shapefiles and what else GDAL reads, "
-                   "and '" + path_ + "' is none of these");
+    throw BadInput(
+        "--sphere is for the coasts in GeoJSON, shapefiles and what else GDAL reads, "
+        "and '" +
+        path_ + "' is none of these");
   if (sphere_) dimension_ = 3;
   if (geo_) return;
   dimension_ = level_set_ || primitive_ ? 3 : dimension_of(path_, arguments.surfaces_only);

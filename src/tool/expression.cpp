@@ -203,7 +203,7 @@ struct Expression::Parser {
   std::vector<FieldInFormula> fields;
   int dimension;
   double place[3] = {0, 0, 0};
-  double lon = 0, lat = 0;      // degrees, there
+  double lon = 0, lat = 0;  // degrees, there
   bool asks_for_degrees = false;
   double dist = 1, seglen = 1;  // there
   bool asks_for_shape = false;  // or for fields
@@ -357,7 +357,8 @@ std::string expression_help() {
   define_names(parser);
   std::string list;
   for (const auto& [name, function] : parser.GetFunDef()) list += (list.empty() ? "" : " ") + name;
-  return "x, y, z (of bodies), lon, lat (degrees, with --sphere), pi, e, numbers, + - * / ^ ( ), comparisons, a ? b : c, and the "
+  return "x, y, z (of bodies), lon, lat (degrees, with --sphere), pi, e, numbers, + - * / ^ ( ), "
+         "comparisons, a ? b : c, and the "
          "functions " +
          list +
          "; in --spacing also dist, the distance to the boundary, dist(TAG) and dist(NAME), to "

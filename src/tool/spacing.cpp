@@ -60,12 +60,10 @@ Spacing::Spacing(const Arguments& arguments, int dimension)
   }
   const bool alone = arguments.spacing.empty();
   if (!sphere_ && alone && grids_.size() == 1 && grids_[0]->text_grid()) return;
-  expression_ =
-      std::make_unique<Expression>(alone ? grids_[0]->name() : arguments.spacing, dimension,
-                                   "--spacing",
-                                   sphere_ ? Expression::Names::shape_on_sphere
-                                           : Expression::Names::shape_too,
-                                   std::move(fields));
+  expression_ = std::make_unique<Expression>(
+      alone ? grids_[0]->name() : arguments.spacing, dimension, "--spacing",
+      sphere_ ? Expression::Names::shape_on_sphere : Expression::Names::shape_too,
+      std::move(fields));
 }
 
 const Grid* Spacing::grid() const {
@@ -190,8 +188,10 @@ std::vector<std::string> Spacing::warnings(pnpbs_placement placement, pnpbs_doma
           ") covers only a part of the domain: of " + std::to_string(nodes) + " nodes, " +
           std::to_string(outside) +
           " lie beyond its edge; there its values are those at the edge. The grid reaches " +
-          (dimension_ == 2 || sphere_ ? extents_in<2> : extents_in<3>)(
-              each->extent(), sphere_ ? all_degrees : bounds_of(domain, context)));
+          (dimension_ == 2 || sphere_
+               ? extents_in<2>
+               : extents_in<3>)(each->extent(),
+                                sphere_ ? all_degrees : bounds_of(domain, context)));
   }
   return warnings;
 }

@@ -118,8 +118,8 @@ void PlaneDomain::add_polyline(CurveRole role, bool closed, std::int64_t n, cons
 }
 
 void PlaneDomain::add_great_circles(CurveRole role, bool closed,
-                                    const std::vector<Point<3>>& vertices,
-                                    const std::int32_t* tags, double corner_angle) {
+                                    const std::vector<Point<3>>& vertices, const std::int32_t* tags,
+                                    double corner_angle) {
   const auto n = static_cast<std::int64_t>(vertices.size());
   require_count("n", n, closed ? 3 : 2);
   given_values::require_angle("corner_angle", corner_angle);
@@ -145,8 +145,8 @@ void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vert
   const auto place = [&](std::int64_t i) { return vertices[static_cast<std::size_t>(i)]; };
   const auto add = [&](const Point<2>& u, bool on_the_way) {
     if (!is_usable(u))
-      reject("vertex " + std::to_string(v) + " " + point_text(place(v)) + (on_the_way ?
-             ", the way from it to the next" : std::string()) +
+      reject("vertex " + std::to_string(v) + " " + point_text(place(v)) +
+             (on_the_way ? ", the way from it to the next" : std::string()) +
              ": the point that is named as outside of the domain lies on the curve");
     source.points.push_back(u);
     source.on_the_way.push_back(on_the_way);

@@ -57,9 +57,10 @@ void repair_bad_triangles(Level<2>& level) {
 std::vector<EdgeBand> edge_bands(Level<2>& level) {
   std::vector<EdgeBand> bands;
   update_ghosts(level);
-  agreed(*level.comm,
-         [&] { bands = edge_bands_to_judge<2>(
-             *level.comm, {level.nodes, level.ground.domain().chart()}, level.stars); });
+  agreed(*level.comm, [&] {
+    bands = edge_bands_to_judge<2>(*level.comm, {level.nodes, level.ground.domain().chart()},
+                                   level.stars);
+  });
   return bands;
 }
 
