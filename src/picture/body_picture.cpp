@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <tuple>
 
@@ -21,6 +22,7 @@ namespace {
 constexpr PictureSize body_picture_size{18, 1400, 2400};
 
 constexpr Colour skin = colour(0xb9cadb);   // the boundary
+constexpr Colour bare = colour(0xe9e4d8);   // a sphere where it has no triangles
 constexpr Colour flesh = colour(0xf0dcae);  // tetrahedra that have no colour of their own
 
 // How much darker it is where no light falls.
@@ -64,6 +66,8 @@ class BodyPainter {
     std::vector<double> shown;
     for (const PaintedFace& face : faces_)
       for (std::size_t k = 0; k < 3; ++k) shown.insert(shown.end(), {face.x[k], face.y[k]});
+    const double radius = body.sphere_radius;
+    if (radius > 0) shown.insert(shown.end(), {-radius, -radius, radius, radius});
     frame_ = frame_around(bounds_of({shown}), body.spacing, body_picture_size);
   }
 
@@ -103,7 +107,10 @@ void BodyPainter::add(const VisibleFace& face) {
   PaintedFace painted{};
   painted.tetrahedron = face.tetrahedron;
   Point<3> normal = unit_vector(cross(difference(b, a), difference(c, a)));
-  if (body_.surfaces_alone()) {
+  if (body_.sphere_radius > 0) {
+    if (dot(normal, a) < 0) normal = opposite(normal);
+    if (!view_.shows(normal)) return;
+  } else if (body_.surfaces_alone()) {
     if (!view_.shows(normal)) normal = opposite(normal);  // of an open one both sides are seen
   } else {
     const TetrahedronCorners corners = body_.corners(face.tetrahedron);
@@ -177,6 +184,12 @@ void BodyPainter::paint(cairo_t* cairo, const PaintedFace& face) const {
 }
 
 void BodyPainter::paint_faces(cairo_t* cairo) const {
+  if (body_.sphere_radius > 0) {
+    cairo_arc(cairo, frame_.x(0), frame_.y(0), frame_.pixels(body_.sphere_radius), 0,
+              2 * std::numbers::pi);
+    set_colour(cairo, bare);
+    cairo_fill(cairo);
+  }
   cairo_set_line_width(cairo, 0.6 * frame_.line_width);
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   for (const PaintedFace& face : faces_) paint(cairo, face);
@@ -220,6 +233,7 @@ void BodyPainter::legend(cairo_t* cairo) const {
 }
 
 std::string BodyPainter::description() const {
+  if (body_.sphere_radius > 0) return "Triangles on a sphere";
   if (body_.surfaces_alone()) return "Surfaces";
   const std::string cut = "Body cut at " + plane_.name;
   if (!values_) return cut;

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tool/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/formula_text.hpp"
 #include "tool/interrupt.hpp"
@@ -245,8 +246,9 @@ struct Expression::Parser {
   void go_to(const double* there) {
     std::copy_n(there, dimension, place);
     if (!asks_for_degrees) return;
-    lon = std::atan2(place[1], place[0]) * 180 / std::numbers::pi;
-    lat = std::atan2(place[2], std::hypot(place[0], place[1])) * 180 / std::numbers::pi;
+    const auto [longitude, latitude] = degrees_at(place);
+    lon = longitude;
+    lat = latitude;
   }
   double value() {
     if (asks_dist) dist = distance_to(0);

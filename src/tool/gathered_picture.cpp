@@ -21,9 +21,10 @@ PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain doma
                     pnpbs_context context) {
   using picture::ElementColour;
   if (dimension == 2)
-    return {arguments.bubbles, arguments.colour.value_or(ElementColour::none), std::nullopt};
+    return {arguments.bubbles, arguments.colour.value_or(ElementColour::none), std::nullopt, 0};
   return {false, arguments.colour.value_or(ElementColour::quality),
-          cut_plane_for(arguments.cut, domain, context)};
+          cut_plane_for(arguments.cut, domain, context),
+          arguments.sphere ? arguments.sphere->radius : 0};
 }
 
 GatheredPicture::GatheredPicture(pnpbs_placement placement, pnpbs_domain domain,
@@ -31,6 +32,7 @@ GatheredPicture::GatheredPicture(pnpbs_placement placement, pnpbs_domain domain,
     : look_(look) {
   if (look.cut) {
     body_ = gathered_body(placement, context, ranks);
+    body_.sphere_radius = look.sphere_radius;
     return;
   }
   nodes_ = gathered_nodes(placement, context, ranks);

@@ -15,6 +15,7 @@ struct PictureLook {
   bool bubbles = false;
   picture::ElementColour colour = picture::ElementColour::none;
   std::optional<picture::CutPlane> cut;  // of a body; nothing: the domain is in the plane
+  double sphere_radius = 0;              // of a domain on a sphere
 };
 
 // What the user wants. Local. Throws BadInput.

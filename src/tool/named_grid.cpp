@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "spacing/beside_domain.hpp"
+#include "tool/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/library.hpp"
 
@@ -118,9 +119,9 @@ Box<3> NamedGrid::extent() const {
 void NamedGrid::evaluate(std::int64_t n, const double* coordinates, double* values,
                          std::int32_t* inside) const {
   if (!on_sphere_) return evaluate_in_plane(n, coordinates, values, inside);
-  std::vector<double> degrees(static_cast<std::size_t>(2 * n));
-  tool::check(pnpbs_sphere_degrees(n, coordinates, degrees.data()), nullptr);
-  evaluate_in_plane(n, degrees.data(), values, inside);
+  std::vector<Point<2>> degrees;
+  for (std::int64_t i = 0; i < n; ++i) degrees.push_back(degrees_at(coordinates + 3 * i));
+  evaluate_in_plane(n, n > 0 ? degrees[0].data() : nullptr, values, inside);
 }
 
 void NamedGrid::evaluate_in_plane(std::int64_t n, const double* coordinates, double* values,

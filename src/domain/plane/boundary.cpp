@@ -8,6 +8,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/plane/curve_track.hpp"
+#include "domain/plane/worst_places.hpp"
 #include "geometry/plane/faces.hpp"
 #include "geometry/plane/plane_sweep.hpp"
 #include "geometry/plane/point_tree.hpp"
@@ -258,40 +259,21 @@ class Layer {
                     "placed at distances of d");
   }
 
-  struct Worst {
-    double ratio;
-    std::int32_t which;
-    double distance, spacing;
-    bool operator<(const Worst& other) const {
-      return std::pair(ratio, which) < std::pair(other.ratio, other.which);
-    }
-  };
-
-  template <class Name>
-  static std::string worst_text(std::vector<Worst>& all, const char* length, const Name& name) {
-    std::sort(all.begin(), all.end());
-    std::vector<std::string> names;
-    for (const Worst& worst : all) {
-      if (names.size() == kNamed) break;
-      names.push_back(name(worst.which) + " (" + length + " " + rounded_text(worst.distance) +
-                      ", spacing " + rounded_text(worst.spacing) + ")");
-    }
-    return list_text(names, kNamed);
-  }
-
   void warn_of_short_edges() {
     std::vector<Worst> all;
     for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e) {
       const auto [a, b] = ends_[e];
       const double length = distance<2>(positions_[a], positions_[b]);
       const double d = 0.5 * (d_[a] + d_[b]);
-      if (length < 0.5 * d) all.push_back({length / d, e, length, d});
+      if (length < 0.5 * d) all.push_back({length / d, e, length, d, positions_[a]});
     }
     if (all.empty()) return;
-    boundary_.warnings.push_back(
-        "the spacing is larger than the feature at " + std::to_string(all.size()) +
-        " boundary edges shorter than half of it; the worst: " +
-        worst_text(all, "length", [this](std::int32_t e) { return track(e).curve().name; }));
+    boundary_.warnings.push_back("the spacing is larger than the feature at " +
+                                 std::to_string(all.size()) +
+                                 " boundary edges shorter than half of it; the worst: " +
+                                 worst_text(all, "length", domain_.chart(), [this](std::int32_t e) {
+                                   return track(e).curve().name;
+                                 }));
   }
 
   // Nodes of one curve beside another, with the domain between: at a slit or a sharp corner. Those
@@ -315,7 +297,8 @@ class Layer {
                            if (node == a || node == b || at_short_edge[node] != 0 ||
                                distance >= kClose * d || !faces_inside(e, node))
                              return;
-                           nearest[node] = std::min(nearest[node], {distance / d, e, distance, d});
+                           nearest[node] = std::min(
+                               nearest[node], {distance / d, e, distance, d, positions_[node]});
                          });
     }
     std::erase_if(nearest, [](const Worst& worst) { return worst.ratio == HUGE_VAL; });
@@ -323,7 +306,8 @@ class Layer {
     boundary_.warnings.push_back(
         "the spacing is larger than the feature at " + std::to_string(nearest.size()) +
         " boundary nodes closer than a tenth of it to another edge; the worst: beside " +
-        worst_text(nearest, "distance", [this](std::int32_t e) { return track(e).curve().name; }));
+        worst_text(nearest, "distance", domain_.chart(),
+                   [this](std::int32_t e) { return track(e).curve().name; }));
   }
 
   // Does the domain lie on that side of the edge on which the node does?
@@ -345,7 +329,7 @@ class Layer {
       tree.for_each_near(a, b, 0.8 * d, [&](std::int32_t f, double distance) {
         const double own = d_[boundary_.first_fixed + f];
         if (f == self || distance >= 0.4 * own) return;
-        nearest[f] = std::min(nearest[f], {distance / own, f, distance, own});
+        nearest[f] = std::min(nearest[f], {distance / own, f, distance, own, fixed[f].position});
       });
     };
     for (const auto& [a, b] : ends_) {
@@ -360,7 +344,8 @@ class Layer {
         std::to_string(nearest.size()) +
         " fixed nodes are closer than 0.4 of the spacing to the boundary or to each other; the "
         "worst: " +
-        worst_text(nearest, "distance", [&fixed](std::int32_t f) { return fixed[f].name; }));
+        worst_text(nearest, "distance", domain_.chart(),
+                   [&fixed](std::int32_t f) { return fixed[f].name; }));
   }
 
   const PlaneDomain& domain_;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places where d does not resolve the boundary, as warnings name the worst of them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/point_text.hpp"
+#include "sphere/stereographic_chart.hpp"
+
+namespace pnpbs {
+
+struct Worst {
+  double ratio;
+  std::int32_t which;
+  double distance, spacing;
+  Point<2> at{};
+  bool operator<(const Worst& other) const {
+    return std::pair(ratio, which) < std::pair(other.ratio, other.which);
+  }
+};
+
+// name(which); in the chart of a sphere, lengths are told along the sphere.
+template <class Name>
+std::string worst_text(std::vector<Worst>& all, const char* length, const StereographicChart* chart,
+                       const Name& name) {
+  constexpr std::size_t kNamed = 3;
+  std::sort(all.begin(), all.end());
+  std::vector<std::string> names;
+  for (const Worst& worst : all) {
+    if (names.size() == kNamed) break;
+    const double stretch = chart ? chart->stretch(worst.at) : 1;
+    names.push_back(name(worst.which) + " (" + length + " " +
+                    rounded_text(worst.distance / stretch) + ", spacing " +
+                    rounded_text(worst.spacing / stretch) + ")");
+  }
+  return list_text(names, kNamed);
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Domains on a sphere: nodes on it, triangles that cover what the coasts bound, d along it, and
+ * what is refused.
+ */
+#include "api_support.h"
+
+static const double R = 6371.22;
+
+static pnpbs_domain sphere_of(pnpbs_context context, double longitude, double latitude) {
+  const double degrees[2] = {longitude, latitude};
+  double outside[3];
+  pnpbs_domain domain;
+  MUST(pnpbs_sphere_points(1, 1, degrees, outside));
+  MUST(pnpbs_domain_create_sphere(context, R, outside, &domain));
+  return domain;
+}
+
+/* A ring of n vertices on a parallel. */
+static void add_parallel(pnpbs_domain domain, int n, double latitude, double corner_angle,
+                         int32_t role) {
+  double* degrees = malloc((size_t)n * 2 * sizeof *degrees);
+  double* x = malloc((size_t)n * 3 * sizeof *x);
+  int k;
+  ck_assert(degrees && x);
+  for (k = 0; k < n; ++k) {
+    degrees[2 * k] = 360.0 * k / n;
+    degrees[2 * k + 1] = latitude;
+  }
+  MUST(pnpbs_sphere_points(R, n, degrees, x));
+  MUST(pnpbs_domain_add_polyline(domain, role, 1, n, x, NULL, corner_angle));
+  free(degrees);
+  free(x);
+}
+
+static job sea_job(void) {
+  job it = {0};
+  MUST(pnpbs_context_create_serial(&it.context));
+  it.domain = sphere_of(it.context, 0, -90);
+  add_parallel(it.domain, 180, -70, 30, PNPBS_BOUNDARY);
+  return it;
+}
+
+typedef struct {
+  int64_t nodes, triangles;
+  double *x, *d;
+  int64_t* corners;
+} results;
+
+static results results_of(pnpbs_placement placement) {
+  results r = {0};
+  MUST(pnpbs_placement_count(placement, &r.nodes));
+  MUST(pnpbs_placement_get_triangles(placement, 0, &r.triangles, NULL));
+  r.x = malloc((size_t)r.nodes * 3 * sizeof *r.x);
+  r.d = malloc((size_t)r.nodes * sizeof *r.d);
+  r.corners = malloc((size_t)r.triangles * 3 * sizeof *r.corners);
+  ck_assert(r.x && r.d && r.corners);
+  MUST(pnpbs_placement_get_nodes(placement, r.nodes, r.x, NULL, NULL, r.d));
+  MUST(pnpbs_placement_get_triangles(placement, r.triangles, &r.triangles, r.corners));
+  return r;
+}
+
+static void results_free(results* r) {
+  free(r->x);
+  free(r->d);
+  free(r->corners);
+}
+
+/* The area of the triangles on the sphere, all of which must turn left seen from outside: by the
+ * formula of Van Oosterom and Strackee (1983). */
+static double area_on_sphere(const results* r) {
+  double area = 0;
+  int64_t t;
+  for (t = 0; t < r->triangles; ++t) {
+    const double *a = r->x + 3 * r->corners[3 * t], *b = r->x + 3 * r->corners[3 * t + 1],
+                 *c = r->x + 3 * r->corners[3 * t + 2];
+    const double volume = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                          a[2] * (b[0] * c[1] - b[1] * c[0]);
+    const double ab = a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
+                 bc = b[0] * c[0] + b[1] * c[1] + b[2] * c[2],
+                 ca = c[0] * a[0] + c[1] * a[1] + c[2] * a[2];
+    ck_assert_double_gt(volume, 0);
+    area += 2 * R * R * atan2(volume, R * R * R + R * (ab + bc + ca));
+  }
+  return area;
+}
+
+static int32_t slope_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  int64_t i;
+  (void)user;
+  ck_assert_int_eq(dim, 3);
+  for (i = 0; i < n; ++i) {
+    const double length =
+        sqrt(x[3 * i] * x[3 * i] + x[3 * i + 1] * x[3 * i + 1] + x[3 * i + 2] * x[3 * i + 2]);
+    if (fabs(length / R - 1) > 1e-12) return 1;
+    d[i] = 120 + 0.1 * fabs(x[3 * i + 2]);
+  }
+  return 0;
+}
+
+START_TEST(nodes_fill_what_coasts_bound) {
+  job it = sea_job();
+  const double whole = 2 * PI * R * R * (1 + sin(70 * PI / 180));
+  double measure, low[3], high[3];
+  int32_t dim;
+  int64_t i, edges;
+  results r;
+  MUST(pnpbs_domain_dimension(it.domain, &dim));
+  ck_assert_int_eq(dim, 3);
+  MUST(pnpbs_domain_measure(it.domain, &measure));
+  ck_assert_double_eq_tol(measure / whole, 1, 1e-4);
+  MUST(pnpbs_domain_bounds(it.domain, low, high));
+  ck_assert(low[1] == -R && high[2] == R);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, slope_spacing, NULL));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  MUST(pnpbs_placement_dimension(it.placement, &dim));
+  ck_assert_int_eq(dim, 3);
+  r = results_of(it.placement);
+  for (i = 0; i < r.nodes; ++i) {
+    const double* x = r.x + 3 * i;
+    ck_assert_double_eq_tol(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / R, 1, 1e-15);
+    ck_assert_double_eq_tol(r.d[i] / (120 + 0.1 * fabs(x[2])), 1, 1e-12);
+  }
+  ck_assert_double_eq_tol(area_on_sphere(&r) / whole, 1, 2e-3);
+  /* Euler: a disc. */
+  MUST(pnpbs_placement_get_boundary_edges(it.placement, 0, &edges, NULL, NULL));
+  ck_assert_int_eq(r.nodes - (3 * r.triangles + edges) / 2 + r.triangles, 1);
+  ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.985);
+  ck_assert_double_gt(real_of(it.placement, "quality.min"), 0.7);
+  ck_assert_double_eq_tol(real_of(it.placement, "edge.mean"), 1, 0.02);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+/* One sea from two points of view: as many nodes for the same d, to what chance makes of it. */
+START_TEST(it_hardly_matters_from_where_it_is_seen) {
+  int64_t nodes[2];
+  int k;
+  for (k = 0; k < 2; ++k) {
+    job it = {0};
+    MUST(pnpbs_context_create_serial(&it.context));
+    it.domain = sphere_of(it.context, 70 * k, -90 + 10 * k);
+    add_parallel(it.domain, 180, -60, 30, PNPBS_BOUNDARY);
+    job_place(&it);
+    MUST(pnpbs_placement_set_spacing_constant(it.placement, 300));
+    MUST(pnpbs_placement_run(it.placement));
+    MUST(pnpbs_placement_count(it.placement, &nodes[k]));
+    job_end(&it);
+  }
+  ck_assert_double_eq_tol((double)nodes[0] / (double)nodes[1], 1, 0.01);
+}
+END_TEST
+
+START_TEST(distances_are_along_the_sphere) {
+  job it = sea_job();
+  const double degrees[8] = {0, 0, 77, 90, -130, -71, 10, -90};
+  double x[12], d[4];
+  MUST(pnpbs_sphere_points(1, 4, degrees, x));
+  MUST(pnpbs_domain_distance(it.domain, 0, 4, x, d));
+  ck_assert_double_eq_tol(d[0] / R * 180 / PI, 70, 0.01);
+  ck_assert_double_eq_tol(d[1] / R * 180 / PI, 160, 0.01);
+  ck_assert_double_eq_tol(d[2] / R * 180 / PI, 1, 0.01);
+  ck_assert_double_eq_tol(d[3] / R * 180 / PI, 20, 0.01);
+  job_end(&it);
+}
+END_TEST
+
+/* Fine beside the coast, where a length in the projection is 13 times that on the sphere. */
+static const double PIT = -0.87;
+
+static int32_t pit_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  int64_t i;
+  (void)user;
+  for (i = 0; i < n; ++i) d[i] = x[dim * i + 2] < PIT * R ? 60 : 900;
+  return 0;
+}
+
+START_TEST(growth_is_limited_along_the_sphere) {
+  job it = sea_job();
+  results r;
+  int64_t i;
+  int limited = 0;
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, pit_spacing, NULL));
+  MUST(pnpbs_placement_set(it.placement, "growth_limit", "0.2"));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  r = results_of(it.placement);
+  for (i = 0; i < r.nodes; ++i) {
+    const double way = R * (asin(r.x[3 * i + 2] / R) - asin(PIT));
+    const double most = 60 + 0.2 * (way > 0 ? way : 0);
+    if (most > 850) continue;
+    ++limited;
+    /* A third too large beside a line of fine d: growth_limit.hpp. */
+    ck_assert_msg(r.d[i] < 1.34 * most + 5 && r.d[i] > 0.97 * most,
+                  "d = %g, %g along the sphere: %g is the limit", r.d[i], way, most);
+  }
+  ck_assert_int_gt(limited, 300);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+/* What comes back is what went in: from nodes, and from values at them. */
+START_TEST(nodes_and_values_are_taken_back) {
+  job it = sea_job();
+  results r;
+  double* values;
+  pnpbs_transfer transfer;
+  int32_t dim;
+  int64_t i, n;
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 400));
+  MUST(pnpbs_placement_run(it.placement));
+  r = results_of(it.placement);
+  values = malloc((size_t)r.nodes * sizeof *values);
+  ck_assert(values);
+  MUST(pnpbs_transfer_create(it.placement, r.nodes, 1, r.d, &transfer));
+  MUST(pnpbs_transfer_sizes(transfer, &dim, NULL));
+  ck_assert_int_eq(dim, 3);
+  MUST(pnpbs_transfer_at_points(transfer, r.nodes, r.x, values));
+  for (i = 0; i < r.nodes; ++i) ck_assert_double_eq_tol(values[i] / r.d[i], 1, 1e-9);
+  MUST(pnpbs_transfer_destroy(&transfer));
+  for (i = 0; i < r.nodes; ++i) values[i] = 300;
+  MUST(pnpbs_placement_set_spacing_at_nodes(it.placement, r.nodes, values));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_count(it.placement, &n));
+  ck_assert_double_eq_tol((double)n / (double)r.nodes, 16.0 / 9, 0.08);
+  MUST(pnpbs_placement_set_nodes(it.placement, r.nodes, r.x, NULL));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 400));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_count(it.placement, &n));
+  ck_assert_double_eq_tol((double)n / (double)r.nodes, 1, 0.01);
+  free(values);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+/* A mesh in parts has three coordinates, and its facets on the coast are the boundary edges. */
+START_TEST(meshes) {
+  job it = sea_job();
+  pnpbs_mesh mesh;
+  pnpbs_voronoi voronoi;
+  int64_t nodes, edges, facets, k, coast = 0;
+  int32_t dim, corners, *tags;
+  double* x;
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 500));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_get_boundary_edges(it.placement, 0, &edges, NULL, NULL));
+  MUST(pnpbs_mesh_create(it.placement, 0, &mesh));
+  MUST(pnpbs_mesh_sizes(mesh, &dim, &corners, NULL, &nodes, NULL, NULL, &facets));
+  ck_assert(dim == 3 && corners == 3);
+  x = malloc((size_t)nodes * 3 * sizeof *x);
+  tags = malloc((size_t)facets * sizeof *tags);
+  ck_assert(x && tags);
+  MUST(pnpbs_mesh_get_nodes(mesh, nodes, x, NULL, NULL, NULL, NULL));
+  for (k = 0; k < nodes; ++k)
+    ck_assert_double_eq_tol(hypot(hypot(x[3 * k], x[3 * k + 1]), x[3 * k + 2]) / R, 1, 1e-14);
+  MUST(pnpbs_mesh_get_facets(mesh, facets, NULL, tags, NULL, NULL, NULL, NULL));
+  for (k = 0; k < facets; ++k) coast += tags[k] != 0;
+  ck_assert_int_eq(coast, edges);
+  MUST(pnpbs_mesh_destroy(&mesh));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_voronoi_create(it.placement, &voronoi), "sphere",
+            "Voronoi");
+  free(x);
+  free(tags);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(bad_input) {
+  job it = sea_job();
+  pnpbs_domain domain;
+  double x[9] = {0, 0, -1, 1, 0, 0, 0, 1, 0};
+  const double zero[3] = {0, 0, 0}, north[3] = {0, 0, 1};
+  double degrees[2] = {0, 91};
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_create_sphere(it.context, 0, north, &domain),
+            "radius", "0");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_create_sphere(it.context, 1, zero, &domain),
+            "outside", "direction");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_create_sphere(it.context, 1, NULL, &domain),
+            "outside", "NULL");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_sphere_points(1, 1, degrees, x), "degrees[0][1]", "91");
+  degrees[1] = NAN;
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_sphere_points(1, 1, degrees, x), "degrees[0][1]", "nan");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_sphere_degrees(1, zero, degrees), "coordinates[0]",
+            "direction");
+  x[2] = -1;
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 3, x, NULL, 0), "vertex 0",
+            "outside of the domain");
+  x[0] = -1, x[2] = 0;
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 0, 2, x, NULL, 0), "opposite",
+            "vertices 0 and 1");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, zero, 1, 0, 1, 1),
+            "sphere", "plane");
+  /* Places in messages are longitude and latitude. */
+  add_parallel(it.domain, 4, -40, 0, PNPBS_BOUNDARY);
+  add_parallel(it.domain, 6, -44, 0, PNPBS_BOUNDARY);
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "cross at (longitude ",
+            ", latitude -");
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("sphere");
+  TCase* tests = tcase_create("sphere");
+  tcase_add_test(tests, nodes_fill_what_coasts_bound);
+  tcase_add_test(tests, it_hardly_matters_from_where_it_is_seen);
+  tcase_add_test(tests, distances_are_along_the_sphere);
+  tcase_add_test(tests, growth_is_limited_along_the_sphere);
+  tcase_add_test(tests, nodes_and_values_are_taken_back);
+  tcase_add_test(tests, meshes);
+  tcase_add_test(tests, bad_input);
+  tcase_set_timeout(tests, 0);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The chart of a sphere against angles and lengths in space, great circles, areas of caps, and d
+// along the sphere: its growth, and the limit of that.
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "base/space_vectors.hpp"
+#include "domain/plane/sphere_area.hpp"
+#include "quick_assert.hpp"
+#include "random.hpp"
+#include "run_kernel_suite.hpp"
+#include "spacing/growth_source.hpp"
+#include "spacing/sphere_spacing.hpp"
+#include "sphere/great_circle.hpp"
+#include "sphere/stereographic_chart.hpp"
+
+using pnpbs::Point, pnpbs::StereographicChart;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Point<3> on_unit_sphere(Random& random) {
+  const double z = random.between(-1, 1), turn = random.between(-kPi, kPi);
+  const double across = std::sqrt(1 - z * z);
+  return {across * std::cos(turn), across * std::sin(turn), z};
+}
+
+Point<3> from_degrees(double longitude, double latitude) {
+  const double a = longitude * kPi / 180, b = latitude * kPi / 180;
+  return {std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b)};
+}
+
+std::vector<StereographicChart> charts() {
+  Random random(5);
+  std::vector<StereographicChart> all{{1, {0, 0, -1}}, {6371.22, {0, 0, 2}}};
+  for (int k = 0; k < 6; ++k) all.emplace_back(random.between(0.1, 10), on_unit_sphere(random));
+  return all;
+}
+
+double gap(const Point<3>& a, const Point<3>& b) { return pnpbs::distance<3>(a, b); }
+
+Point<3> times(double factor, const Point<3>& x) { return pnpbs::shifted({}, factor, x); }
+
+}  // namespace
+
+START_TEST(there_and_back) {
+  Random random(1);
+  for (const StereographicChart& chart : charts())
+    for (int k = 0; k < 1000; ++k) {
+      const Point<3> x = times(chart.radius(), on_unit_sphere(random));
+      const Point<3> back = chart.on_sphere(chart.in_chart(times(3, x)));
+      quick_assert(gap(back, x) < 1e-13 * chart.radius() * chart.stretch(chart.in_chart(x)));
+      quick_assert(std::fabs(pnpbs::length(back) / chart.radius() - 1) < 1e-15);
+    }
+}
+END_TEST
+
+// Steps to the east and to the north in the chart are at right angles on the sphere, as long as
+// each other over the stretch, and turn left seen from outside.
+START_TEST(it_keeps_angles) {
+  Random random(2);
+  for (const StereographicChart& chart : charts()) {
+    const double step = 1e-5 * chart.radius();
+    for (int k = 0; k < 200; ++k) {
+      const Point<2> u{random.between(-5, 5) * chart.radius(),
+                       random.between(-5, 5) * chart.radius()};
+      const Point<3> x = chart.on_sphere(u);
+      const auto way = [&](double east, double north) {
+        return times(0.5 / step, pnpbs::difference(chart.on_sphere({u[0] + east, u[1] + north}),
+                                                   chart.on_sphere({u[0] - east, u[1] - north})));
+      };
+      const Point<3> east = way(step, 0), north = way(0, step);
+      const double stretch = chart.stretch(u);
+      quick_assert(std::fabs(pnpbs::dot(east, north)) * stretch * stretch < 1e-6);
+      quick_assert(std::fabs(pnpbs::length(east) * stretch - 1) < 1e-6);
+      quick_assert(std::fabs(pnpbs::length(north) * stretch - 1) < 1e-6);
+      quick_assert(pnpbs::dot(pnpbs::cross(east, north), x) > 0);
+    }
+  }
+}
+END_TEST
+
+START_TEST(distances_are_along_the_sphere) {
+  Random random(3);
+  for (const StereographicChart& chart : charts())
+    for (int k = 0; k < 1000; ++k) {
+      const Point<3> a = on_unit_sphere(random), b = on_unit_sphere(random);
+      const double expected = chart.radius() * std::acos(pnpbs::dot(a, b));
+      const double found = chart.distance(chart.in_chart(a), chart.in_chart(b));
+      quick_assert_msg(std::fabs(found - expected) < 1e-6 * chart.radius(), "%g, not %g", found,
+                       expected);
+    }
+}
+END_TEST
+
+START_TEST(ways_follow_great_circles) {
+  Random random(4);
+  const StereographicChart chart(2, {0, 0, -1});
+  int some = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Point<3> a = on_unit_sphere(random), b = on_unit_sphere(random);
+    if (std::min(a[2], b[2]) < -0.9 || pnpbs::angle_between(a, b) > 2.5) continue;
+    std::vector<Point<2>> way{chart.in_chart(a)};
+    for (const Point<2>& u : pnpbs::points_on_the_way(chart, a, b)) way.push_back(u);
+    way.push_back(chart.in_chart(b));
+    const Point<3> normal = pnpbs::unit_vector(pnpbs::cross(a, b));
+    for (std::size_t p = 0; p + 1 < way.size(); ++p) {
+      const Point<3> begin = chart.on_sphere(way[p]), end = chart.on_sphere(way[p + 1]);
+      quick_assert(std::fabs(pnpbs::dot(begin, normal)) < 1e-9);
+      // The straight segment of the chart leaves it by little beside its length.
+      const Point<3> middle = chart.on_sphere(pnpbs::middle_of<2>(way[p], way[p + 1]));
+      quick_assert(std::fabs(pnpbs::dot(middle, normal)) <= 0.0014 * gap(begin, end));
+    }
+    some += way.size() > 10;
+  }
+  ck_assert_int_gt(some, 50);
+  // Without these points it would leave it far.
+  const Point<2> u = chart.in_chart(from_degrees(0, 0)), v = chart.in_chart(from_degrees(90, 0));
+  const Point<3> middle = chart.on_sphere(pnpbs::middle_of<2>(u, v));
+  ck_assert_double_gt(std::fabs(middle[2]), 0.5);
+}
+END_TEST
+
+START_TEST(areas_of_caps) {
+  for (const double latitude : {-80.0, -30.0, 0.0, 50.0}) {
+    pnpbs::PlaneDomain domain(StereographicChart(3, {0, 0, -1}));
+    std::vector<Point<3>> ring;
+    for (int k = 0; k < 3600; ++k) ring.push_back(from_degrees(0.1 * k, latitude));
+    domain.add_great_circles(pnpbs::CurveRole::boundary, true, ring, nullptr, 0);
+    domain.check();
+    const double cap = 2 * kPi * 9 * (1 - std::sin(latitude * kPi / 180));
+    ck_assert_double_eq_tol(pnpbs::area_on_sphere(domain) / cap, 1, 1e-5);
+    // Every vertex that was given is a corner, and none that is on the way.
+    ck_assert_int_eq(domain.corners().size(), 3600);
+  }
+  // As an outline seen from the other side: the rest of the sphere.
+  pnpbs::PlaneDomain rest(StereographicChart(1, from_degrees(0, 90)));
+  std::vector<Point<3>> ring;
+  for (int k = 0; k < 8; ++k) ring.push_back(from_degrees(45 * k, 80));
+  rest.add_great_circles(pnpbs::CurveRole::boundary, true, ring, nullptr, 0);
+  rest.check();
+  // The octagon around the pole, by l'Huilier's theorem.
+  const double side = pnpbs::angle_between(ring[0], ring[1]), around = 10 * kPi / 180;
+  const double half = around + side / 2;  // of the perimeter of a triangle with the pole
+  const double octagon = 8 * 4 *
+                         std::atan(std::tan((half - around) / 2) *
+                                   std::sqrt(std::tan(half / 2) * std::tan((half - side) / 2)));
+  ck_assert_double_eq_tol(pnpbs::area_on_sphere(rest), 4 * kPi - octagon, 1e-6);
+}
+END_TEST
+
+// A constant along the sphere does not grow there, whatever it does in the chart.
+START_TEST(growth_is_along_the_sphere) {
+  Random random(6);
+  const StereographicChart chart(2, {0, 0, -1});
+  const auto constant = std::make_shared<const pnpbs::ConstantSpacing<3>>(0.1);
+  const pnpbs::SphereSpacing spacing(constant, chart);
+  const pnpbs::GrowthRule<2> rule{0.2, &chart};
+  for (int k = 0; k < 200; ++k) {
+    const Point<2> u[2] = {chart.in_chart(on_unit_sphere(random)),
+                           chart.in_chart(on_unit_sphere(random))};
+    double d[2];
+    spacing.evaluate(2, u, d);
+    quick_assert(std::fabs(d[0] / chart.stretch(u[0]) - 0.1) < 1e-12);
+    quick_assert(rule.between(u[0], d[0], u[1], d[1]) < 1e-12);
+    const double limit = rule.limit({u[0], d[0]}, u[1]) / chart.stretch(u[1]);
+    const double way = 2 * pnpbs::angle_between(chart.on_sphere(u[0]), chart.on_sphere(u[1]));
+    quick_assert(std::fabs(limit - (0.1 + 0.2 * way)) < 1e-7);
+  }
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite("sphere",
+                          {there_and_back, it_keeps_angles, distances_are_along_the_sphere,
+                           ways_follow_great_circles, areas_of_caps, growth_is_along_the_sphere});
+}

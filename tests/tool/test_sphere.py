@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Seas on a sphere, bounded by coasts in longitude and latitude. PNPBS_GEO says whether the command was
+built with GDAL."""
+
+import json
+import os
+import re
+import unittest
+
+import numpy as np
+
+from command import LAKE, CommandTest
+
+RADIUS = 6371.22
+
+
+def closed(ring):
+    return ring + ring[:1]
+
+
+def feature(*polygons):
+    return {"type": "Feature", "properties": {},
+            "geometry": {"type": "MultiPolygon", "coordinates": [[closed(ring)] for ring in polygons]}}
+
+
+# Cut open at 180 degrees, as files have it: along the meridian to the pole, and there around.
+ANTARCTICA = feature([[lon, -74 + 3 * np.cos(np.radians(3 * lon))] for lon in range(-180, 181, 5)]
+                     + [[180, -90], [-180 + 1e-13, -90]])
+ACROSS = feature([[168, 8], [180, 8], [180, 22], [170, 25]], [[-180, 8], [-172, 12], [-180, 22]])
+CONTINENT = feature([[-20, -10], [30, -30], [50, 10], [20, 40], [-30, 30]])
+
+
+@unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
+class Sphere(CommandTest):
+    def sea(self, *features):
+        path = self.folder / "coast.geojson"
+        path.write_text(json.dumps({"type": "FeatureCollection",
+                                    "features": list(features or (ANTARCTICA, ACROSS, CONTINENT))}))
+        return path
+
+    def placed(self, *arguments, spacing="250", coast=None, sphere=RADIUS):
+        _, err = self.run_command("--domain", coast or self.sea(), "--sphere", str(sphere),
+                                  "--corner-angle", "20", "--spacing", spacing, "--check", "--output", "nodes.csv",
+                                  "--output", "sea.msh2", "--report", "report.json", *arguments)
+        table = np.genfromtxt(self.folder / "nodes.csv", delimiter=",", names=True)
+        report = json.loads((self.folder / "report.json").read_text())
+        return np.column_stack([table[k] for k in "xyz"]), table, report, err.decode()
+
+    def triangles(self):
+        lines = (self.folder / "sea.msh2").read_text().split("$Elements\n")[1].split("\n")[1:]
+        rows = [[int(word) for word in line.split()] for line in lines if line and line[0] != "$"]
+        return (np.array([row[-3:] for row in rows if row[1] == 2]) - 1,
+                np.array([row[-2:] for row in rows if row[1] == 1]) - 1)
+
+    def test_a_sea_with_a_pole_and_the_date_line(self):
+        x, table, report, _ = self.placed()
+        np.testing.assert_allclose(np.linalg.norm(x, axis=1), RADIUS, rtol=1e-15)
+        np.testing.assert_allclose(table["spacing"], 250, rtol=1e-12)
+        self.assertEqual(report["sphere"], {"radius": RADIUS, "outside": [55, -82]})
+        self.assertNotIn("projection", report)
+        self.assertFalse((self.folder / "nodes.prj").exists())
+        triangles, edges = self.triangles()
+        corners = x[triangles]
+        self.assertTrue(np.all(np.linalg.det(corners) > 0))  # they turn left seen from outside
+        # Euler: a sphere with three lands taken out, none of them in two pieces.
+        self.assertEqual(len(x) - (3 * len(triangles) + len(edges)) // 2 + len(triangles), 2 - 3)
+        # The meridian of 180 degrees is neither in the middle of the island nor of Antarctica.
+        lon, lat = np.degrees(np.arctan2(x[:, 1], x[:, 0])), np.degrees(np.arcsin(x[:, 2] / RADIUS))
+        on_it = np.abs(np.abs(lon) - 180) < 1e-6
+        self.assertTrue(np.all((lat[on_it] < 8.001) | (lat[on_it] > 21.999)))
+        self.assertGreater(lat.min(), -77.1)
+        self.assertGreater(report["quality"]["mean"], 0.97)
+
+    def test_formulas_know_degrees_and_lengths_along_the_sphere(self):
+        spacing = "150 + (lat > 0 ? 200 : 0) + 0.02*dist + 0*lon"
+        x, table, _, _ = self.placed("--set", "growth_limit=0", spacing=spacing)
+        lat = np.degrees(np.arcsin(np.clip(x[:, 2] / RADIUS, -1, 1)))
+        on_coast = table["tag"] > 0
+        np.testing.assert_allclose(table["spacing"][on_coast & (lat < -1)], 150, atol=0.5)
+        np.testing.assert_allclose(table["spacing"][on_coast & (lat > 1)], 350, atol=0.5)
+        self.assertGreater(table["spacing"].max(), 350 + 0.02 * 4000)
+
+    def test_grids_are_in_degrees(self):
+        rows = [" ".join(str(300 + 2 * row + (100 if column < 18 else 0)) for column in range(36))
+                for row in range(18)]  # from the north on
+        (self.folder / "d.asc").write_text("ncols 36\nnrows 18\nxllcorner -180\nyllcorner -90\n"
+                                           "cellsize 10\n" + "\n".join(rows) + "\n")
+        x, table, _, _ = self.placed("--spacing-grid", "d.asc", spacing="grid")
+        lon = np.degrees(np.arctan2(x[:, 1], x[:, 0]))
+        row = (90 - np.degrees(np.arcsin(x[:, 2] / RADIUS))) / 10 - 0.5
+        for west, extra in ((True, 100), (False, 0)):
+            here = (np.abs(lon) > 20) & (np.abs(lon) < 160) & ((lon < 0) == west) & (row > 0)
+            np.testing.assert_allclose(table["spacing"][here], 300 + 2 * row[here] + extra, rtol=0.01)
+
+    def test_the_land_is_what_is_seen_from_the_sea(self):
+        coast = self.sea(CONTINENT)
+        x, _, report, _ = self.placed(sphere=f"{RADIUS},180,0", coast=coast, spacing="150")
+        lon, lat = np.degrees(np.arctan2(x[:, 1], x[:, 0])), np.degrees(np.arcsin(x[:, 2] / RADIUS))
+        self.assertTrue(np.all((lon > -31) & (lon < 51) & (lat > -32) & (lat < 41)))
+        triangles, _ = self.triangles()
+        whole = 0.5 * np.linalg.norm(np.cross(x[triangles[:, 1]] - x[triangles[:, 0]],
+                                              x[triangles[:, 2]] - x[triangles[:, 0]]), axis=1).sum()
+        self.assertEqual(report["sphere"]["outside"], [180, 0])
+        rest = self.placed(coast=coast, spacing="400")[2]  # the default point is outside of it, too
+        self.assertLess(whole, 4 * np.pi * RADIUS ** 2 / 5)
+        self.assertGreater(rest["nodes"], 100)
+
+    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    def test_ranks_place_the_same_nodes(self):
+        coast, spacing = self.sea(), "120 + 0.1*dist"
+        one = self.placed(coast=coast, spacing=spacing)[2]["hash"]
+        for ranks in (2, 3, 5):
+            self.run_on_ranks("--domain", coast, "--sphere", str(RADIUS), "--corner-angle", "20",
+                              "--spacing", spacing, "--report", "ranks.json", ranks=ranks)
+            self.assertEqual(json.loads((self.folder / "ranks.json").read_text())["hash"], one)
+
+    # The far side is hidden, where there is no sea, too.
+    def test_pictures(self):
+        self.run_command("--domain", self.sea(), "--sphere", str(RADIUS), "--spacing", "500", "--corner-angle",
+                         "20", "--output", "sea.svg")
+        picture = (self.folder / "sea.svg").read_text()
+        seen = len(re.findall(r"<path[^>]*Z", picture))
+        self.placed(spacing="500")
+        triangles = len(self.triangles()[0])
+        self.assertTrue(0.3 * triangles < seen < 0.7 * triangles, f"{seen} of {triangles}")
+
+    def test_what_is_refused(self):
+        coast = self.sea()
+        for arguments, words in ((("--sphere", "0"), "--sphere: expected RADIUS"),
+                                 (("--sphere", "1,2"), "--sphere: expected RADIUS"),
+                                 (("--sphere", "1,0,91"), "--sphere: expected RADIUS"),
+                                 (("--sphere", "1", "--projection", "auto"), "--projection exclude"),
+                                 (("--sphere", "1", "--surfaces-only"), "--surfaces-only exclude")):
+            self.assertIn(words, self.refuse("--domain", coast, "--spacing", "1", *arguments))
+        self.assertIn("--sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--sphere", "1"))
+        # A coast that crosses itself is named by its place.
+        crossed = self.sea(feature([[0, 0], [40, 0], [0, 30], [40, 30]]))
+        message = self.refuse("--domain", crossed, "--sphere", str(RADIUS), "--spacing", "300")
+        self.assertIn("cross at (longitude 19.99999", message)
+
+
+if __name__ == "__main__":
+    unittest.main()
