@@ -29,10 +29,15 @@ bool prepared_for_finish(const Level<Dim>& level) {
 
 }  // namespace
 
+template <int Dim>
+void require_finish_lists(Level<Dim>& level) {
+  if (!prepared_for_finish(level)) prepare_finish(level);
+}
+
 // From fresh lists. In space stars cost much: where nothing has moved since, they are there.
 template <int Dim>
 void make_finish_stars(Level<Dim>& level, StarZone zone) {
-  if (!prepared_for_finish(level)) prepare_finish(level);
+  require_finish_lists(level);
   const bool of_owned = Dim == 3 && zone.rings == 0 && zone.reach == 0;
   if (of_owned && level.finish_stars == level.version() && !level.changed_labels.any()) return;
   make_stars(level, kRepairHops<Dim>, level.settings.list_radius, zone);
@@ -41,6 +46,8 @@ void make_finish_stars(Level<Dim>& level, StarZone zone) {
 
 template void prepare_finish(Level<2>&);
 template void prepare_finish(Level<3>&);
+template void require_finish_lists(Level<2>&);
+template void require_finish_lists(Level<3>&);
 template void make_finish_stars(Level<2>&, StarZone);
 template void make_finish_stars(Level<3>&, StarZone);
 

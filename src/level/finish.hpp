@@ -25,6 +25,9 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps);
 // Lists for that, of the present positions. Collective.
 template <int Dim>
 void prepare_finish(Level<Dim>& level);
+// The same unless they are there. Collective.
+template <int Dim>
+void require_finish_lists(Level<Dim>& level);
 // From fresh lists, the stars of the owned nodes and so many rings around them. Collective.
 template <int Dim>
 void make_finish_stars(Level<Dim>& level, StarZone zone);

@@ -5,6 +5,7 @@
 
 #include "comm/records.hpp"
 #include "level/exchange.hpp"
+#include "level/finish.hpp"
 #include "level/ghost_lists.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
@@ -13,6 +14,7 @@
 #include "method/constants.hpp"
 #include "population/free_place.hpp"
 #include "quality/plane/defects.hpp"
+#include "quality/plane/first_row.hpp"
 
 namespace pnpbs {
 
@@ -61,7 +63,7 @@ std::int32_t tag_of_birth(const Level<3>& level, const Birth<3>& birth) {
 }
 
 // The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
-// parent, so that no order of threads or ranks comes in.
+// parent, then by place, so that no order of threads or ranks comes in.
 template <int Dim>
 void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
   const BackgroundTree<Dim>& tree = level.tree->tree();
@@ -74,8 +76,9 @@ void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
     ++new_ids[static_cast<std::size_t>(tree.leaf_at(birth.position))];
   std::vector<std::int64_t> next =
       level.tree->distribution().prefix_sums(*level.comm, std::move(new_ids), level.next_id);
-  std::sort(born.begin(), born.end(),
-            [](const Birth<Dim>& a, const Birth<Dim>& b) { return a.parent < b.parent; });
+  std::sort(born.begin(), born.end(), [](const Birth<Dim>& a, const Birth<Dim>& b) {
+    return a.parent < b.parent || (a.parent == b.parent && a.position < b.position);
+  });
   for (const Birth<Dim>& birth : born)
     level.nodes.append(birth.position, birth.d,
                        next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++,
@@ -190,6 +193,24 @@ PopulationCounts repair_defects(Level<2>& level) {
 
 // Its stars have no cyclic order to tell defects by.
 PopulationCounts repair_defects(Level<3>&) { return {}; }
+
+PopulationCounts lay_first_row(Level<2>& level) {
+  require_finish_lists(level);
+  PopulationChange<2> change;
+  agreed(*level.comm, [&] {
+    const PhaseTimer timer(level.timers, Phase::population);
+    FirstRow row =
+        choose_first_row(level.nodes, level.lists(), level.map(), level.ground.sectors(),
+                         [&](std::int32_t b) { return level.ground.boundary_spacing(b); });
+    count_uses_by_event(level, kFirstRowHops);
+    for (const FirstRow::Move& move : row.moved) level.nodes.set_position(move.node, move.to);
+    level.nodes.moved();
+    change = std::move(row.change);
+  });
+  return carry_out(level, std::move(change));
+}
+
+PopulationCounts lay_first_row(Level<3>&) { return {}; }
 
 template void delete_nodes(Level<2>&, const std::vector<std::int32_t>&);
 template void delete_nodes(Level<3>&, const std::vector<std::int32_t>&);

@@ -25,6 +25,11 @@ PopulationCounts adjust_population(Level<Dim>& level,
 PopulationCounts repair_defects(Level<2>& level);
 PopulationCounts repair_defects(Level<3>& level);
 
+// Makes one node over each regular edge of the boundary the first row of the inner nodes; in the
+// plane only. Collective.
+PopulationCounts lay_first_row(Level<2>& level);
+PopulationCounts lay_first_row(Level<3>& level);
+
 // Of this rank, ghosts among them; in the order of memory.
 template <int Dim>
 void delete_nodes(Level<Dim>& level, const std::vector<std::int32_t>& deleted);

@@ -160,6 +160,27 @@ inline constexpr double kMinClearance = 0.35;
 
 // ---- Finish in the plane ----
 
+// Shorter edges of the boundary have no node of the first row. [d] Chosen: docs/method.md, near the
+// boundary.
+inline constexpr double kRegularEdgeMin = 0.75;
+// Longer edges of the boundary have none either. [d] Chosen.
+inline constexpr double kRegularEdgeMax = 1.3;
+// Nor have edges at whose ends the boundary turns by more than 30 degrees. [cosine] Chosen.
+inline constexpr double kRegularTurnCosine = 0.87;
+// How far the boundary is from a place over its edge, if a row of nodes fits there: on the way to
+// the first row, in it, and in the second. [height of the place] Chosen.
+inline constexpr double kApexRoom = 0.75;
+// Nodes of the first row that were nearer to each other do not come. [edge] Chosen.
+inline constexpr double kApexesApart = 0.7;
+// There is no first row where d falls faster, inwards or along the boundary. [d per d] Measured:
+// with 0.1 it pays, with 0.2 no more.
+inline constexpr double kFirstRowMaxFall = 0.15;
+// Of the nodes this near to a place of the first row one goes there, and no other stays. [edge]
+// Measured with kFirstRowDepth.
+inline constexpr double kApexTakes = 0.5;
+// Nodes that are nearer to edges with a node of the first row are of it, or go. The first row is at
+// 0.87, the second at 1.73. [edge] Measured: with 1.4 fewer nodes stay than there is room for.
+inline constexpr double kFirstRowDepth = 1.2;
 // How far a sweep moves a node at most. [d] Chosen.
 inline constexpr double kSweepMaxMove = 0.1;
 // Triangles below this are not to get worse by a sweep. [quality] Chosen.

@@ -184,6 +184,8 @@ Outcome Simulation<Dim>::finish(double fraction) {
     finish_by_runge_kutta(level_);
     ++run_.steps_done;
   }
+  lay_first_row();
+  if (stops_in_finish(fraction)) return Outcome::stopped;
   repair_defects();
   if (stops_in_finish(fraction)) return Outcome::stopped;
   remove_crowded();
@@ -229,6 +231,15 @@ void Simulation<Dim>::repair_defects() {
     if (changes == 0 || changes >= max) break;
     max = changes;
   }
+}
+
+// Before sweeps, which even out what is behind it. Of nodes that coincide one would go there.
+template <int Dim>
+void Simulation<Dim>::lay_first_row() {
+  if (!level_.settings.lays_first_row()) return;
+  remove_crowded();
+  const PopulationCounts change = counted(pnpbs::lay_first_row(level_));
+  if (change.inserted + change.deleted > 0) refresh_spacing(level_);
 }
 
 template <int Dim>

@@ -20,6 +20,7 @@ Settings::Settings(const Options& o)
       population_tolerance(o.real("population_tolerance")),
       tolerance_mean(o.real("tolerance_mean")),
       tolerance_max(o.real("tolerance_max")),
+      first_row(o.integer("first_row") != 0),
       sweeps(o.integer("sweeps")),
       sliver_angle(o.real("sliver_angle")),
       list_radius(o.real("list_radius")),

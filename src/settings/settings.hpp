@@ -36,6 +36,7 @@ struct Settings {
   double population_tolerance;  // share of the nodes
   PopulationRule population;
   double tolerance_mean, tolerance_max;  // scaled speeds
+  bool first_row;  // of one node over each regular edge of the boundary, in the plane
   std::int64_t sweeps;
   SweepRule sweep;
   RepairRule repair;
@@ -54,6 +55,7 @@ struct Settings {
   std::int64_t metis_seed;
   double rebalance_above;  // largest over mean owned work
 
+  bool lays_first_row() const { return first_row && sweeps > 0; }  // which sweeps must relax
   bool user_limits_growth() const { return growth_limit_set && growth_limit > 0; }
   NodeLimit node_limit() const {
     NodeLimit limit(max_nodes, max_bytes);

@@ -728,6 +728,51 @@ START_TEST(a_graph_that_is_a_circle) {
 }
 END_TEST
 
+/* ---------------------------------------------------------------- the first row --------- */
+
+/* Around a hole from which d grows rows of bubbles slip against the boundary. */
+static quality_summary quality_around_a_hole(const char* first_row, const char* sweeps,
+                                             hash_text* hash) {
+  static cone growing = {-0.02, 0.15, 0.5, 0.5};
+  quality_summary quality;
+  result nodes;
+  job it = job_begin();
+  add_circle(it.domain, PNPBS_BOUNDARY, 0.5, 0.5, 0.5, 1);
+  add_circle(it.domain, PNPBS_BOUNDARY, 0.5, 0.5, 0.2, 2);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &growing));
+  if (first_row) MUST(pnpbs_placement_set(it.placement, "first_row", first_row));
+  if (sweeps) MUST(pnpbs_placement_set(it.placement, "sweeps", sweeps));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  nodes = result_of(it.placement);
+  check_result(&nodes, 0);
+  quality = quality_of(&nodes);
+  *hash = hash_of(it.placement);
+  result_free(&nodes);
+  job_end(&it);
+  return quality;
+}
+
+START_TEST(the_first_row_fits) {
+  hash_text hash;
+  const quality_summary with = quality_around_a_hole(NULL, NULL, &hash),
+                        without = quality_around_a_hole("0", NULL, &hash);
+  ck_assert_msg(with.least > 0.85 && without.least < 0.83, "least quality %.3f, without it %.3f",
+                with.least, without.least);
+  ck_assert_msg(with.below_95 < 0.85 * without.below_95,
+                "below 0.95 are %.5f of the triangles, without it %.5f", with.below_95,
+                without.below_95);
+}
+END_TEST
+
+START_TEST(no_first_row_without_sweeps) {
+  hash_text with, without;
+  quality_around_a_hole("1", "0", &with);
+  quality_around_a_hole("0", "0", &without);
+  ck_assert_str_eq(with.text, without.text);
+}
+END_TEST
+
 int main(void) {
   Suite* suite = suite_create("boundary");
   TCase* cases = tcase_create("boundary");
@@ -752,6 +797,8 @@ int main(void) {
   tcase_add_test(cases, a_lake);
   tcase_add_test(cases, a_shore_finer_than_d);
   tcase_add_test(cases, a_graph_that_is_a_circle);
+  tcase_add_test(cases, the_first_row_fits);
+  tcase_add_test(cases, no_first_row_without_sweeps);
   suite_add_tcase(suite, cases);
   return run_suite(suite);
 }

@@ -70,13 +70,14 @@ START_TEST(fewer_where_the_boundary_is_fine) {
 }
 END_TEST
 
-/* Of a set with so many times the least spacing. */
+/* Of a set with so many times the least spacing; as the bubbles have made its first row. */
 static quality_summary quality_with(double scale, const char* key, const char* value) {
   cone graded = {0.0048, 0.016, 0.5, 0.5};
   job it = graded_square(&graded);
   result nodes;
   quality_summary quality;
   graded.a *= scale;
+  MUST(pnpbs_placement_set(it.placement, "first_row", "0"));
   MUST(pnpbs_placement_set(it.placement, key, value));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   nodes = result_of(it.placement);

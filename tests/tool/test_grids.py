@@ -89,10 +89,12 @@ class Formulas(GridsTest):
                                              "cellsize 1\n2\n")
 
     def test_one_grid(self):
-        alone, *_ = self.on_square("--spacing-grid", "g.asc")
+        # d by a formula may differ in its last bit, by which a repair of symmetric triangles decides.
+        plain = "--set", "smoothing_rounds=0"
+        alone, *_ = self.on_square("--spacing-grid", "g.asc", *plain)
         for arguments in (("--spacing-grid", "g.asc", "--spacing", "grid"),
                           ("--spacing-grid", "h=g.asc", "--spacing", "h")):
-            same, report, _ = self.on_square(*arguments)
+            same, report, _ = self.on_square(*arguments, *plain)
             np.testing.assert_allclose(same["x"], alone["x"], atol=1e-9)
             self.assertEqual(report["spacing_grid"], arguments[1])
 

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/plane/first_row.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "base/execution.hpp"
+#include "geometry/plane/segments.hpp"
+#include "method/constants.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Boundary nodes by their number, as far as this rank has them.
+std::vector<std::int32_t> places_of_boundary_nodes(const Nodes<2>& nodes, std::size_t count) {
+  std::vector<std::int32_t> place(count, -1);
+  for (std::int32_t i = 0; i < nodes.count; ++i)
+    if (nodes.boundary_node(i) >= 0) place[static_cast<std::size_t>(nodes.boundary_node(i))] = i;
+  return place;
+}
+
+std::vector<std::int32_t> edges_at(const std::vector<std::int32_t>& places,
+                                   const IncidentSectors& sectors) {
+  std::vector<std::int32_t> edges;
+  for (std::int32_t b = 0; b < std::ssize(places); ++b) {
+    if (places[static_cast<std::size_t>(b)] < 0) continue;
+    for (std::int32_t k = sectors.begin(b); k < sectors.end(b); ++k)
+      edges.push_back(sectors.edge(k).edge);
+  }
+  return edges;
+}
+
+class FirstRowChoice {
+ public:
+  FirstRowChoice(const Nodes<2>& nodes, const AdjacencyList<2>& lists, const DomainMap<2>& map,
+                 const IncidentSectors& sectors,
+                 const std::function<double(std::int32_t)>& boundary_spacing)
+      : nodes_(nodes),
+        lists_(lists),
+        map_(map),
+        sectors_(sectors),
+        boundary_places_(places_of_boundary_nodes(nodes, map.boundary().nodes.size())),
+        apexes_(map, sectors, boundary_spacing, edges_at(boundary_places_, sectors)),
+        relations_(static_cast<std::size_t>(nodes.count)) {
+    apexes_.drop([&](const BoundaryApex& apex) { return d_is_steep_beside(apex); });
+    for_each("pnpbs::first_row::relations", nodes.count, [&](std::int64_t i) {
+      if (nodes.moves(i)) relations_[static_cast<std::size_t>(i)] = relation_of(i);
+    });
+  }
+
+  FirstRow choose() const {
+    FirstRow row;
+    const std::vector<std::int32_t> occupants = nearest_nodes();
+    for (std::size_t k = 0; k < occupants.size(); ++k) {
+      const BoundaryApex& apex = apexes_.all()[k];
+      if (!apex.stands) continue;
+      if (occupants[k] >= 0)
+        row.moved.push_back({occupants[k], apex.place});
+      else
+        give_birth_at(apex, row.change);
+    }
+    for (std::int32_t i = 0; i < nodes_.count; ++i) {
+      const Relation& r = relation(i);
+      const bool in_row = r.apex >= 0 && occupants[static_cast<std::size_t>(r.apex)] == i;
+      if (nodes_.owned(i) && !in_row && (r.apex >= 0 || r.beside_covered_edge))
+        row.change.deleted.push_back(i);
+    }
+    return row;
+  }
+
+ private:
+  // Of an inner node to the row that is to be.
+  struct Relation {
+    std::int64_t apex = -1;  // the nearest one, if it is near
+    double gap = 0;          // to that
+    bool beside_covered_edge = false;
+  };
+
+  const Relation& relation(std::int64_t i) const { return relations_[static_cast<std::size_t>(i)]; }
+
+  // Where d grows inwards faster than nodes can follow, the row would have far too many nodes;
+  // where it falls, too few.
+  bool d_is_steep_beside(const BoundaryApex& apex) const {
+    const std::int32_t i = first_node_of(apex);
+    bool steep = i < 0;
+    if (!steep)
+      lists_.for_neighbours(i, [&](std::int64_t j) {
+        const double growth =
+            (nodes_.d(j) - nodes_.d(i)) / distance<2>(nodes_.position(i), nodes_.position(j));
+        steep = steep || growth > method::kTooSteep * method::kGrowthFollowed ||
+                growth < -method::kFirstRowMaxFall;
+      });
+    return steep;
+  }
+
+  // Of its edge; -1: unknown here.
+  std::int32_t first_node_of(const BoundaryApex& apex) const {
+    return boundary_places_[static_cast<std::size_t>(map_.facet(apex.edge).begin)];
+  }
+
+  Relation relation_of(std::int64_t i) const {
+    const Point<2> x = nodes_.position(i);
+    Relation found;
+    double nearest_edge = std::numeric_limits<double>::infinity();
+    for_edges_near(i, [&](std::int32_t edge) {
+      const auto& [a, b] = map_.corners(edge);
+      const std::int64_t apex = apexes_.over(edge, is_left_of(a, b, x));
+      if (apex >= 0) relate_to(apex, x, found);
+      const double way = distance_to_segment(a, b, x);
+      const bool covered = apex >= 0 && way < method::kFirstRowDepth * at(apex).edge_length;
+      // Of two edges that are as near, at the node between them, either may have an apex.
+      if (way < nearest_edge || (way == nearest_edge && covered))
+        found.beside_covered_edge = covered;
+      nearest_edge = std::min(nearest_edge, way);
+    });
+    return found;
+  }
+
+  // Of apexes that are equally near, to that over the first edge.
+  void relate_to(std::int64_t apex, const Point<2>& x, Relation& found) const {
+    const double gap = distance<2>(at(apex).place, x);
+    if (gap >= method::kApexTakes * at(apex).edge_length) return;
+    if (found.apex >= 0 && (gap > found.gap || (gap == found.gap && apex > found.apex))) return;
+    found.apex = apex;
+    found.gap = gap;
+  }
+
+  const BoundaryApex& at(std::int64_t apex) const {
+    return apexes_.all()[static_cast<std::size_t>(apex)];
+  }
+
+  // Calls visit(edge) for those at boundary nodes that node i sees; one can come twice.
+  template <class Visit>
+  void for_edges_near(std::int64_t i, const Visit& visit) const {
+    lists_.for_neighbours(i, [&](std::int64_t j) {
+      const std::int32_t b = nodes_.boundary_node(j);
+      if (b < 0) return;
+      for (std::int32_t k = sectors_.begin(b); k < sectors_.end(b); ++k)
+        visit(sectors_.edge(k).edge);
+    });
+  }
+
+  static bool is_left_of(const Point<2>& a, const Point<2>& b, const Point<2>& x) {
+    return (b[0] - a[0]) * (x[1] - a[1]) > (b[1] - a[1]) * (x[0] - a[0]);
+  }
+
+  // To each apex, among the nodes to which it is the nearest; -1: none.
+  std::vector<std::int32_t> nearest_nodes() const {
+    std::vector<std::int32_t> nearest(apexes_.all().size(), -1);
+    const auto is_nearer = [&](std::int64_t i, std::int64_t j) {
+      return relation(i).gap < relation(j).gap ||
+             (relation(i).gap == relation(j).gap && nodes_.id(i) < nodes_.id(j));
+    };
+    for (std::int32_t i = 0; i < nodes_.count; ++i) {
+      if (relation(i).apex < 0) continue;
+      std::int32_t& best = nearest[static_cast<std::size_t>(relation(i).apex)];
+      if (best < 0 || is_nearer(i, best)) best = i;
+    }
+    return nearest;
+  }
+
+  // From the edge's first node, if it is ours; not where there are no bubbles at all.
+  void give_birth_at(const BoundaryApex& apex, PopulationChange<2>& change) const {
+    const std::int32_t parent = first_node_of(apex);
+    if (!nodes_.owned(parent) || !sees_inner_nodes(parent)) return;
+    change.born.push_back({apex.place, nodes_.id(parent), nodes_.d(parent)});
+    change.parents.push_back(parent);
+  }
+
+  bool sees_inner_nodes(std::int64_t i) const {
+    bool any = false;
+    lists_.for_neighbours(i, [&](std::int64_t j) { any = any || nodes_.moves(j); });
+    return any;
+  }
+
+  const Nodes<2>& nodes_;
+  const AdjacencyList<2>& lists_;
+  const DomainMap<2>& map_;
+  const IncidentSectors& sectors_;
+  std::vector<std::int32_t> boundary_places_;
+  BoundaryApexes apexes_;
+  std::vector<Relation> relations_;  // by node
+};
+
+}  // namespace
+
+FirstRow choose_first_row(const Nodes<2>& nodes, const AdjacencyList<2>& lists,
+                          const DomainMap<2>& map, const IncidentSectors& sectors,
+                          const std::function<double(std::int32_t)>& boundary_spacing) {
+  return FirstRowChoice(nodes, lists, map, sectors, boundary_spacing).choose();
+}
+
+}  // namespace pnpbs
