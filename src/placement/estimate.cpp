@@ -48,8 +48,9 @@ double estimated_nodes(const SpacingToPlace<Dim>& to_place,
                        std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
                        Samples samples) {
   const auto estimate_with = [&](const Spacing<Dim>& d) {
-    return estimate_nodes<Dim>(to_place.comm(), to_place.domain(), d, settings.max_nodes,
-                               lattice_is_stretched(to_place.options()), samples);
+    return estimate_nodes<Dim>(
+        to_place.comm(), to_place.domain(), d, settings.max_nodes,
+        {lattice_is_stretched(to_place.options()), settings.lays_first_row()}, samples);
   };
   if (!settings.user_limits_growth()) {
     const NodeEstimate<Dim> estimate = estimate_with(*spacing);

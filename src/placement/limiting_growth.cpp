@@ -41,11 +41,11 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::spacing_to_place(
 // factor to the power of the dimension where the boundary has few of them, and less where its
 // vertices are many: the power is taken from the last two rounds. Below the number of vertices
 // there is nothing to find, and the search ends where the number does not change any more. Few
-// samples lead near it, and one estimate by many corrects the rest.
+// samples lead near it, and an estimate by many corrects the rest; another one, if that is much.
 template <int Dim>
 double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
   constexpr int kMaxRounds = 10;
-  constexpr double kNear = 0.05, kSame = 1e-3, kMinPower = 0.5, kMaxStep = 64;
+  constexpr double kNear = 0.05, kNearByMany = 0.02, kSame = 1e-3, kMinPower = 0.5, kMaxStep = 64;
   const double steepest = settings.dimension;
   const auto more_than_wanted = [&](double factor, Samples samples) {
     return estimated_nodes(*this, bounded(resized(spacing_, factor), settings), settings, samples) /
@@ -65,8 +65,13 @@ double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& sett
     step = std::clamp(std::pow(more, 1 / power), 1 / kMaxStep, kMaxStep);
     factor *= step;
   }
-  const double more = more_than_wanted(factor, Samples::many);
-  return more > 0 ? factor * std::pow(more, 1 / power) : factor;
+  for (int round = 0; round < 2; ++round) {
+    const double more = more_than_wanted(factor, Samples::many);
+    if (!(more > 0)) return factor;
+    factor *= std::pow(more, 1 / power);
+    if (std::fabs(more - 1) < kNearByMany) break;
+  }
+  return factor;
 }
 
 template <int Dim>

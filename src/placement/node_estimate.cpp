@@ -12,6 +12,7 @@
 #include "initial/volume/cubic_lattice.hpp"
 #include "method/constants.hpp"
 #include "placement/boundary_room.hpp"
+#include "placement/first_row_estimate.hpp"
 #include "placement/surface_estimate.hpp"
 #include "spacing/domain_map.hpp"
 #include "tree/cell_samples.hpp"
@@ -24,6 +25,8 @@ namespace {
 constexpr double kFewSamples = 4e3, kManySamples = 6e4;
 constexpr int kMinPerLeaf = 2, kMinOfMany = 16, kMaxPerLeaf = 1024;
 constexpr double kMaxTests = 1e7;  // of points against facets
+// Edges of the boundary whose first row is looked at, about.
+constexpr std::int64_t kFewEdges = 200, kManyEdges = 2000;
 
 // The n-th of points that fill a cell evenly however many there are, and along no axis twice in the
 // same place: sums of powers of the plastic number's kin (M. Roberts, The unreasonable
@@ -209,7 +212,7 @@ double nodes_on_boundary(const BoundaryMesh<3>& boundary, const SpacingEvaluator
 template <int Dim>
 NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& domain,
                                  const Spacing<Dim>& spacing, std::int64_t max_boundary_nodes,
-                                 bool stretched, Samples samples) {
+                                 const EstimatedRun& run, Samples samples) {
   constexpr int kUniformDepth = Dim == 2 ? 4 : 3;
   const bool many = samples == Samples::many;
   const int passes = many ? 4 : 3, cells = many ? 4096 : 512;
@@ -233,7 +236,9 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
         kLevelRefinement<Dim>);
     const bool last = pass + 1 == passes;
     agreed(comm, [&] {
-      nodes = nodes_in<Dim>(map, domain, evaluator, stretched, last ? samples : Samples::few);
+      nodes = nodes_in<Dim>(map, domain, evaluator, run.stretched, last ? samples : Samples::few);
+      if (last && run.first_row)
+        nodes += more_by_first_row(map, evaluator, many ? kManyEdges : kFewEdges);
     });
     if (is_filled(domain)) nodes += on_boundary;
     max = nodes / cells;
@@ -244,8 +249,8 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
 }
 
 template NodeEstimate<2> estimate_nodes<2>(const Communicator&, const Domain<2>&, const Spacing<2>&,
-                                           std::int64_t, bool, Samples);
+                                           std::int64_t, const EstimatedRun&, Samples);
 template NodeEstimate<3> estimate_nodes<3>(const Communicator&, const Domain<3>&, const Spacing<3>&,
-                                           std::int64_t, bool, Samples);
+                                           std::int64_t, const EstimatedRun&, Samples);
 
 }  // namespace pnpbs

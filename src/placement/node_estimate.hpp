@@ -27,11 +27,16 @@ struct NodeEstimate {
 // Near the boundary, where most of an estimate's time goes: few are enough for some per cent.
 enum class Samples { few, many };
 
-// By samples of d in some thousand cells, more of them where there would be more nodes.
-// `stretched`: the lattice that fills a body with even d. Collective.
+// What it depends on besides.
+struct EstimatedRun {
+  bool stretched;  // the lattice that fills a body with even d
+  bool first_row;  // is fitted to the boundary, in the plane
+};
+
+// By samples of d in some thousand cells, more of them where there would be more nodes. Collective.
 template <int Dim>
 NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& domain,
                                  const Spacing<Dim>& spacing, std::int64_t max_boundary_nodes,
-                                 bool stretched, Samples samples);
+                                 const EstimatedRun& run, Samples samples);
 
 }  // namespace pnpbs
