@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * The cases that the programs over MPI_COMM_WORLD share: graded-square, uniform-square,
- * jump-square, steep-square (by a fifth of the distance), even-cube, graded-cube (1:10 from a
- * corner), or a .poly file (graded), with spacings that a scale multiplies; of the steep one, that
- * at the point. */
+ * jump-square, steep-square (by a fifth of the distance), ring (a disk with a hole, from which d
+ * grows, and with inner curves), even-cube, graded-cube (1:10 from a corner), or a .poly file
+ * (graded), with spacings that a scale multiplies; of the steep one, that at the point. */
 #ifndef PNPBS_PLACEMENT_CASES_H
 #define PNPBS_PLACEMENT_CASES_H
 
@@ -37,6 +37,18 @@ static void case_check(pnpbs_context context, pnpbs_status status, const char* w
   MPI_Abort(MPI_COMM_WORLD, 1);
 }
 
+static void case_add_ring(pnpbs_context context, pnpbs_domain domain) {
+  const double pi = 3.14159265358979323846, middle[] = {0.5, 0.5}, hole[] = {0.4, 0.55},
+               island[] = {0.62, 0.8}, hook[] = {0.5, 0.1, 0.8, 0.3, 0.85, 0.6};
+  case_check(context, pnpbs_domain_add_arc(domain, PNPBS_BOUNDARY, middle, 0.5, 0, 2 * pi, 1),
+             "disk");
+  case_check(context, pnpbs_domain_add_arc(domain, PNPBS_BOUNDARY, hole, 0.2, 0, 2 * pi, 2),
+             "hole");
+  case_check(context, pnpbs_domain_add_arc(domain, PNPBS_INNER, island, 0.1, 0, 2 * pi, 3),
+             "inner circle");
+  case_check(context, pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 3, hook, NULL, 0), "hook");
+}
+
 /* A placement of the case, with the options in `settings` ("key=value", cut in two). `spacing` must
  * stay as long as the placement. */
 static pnpbs_placement case_placement(pnpbs_context context, const char* name, double scale,
@@ -45,6 +57,7 @@ static pnpbs_placement case_placement(pnpbs_context context, const char* name, d
   const struct case_spacing graded = {0.00068, 9 * 0.00068 / 0.7071, 0.5, 0.5, HUGE_VAL, 0},
                             uniform = {0.0034, 0, 0, 0, HUGE_VAL, 0},
                             steep = {0.0005, 0, 0.3, 0.4, HUGE_VAL, 0},
+                            ring = {0.002, 0.05, 0.4, 0.55, HUGE_VAL, 0},
                             jump = {0.3, 0, 0, 0, 0.52, 0.012},
                             in_a_lake = {0.3, 0.006, 0, 0, HUGE_VAL, 0},
                             even = {0.0185, 0, 0, 0, HUGE_VAL, 0},
@@ -61,6 +74,9 @@ static pnpbs_placement case_placement(pnpbs_context context, const char* name, d
                : strstr(name, "jump")  ? jump
                : strstr(name, "steep") ? steep
                                        : graded;
+  } else if (strcmp(name, "ring") == 0) {
+    case_add_ring(context, domain);
+    *spacing = ring;
   } else if (case_dimension(name) == 3) {
     case_check(context, pnpbs_domain_add_box(domain, low, high, 1), "cube");
     *spacing = strstr(name, "even") ? even : corner;

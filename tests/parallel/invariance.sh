@@ -77,7 +77,7 @@ compare 16 1 2 2
 begin "$data/great_lakes_islands.poly" 4
 compare 8 1 4 1
 # Many events with many insertions and deletions.
-begin graded-square 8 event_interval=3 population_tolerance=0 delete_above=6.3 insert_below=5.7
+begin graded-square 8 event_interval=3 population_tolerance=0 delete_above=6.3 insert_below=5.7 first_row=0
 compare 4 1 2 1
 compare 7 1 8 2
 require_at_least 50 inserted "population control had little to do"
@@ -100,7 +100,7 @@ compare 3 2 1 2
 compare 8 1 5 1
 compare 16 1 2 1
 # Hardly moved nodes, many of which have four neighbours or fewer: those go, and many triangles are bad.
-begin graded-square 8 steps=0 levels=0
+begin graded-square 8 steps=0 levels=0 first_row=0
 compare 2 1 4 1
 compare 5 2 1 2
 compare 8 1 5 1
@@ -114,6 +114,17 @@ compare 5 1 5 1
 compare 16 1 2 1
 require_at_least 10 inserted "no defect asked for one more node"
 require_at_least 20 deleted "no defect asked for one node less"
+# A new first row at curved boundaries, on both sides of curves inside; nothing else comes.
+begin ring 0.5 steps=0 levels=0
+compare 2 1 4 1
+compare 3 2 1 2
+compare 5 1 2 3
+compare 8 1 8 1
+require_at_least 100 inserted "the first row had few new nodes"
+require_at_least 100 deleted "the first row displaced few nodes"
+begin ring 1 levels=0 effort=best
+compare 4 1 1 1
+compare 16 1 4 2
 begin "$data/great_lakes.poly" 8 effort=best
 compare 3 1 4 1
 compare 8 2 2 2

@@ -3,7 +3,7 @@
  * Places nodes over the ranks of MPI_COMM_WORLD and prints the hash, and what is told of the
  * elements (run's outcome, quality, edge length over d) in one word: the same for any number of
  * ranks. usage: place_on_ranks CASE SCALE [key=value]...  with CASE one of graded-square,
- * uniform-square, jump-square, or a .poly file (graded) */
+ * uniform-square, jump-square, ring, or a .poly file (graded) */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
