@@ -64,8 +64,8 @@ CASES = {
     # Six round lobes, with reentrant corners between them.
     "gear": (curved([polar(lambda a: 0.6 + 0.4 * abs(np.cos(3 * a)))], (), 2), 20),
 }
-SETTINGS = {"default": [], "best": ["effort=best"],
-            "repaired": ["topology_repairs=2", "sweeps=8", "smooth_below=0.87"]}
+SETTINGS = {"default": [], "best": ["effort=best"], "bubbles": ["first_row=0"],
+            "repaired": ["first_row=0", "topology_repairs=2", "sweeps=8", "smooth_below=0.87"]}
 
 
 # ------------------------------------------------------------------ curves ------------------------
@@ -352,7 +352,7 @@ def arguments(about=__doc__):
     parser.add_argument("--pnpbs", type=Path, default=ROOT / "build/release/bin/pnpbs")
     parser.add_argument("--nodes", type=float, default=2e4, help="about so many in each case")
     known = {"cases": list(CASES), "settings": list(SETTINGS)}
-    for option, default in (("cases", list(CASES)), ("settings", ["default", "repaired"])):
+    for option, default in (("cases", list(CASES)), ("settings", ["default", "bubbles"])):
         parser.add_argument("--" + option, default=default, type=lambda text: text.split(","),
                             help="of " + ",".join(known[option]))
     parser.add_argument("--output", type=Path, help="file for the tables; else standard output")
