@@ -47,6 +47,8 @@ struct GrowthRule {
   double growth = 0;
   const StereographicChart* chart = nullptr;  // in the plane; outlives this
 
+  GrowthRule(double most = 0, const StereographicChart* of = nullptr) : growth(most), chart(of) {}
+
   // What d is at most at a point, with this source.
   double limit(const GrowthSource<Dim>& source, const Point<Dim>& at) const {
     if constexpr (Dim == 2)
