@@ -64,7 +64,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(context_set, (handle, "steps", "10"))         \
   X(context_set_int64, (handle, "steps", 10))     \
   X(context_set_double, (handle, "damping", 0.5)) \
-  X(domain_create, (handle, 2, &out.domain))
+  X(domain_create, (handle, 2, &out.domain))      \
+  X(domain_create_sphere, (handle, 1.0, xyz + 3, &out.domain))
 #define DOMAIN_CALLS(X)                                                               \
   X(domain_add_polyline, (handle, PNPBS_BOUNDARY, 1, 4, xy, NULL, 0.0))               \
   X(domain_add_surface, (handle, PNPBS_BOUNDARY, 4, xyz, 4, faces, NULL, 40.0))       \
@@ -235,7 +236,7 @@ START_TEST(every_function_is_here) {
     ck_assert_msg(i < COUNT_OF(calls), "%s is not tested", name);
   }
   fclose(header);
-  ck_assert_int_eq(found + 1, COUNT_OF(calls)); /* and pnpbs_domain_create */
+  ck_assert_int_eq(found + 2, COUNT_OF(calls)); /* and pnpbs_domain_create and .._create_sphere */
 }
 END_TEST
 
