@@ -13,10 +13,10 @@
 !>   collective  "Collective" procedures must be called by all ranks of the context, in the same
 !>               order, and have the same outcome on all of them. "Local" ones need not.
 !>   arrays      belong to the caller, are read or filled during the call, and are never kept.
-!>               Coordinates are (dim, n) with dim = 2 in the plane, 3 in space; other rows are
-!>               PNPBS_ERROR_ARGUMENT. Arrays to fill may have more room than needed; too little is
-!>               PNPBS_ERROR_CAPACITY. Arrays to fill and optional arrays must be contiguous in
-!>               memory: whole ones, or sections x(i:j) and x(:,i:j) of such.
+!>               Coordinates are (dim, n) with dim = 2 in the plane, 3 in space and on a sphere;
+!>               other rows are PNPBS_ERROR_ARGUMENT. Arrays to fill may have more room than
+!>               needed; too little is PNPBS_ERROR_CAPACITY. Arrays to fill and optional arrays must
+!>               be contiguous in memory: whole ones, or sections x(i:j) and x(:,i:j) of such.
 !>   dimension   procedures for domains or placements "in the plane" or "in space" reject others
 !>               with PNPBS_ERROR_ARGUMENT; all others are for both.
 !>   integers    ids, counts, indices and offsets are integer(c_int64_t), the others
@@ -47,7 +47,7 @@ module pnpbs
   public :: pnpbs_voronoi, pnpbs_particles
   public :: pnpbs_status_string, pnpbs_last_error, pnpbs_version, pnpbs_build_info
   public :: pnpbs_mpi_library, pnpbs_finalize, pnpbs_discard_unfinished_files
-  public :: pnpbs_file_dimension
+  public :: pnpbs_sphere_points, pnpbs_sphere_degrees, pnpbs_file_dimension
   public :: pnpbs_option_count, pnpbs_option_info, pnpbs_statistic_count, pnpbs_statistic_info
   public :: pnpbs_format_count, pnpbs_format_info
 
@@ -77,6 +77,7 @@ module pnpbs
     type(c_ptr) :: c = c_null_ptr
   contains
     procedure :: create => domain_create
+    procedure :: create_sphere => domain_create_sphere
     procedure :: destroy => domain_destroy
     procedure :: dimension => domain_dimension
     procedure :: add_polyline => domain_add_polyline
@@ -570,6 +571,69 @@ contains
     dimensions = 2
     if (present(dim)) dimensions = dim
     call conclude('domain%create', c_domain_create(context%c, dimensions, self%c), stat, errmsg)
+  end subroutine
+
+  !> Creates an empty domain on a sphere about the origin. Its nodes lie on the sphere, spacings are
+  !> lengths along it, and points have three coordinates. Boundary curves (add_polyline) follow
+  !> great circles from vertex to vertex; the domain is what lies behind an odd number of them, seen
+  !> from a point outside. Nodes are placed in the stereographic projection from that point, which
+  !> should be ten spacings or more away from the domain. Placements have triangles and boundary
+  !> edges, as in the plane. Not on a sphere yet: see pnpbs_domain_create_sphere in pnpbs.h. Local.
+  !>   radius   > 0
+  !>   outside  (3) the direction of a point outside the domain; any length except 0
+  subroutine domain_create_sphere(self, context, radius, outside, stat, errmsg)
+    class(pnpbs_domain), intent(inout) :: self
+    type(pnpbs_context), intent(in) :: context
+    real(c_double), intent(in) :: radius, outside(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('outside', size(outside), 3)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_domain_create_sphere(context%c, radius, outside, self%c)
+    call conclude('domain%create_sphere', status, stat, errmsg, given)
+  end subroutine
+
+  !> Computes points on a sphere about the origin from longitude and latitude. Local.
+  !>   radius       > 0
+  !>   degrees      (2, n) longitude, which may exceed a full turn, and latitude, -90 .. 90
+  !>   coordinates  (3, n)
+  subroutine pnpbs_sphere_points(radius, degrees, coordinates, stat, errmsg)
+    real(c_double), intent(in) :: radius, degrees(:,:)
+    real(c_double), intent(inout) :: coordinates(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: n
+    integer(c_int) :: status
+    n = size(degrees, 2, kind=c_int64_t)
+    call given%check_rows('degrees', size(degrees, 1), 2)
+    call given%check_rows('coordinates', size(coordinates, 1), 3)
+    call given%require('coordinates', size(coordinates, 2, kind=c_int64_t), n)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_sphere_points(radius, n, degrees, coordinates)
+    call conclude('pnpbs_sphere_points', status, stat, errmsg, given)
+  end subroutine
+
+  !> Computes longitude and latitude of the directions of points. Local.
+  !>   coordinates  (3, n), not 0
+  !>   degrees      (2, n) longitude, -180 .. 180, and latitude, -90 .. 90
+  subroutine pnpbs_sphere_degrees(coordinates, degrees, stat, errmsg)
+    real(c_double), intent(in) :: coordinates(:,:)
+    real(c_double), intent(inout) :: degrees(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: n
+    integer(c_int) :: status
+    n = size(coordinates, 2, kind=c_int64_t)
+    call given%check_rows('coordinates', size(coordinates, 1), 3)
+    call given%check_rows('degrees', size(degrees, 1), 2)
+    call given%require('degrees', size(degrees, 2, kind=c_int64_t), n)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_sphere_degrees(n, coordinates, degrees)
+    call conclude('pnpbs_sphere_degrees', status, stat, errmsg, given)
   end subroutine
 
   !> Destroys the domain; does nothing if there is none. Local.
@@ -2216,7 +2280,8 @@ contains
     where (flags /= not_set) triangle = flags /= 0
   end subroutine
 
-  !> Returns the number of triangles that get_triangles returns, in the plane. Collective.
+  !> Returns the number of triangles that get_triangles returns, in the plane or on a sphere.
+  !> Collective.
   subroutine placement_triangle_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -2227,10 +2292,10 @@ contains
                   c_placement_get_triangles(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Copies the triangles of the stars of a placement in the plane, each once, counter-clockwise. On
-  !> several ranks a triangle belongs to the rank that owns its node with the lowest id; other
-  !> corners may be ghosts, and the triangles of all ranks together are one conforming triangulation
-  !> of the domain. Collective.
+  !> Copies the triangles of the stars of a placement in the plane or on a sphere, each once,
+  !> counter-clockwise, on a sphere as seen from outside. On several ranks a triangle belongs to the
+  !> rank that owns its node with the lowest id; other corners may be ghosts, and the triangles of
+  !> all ranks together are one conforming triangulation of the domain. Collective.
   !>   triangles  (3, count) local indices
   subroutine placement_get_triangles(self, triangles, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2390,7 +2455,8 @@ contains
     end do
   end subroutine
 
-  !> Returns the number of boundary edges that get_boundary_edges returns, in the plane. Local.
+  !> Returns the number of boundary edges that get_boundary_edges returns, in the plane or on a
+  !> sphere. Local.
   subroutine placement_boundary_edge_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -2402,9 +2468,9 @@ contains
                                                  c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Copies the boundary edges of a placement in the plane: consecutive nodes on boundary and inner
-  !> curves. On several ranks an edge belongs to the rank that owns its first node; the other end
-  !> may be a ghost. Local.
+  !> Copies the boundary edges of a placement in the plane or on a sphere: consecutive nodes on
+  !> boundary and inner curves. On several ranks an edge belongs to the rank that owns its first
+  !> node; the other end may be a ghost. Local.
   !>   edges  optional, (2, count) local indices
   !>   tags   optional, (count)
   subroutine placement_get_boundary_edges(self, edges, tags, stat, errmsg)

@@ -276,6 +276,36 @@ module pnpbs_c
       integer(c_int) :: c_domain_create
     end function
 
+    function c_domain_create_sphere(context, radius, outside, domain) bind(C, &
+      name="pnpbs_domain_create_sphere")
+      import
+      implicit none
+      type(c_ptr), value :: context
+      real(c_double), value :: radius
+      real(c_double), intent(in) :: outside(*)
+      type(c_ptr), intent(out) :: domain
+      integer(c_int) :: c_domain_create_sphere
+    end function
+
+    function c_sphere_points(radius, n, degrees, coordinates) bind(C, name="pnpbs_sphere_points")
+      import
+      implicit none
+      real(c_double), value :: radius
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: degrees(*)
+      real(c_double), intent(inout) :: coordinates(*)
+      integer(c_int) :: c_sphere_points
+    end function
+
+    function c_sphere_degrees(n, coordinates, degrees) bind(C, name="pnpbs_sphere_degrees")
+      import
+      implicit none
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*)
+      real(c_double), intent(inout) :: degrees(*)
+      integer(c_int) :: c_sphere_degrees
+    end function
+
     function c_domain_destroy(domain) bind(C, name="pnpbs_domain_destroy")
       import
       implicit none

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> PNPBS - geographic shapes: reads GeoJSON, shapefiles, GeoPackage and whatever else GDAL reads,
-!> projected by PROJ, into a domain in the plane. The Fortran 2003 module of libpnpbs_geo, which
-!> exists only where PNPBS was built with GDAL.
+!> projected by PROJ, into a domain in the plane or on a sphere. The Fortran 2003 module of
+!> libpnpbs_geo, which exists only where PNPBS was built with GDAL.
 !>
 !> It corresponds to the C interface (pnpbs/pnpbs_geo.h), which explains how polygons, lines and
 !> points are interpreted. A page with an example: docs/guide/shapes.md. The conventions of the
@@ -67,8 +67,9 @@ contains
   !>   path        a file, or anything else that GDAL opens
   !>   layer       optional: its name; without it, the file must have only one
   !>   projection  optional: the coordinate system of x and y: 'auto', 'none', a code ('EPSG:2180'),
-  !>               a PROJ string, WKT, or the path of a .prj file. Default: longitude and latitude
-  !>               are projected as by 'auto', projected coordinates are kept
+  !>               a PROJ string, WKT, the path of a .prj file, or, for a domain on a sphere,
+  !>               'sphere(LON,LAT)' with the longitude and latitude of the point outside. Default:
+  !>               longitude and latitude are projected as by 'auto', projected coordinates are kept
   !>   unit        optional: 'm' or 'km'; default: the projection's own, mostly metres
   !>   tag_field   optional: the attribute that becomes the tag; default: all tags are 1
   subroutine geo_read(self, path, layer, projection, unit, tag_field, stat, errmsg)
@@ -91,9 +92,9 @@ contains
     call conclude_geo('destroy', c_geo_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> Adds the shapes to a domain in the plane: curves as domain%add_polyline does, points as
-  !> domain%add_fixed_nodes does, names of tags for dimension 1. Curves that cross or do not close
-  !> are found by domain%check; see explain. Local.
+  !> Adds the shapes to a domain in the plane or on a sphere: curves as domain%add_polyline does,
+  !> points as domain%add_fixed_nodes does, names of tags for dimension 1. Curves that cross or do
+  !> not close are found by domain%check; see explain. Local.
   !>   context       of the domain
   !>   corner_angle  optional: degrees, 0 .. 180, as in domain%add_polyline. Default: 0, every
   !>                 vertex becomes a node

@@ -25,6 +25,7 @@ program test_space
   call about_a_box
   call about_a_ball_in_a_box
   call about_spacings
+  call about_a_sphere
   call context%destroy
   call finish
 
@@ -397,4 +398,60 @@ contains
     end do
     call expect(found, 'a node that was given')
   end subroutine
+
+  subroutine about_a_sphere
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    real(c_double) :: places(2, 180), found(2, 180), ring(3, 180), area
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int64_t), allocatable :: triangles(:,:)
+    integer(c_int64_t) :: nodes, count, edges, t
+    integer(c_int32_t) :: dim
+    integer :: i
+    places = reshape([(real(2 * i - 180, c_double), -70d0, i = 1, 180)], [2, 180])
+    call pnpbs_sphere_points(1d0, places, ring)
+    call expect(maxval(abs(norm(ring) - 1)) < 1d-15, 'points on a sphere')
+    call pnpbs_sphere_degrees(2 * ring, found)
+    call expect(maxval(abs(found - places)) < 1d-12, 'degrees of points')
+    call domain%create_sphere(context, 1d0, [0d0, 0d0, -1d0])
+    call domain%dimension(dim)
+    call expect(dim == 3, 'dimension of a domain on a sphere')
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., ring, corner_angle=30d0)
+    call domain%measure(area)
+    call expect(abs(area - 2 * pi * (1 + sin(70 * pi / 180))) < 1d-3, 'area on a sphere')
+    call placement%create(context, domain)
+    call placement%set_spacing_constant(0.1d0)
+    call placement%run(stat)
+    call expect(stat == PNPBS_OK, 'nodes on a sphere')
+    call placement%count(nodes)
+    call placement%triangle_count(count)
+    call placement%boundary_edge_count(edges)
+    allocate (x(3, nodes), triangles(3, count))
+    call placement%get_nodes(x)
+    call expect(maxval(abs(norm(x) - 1)) < 1d-15, 'nodes lie on the sphere')
+    call placement%get_triangles(triangles)
+    call expect(all([(from_centre(x(:, triangles(:, t))) > 0, t = 1, count)]), &
+                'triangles counter-clockwise from outside')
+    ! Sides inside belong to two triangles, those of the boundary to one: twice V - E + F.
+    call expect(2 * nodes - (3 * count + edges) + 2 * count == 2, &
+                'triangles of a sphere with one hole')
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  function norm(x)
+    real(c_double), intent(in) :: x(:,:)
+    real(c_double) :: norm(size(x, 2))
+    norm = sqrt(sum(x**2, 1))
+  end function
+
+  !> Six times the volume between a triangle and the origin: > 0 if it turns counter-clockwise, seen
+  !> from outside.
+  function from_centre(corners)
+    real(c_double), intent(in) :: corners(3, 3)
+    real(c_double) :: from_centre
+    from_centre = dot_product(corners(:, 1), &
+                              corners([2, 3, 1], 2) * corners([3, 1, 2], 3) - &
+                              corners([3, 1, 2], 2) * corners([2, 3, 1], 3))
+  end function
 end program test_space

@@ -15,6 +15,7 @@ program test_space_arguments
   call context%create_serial
   call about_wrong_arguments
   call about_the_plane
+  call about_a_sphere
   call context%destroy
   call finish
 
@@ -151,6 +152,37 @@ contains
     call placement%get_boundary_triangles(triangles, stat=stat, errmsg=errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'placement has 2 dimensions')
     call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  subroutine about_a_sphere
+    type(pnpbs_domain) :: domain
+    real(c_double) :: points(3, 2), degrees(2, 2)
+    degrees = reshape([0d0, 0d0, 0d0, 91d0], [2, 2])
+    call domain%create_sphere(context, 0d0, [0d0, 0d0, -1d0], stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'radius is 0')
+    call domain%create_sphere(context, 1d0, zero, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'outside')
+    call domain%create_sphere(context, 1d0, [0d0, -1d0], stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'outside has an extent of 2 where 3')
+    call pnpbs_sphere_points(0d0, degrees, points, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'radius is 0')
+    call pnpbs_sphere_points(1d0, degrees, points, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'degrees[1][1] = 91')
+    call pnpbs_sphere_points(1d0, points, points, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'degrees has an extent of 3 where 2')
+    call pnpbs_sphere_points(1d0, degrees, degrees, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has an extent of 2 where 3')
+    call pnpbs_sphere_points(1d0, degrees, points(:, 1:1), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'coordinates has room for 1; 2')
+    points = 0
+    call pnpbs_sphere_degrees(points, degrees, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates[0]')
+    call pnpbs_sphere_degrees(points, degrees(:, 1:1), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'degrees has room for 1; 2')
+    call domain%create_sphere(context, 1d0, [0d0, 0d0, -1d0])
+    call domain%add_arc(PNPBS_INNER, [0d0, 0d0], 0.1d0, 0d0, 1d0, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'on a sphere')
     call domain%destroy
   end subroutine
 end program test_space_arguments
