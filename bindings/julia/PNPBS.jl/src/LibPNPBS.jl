@@ -124,6 +124,20 @@ pnpbs_domain_create(context, dim, domain) =
     @ccall $(symbol(:pnpbs_domain_create))(
         context::pnpbs_context, dim::Int32, domain::Ptr{pnpbs_domain})::pnpbs_status
 
+pnpbs_domain_create_sphere(context, radius, outside, domain) =
+    @ccall $(symbol(:pnpbs_domain_create_sphere))(
+        context::pnpbs_context, radius::Cdouble, outside::Ptr{Cdouble},
+        domain::Ptr{pnpbs_domain})::pnpbs_status
+
+pnpbs_sphere_points(radius, n, degrees, coordinates) =
+    @ccall $(symbol(:pnpbs_sphere_points))(
+        radius::Cdouble, n::Int64, degrees::Ptr{Cdouble},
+        coordinates::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_sphere_degrees(n, coordinates, degrees) =
+    @ccall $(symbol(:pnpbs_sphere_degrees))(
+        n::Int64, coordinates::Ptr{Cdouble}, degrees::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_domain_destroy(domain) =
     @ccall $(symbol(:pnpbs_domain_destroy))(domain::Ptr{pnpbs_domain})::pnpbs_status
 

@@ -14,10 +14,10 @@ Delaunay stars, identical for any number of threads and MPI ranks.
         nodes(placement).points
     end
 
-Points are columns of `(2, n)` matrices, in space of `(3, n)` ones; local indices and offsets count
-from 1, global ids and MPI ranks from 0. "Collective" functions must be called by all ranks of the
-context in the same order, and throw on all of them or on none; "local" ones need not. One task at a
-time may use a context.
+Points are columns of `(2, n)` matrices, in space and on a sphere of `(3, n)` ones; local indices and
+offsets count from 1, global ids and MPI ranks from 0. "Collective" functions must be called by all
+ranks of the context in the same order, and throw on all of them or on none; "local" ones need not.
+One task at a time may use a context.
 """
 module PNPBS
 
@@ -31,6 +31,7 @@ export set_spacing_mesh!, set_spacing_points!, set_spacing_file!
 export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_region!, add_fixed_nodes!
 export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!
 export add_offset!
+export sphere_domain, sphere_points, sphere_degrees
 export set_filled!, set_repair!
 export set_corner_angle!, simplify!, simplify_by_file!
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names

@@ -27,6 +27,58 @@ function Domain(context::Context; dim::Integer = 2)
     return domain
 end
 
+"""
+    sphere_domain(context, radius, outside) -> Domain
+
+Creates an empty domain on a sphere about the origin. Its nodes lie on the sphere, spacings are
+lengths along it, and points are the columns of a `(3, n)` matrix. Boundary curves
+([`add_polyline!`](@ref)) follow great circles from vertex to vertex; the domain is what lies behind
+an odd number of them, seen from a point in the direction `outside`, three numbers of any length
+except 0. Nodes are placed in the stereographic projection from that point, which should be ten
+spacings or more away from the domain. Placements have [`triangles`](@ref) and
+[`boundary_edges`](@ref), as in the plane. Not on a sphere yet: Voronoi cells, particles, arcs,
+parametric curves, files of curves other than those of [`Shapes`](@ref), and spacing given on grids,
+meshes or points.
+
+    ring = sphere_points(1, [permutedims(0:2:358); fill(-70, 1, 180)])
+    sea = add_polyline!(sphere_domain(context, 1, (0, 0, -1)), ring; corner_angle = 30)
+"""
+function sphere_domain(context::Context, radius::Real, outside)
+    handle = Ref{LibPNPBS.pnpbs_domain}(C_NULL)
+    check(context,
+          LibPNPBS.pnpbs_domain_create_sphere(live(context), radius,
+                                              as_point(outside, 3, "outside"), handle))
+    domain = Domain(handle[], context, Callback[])
+    push!(context.children, domain)
+    return domain
+end
+
+"""
+    sphere_points(radius, degrees)
+
+Computes points on a sphere about the origin, `(3, n)`, from longitude and latitude: `degrees` is
+`(2, n)`, with longitudes that may exceed a full turn and latitudes from -90 to 90.
+"""
+function sphere_points(radius::Real, degrees::AbstractMatrix{<:Real})
+    places = as_points(degrees, 2, "degrees")
+    points = zeros(3, size(places, 2))
+    check_without_context(LibPNPBS.pnpbs_sphere_points(radius, size(places, 2), places, points))
+    return points
+end
+
+"""
+    sphere_degrees(coordinates)
+
+Computes longitude, from -180 to 180, and latitude, from -90 to 90, of the directions of points: a
+`(2, n)` matrix for the columns of `coordinates`, `(3, n)`, none of them 0.
+"""
+function sphere_degrees(coordinates::AbstractMatrix{<:Real})
+    points = as_points(coordinates, 3, "coordinates")
+    degrees = zeros(2, size(points, 2))
+    check_without_context(LibPNPBS.pnpbs_sphere_degrees(size(points, 2), points, degrees))
+    return degrees
+end
+
 Base.isopen(domain::Domain) = domain.handle != C_NULL
 
 function Base.close(domain::Domain)
@@ -40,7 +92,7 @@ end
 """
     ndims(domain), ndims(placement), ndims(transfer)
 
-Returns the dimension: 2 in the plane, 3 in space. Local.
+Returns the dimension: 2 in the plane, 3 in space and on a sphere. Local.
 """
 function Base.ndims(domain::Domain)
     dim = Ref{Int32}(0)

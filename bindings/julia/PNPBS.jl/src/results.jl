@@ -173,10 +173,10 @@ end
     triangles(placement) -> Matrix{Int64}
     triangles!(placement, corners) -> corners
 
-Returns the triangles of a placement in the plane, `(3, n)` local indices, counter-clockwise, each
-once: a triangle belongs to the rank that owns its node with the lowest id; other corners may be
-ghosts. `triangles!` fills the matrix of an earlier result if it has the required size, and
-otherwise returns a new one. Collective.
+Returns the triangles of a placement in the plane or on a sphere, `(3, n)` local indices,
+counter-clockwise, on a sphere as seen from outside, each once: a triangle belongs to the rank that
+owns its node with the lowest id; other corners may be ghosts. `triangles!` fills the matrix of an
+earlier result if it has the required size, and otherwise returns a new one. Collective.
 """
 triangles, triangles!
 
@@ -230,8 +230,8 @@ end
     boundary_edges(placement) -> (edges, tags)
 
 Returns the edges between consecutive nodes on boundary and inner curves of a placement in the
-plane: `(2, n)` local indices, and the tags of the curves. An edge belongs to the rank that owns its
-first node. Local.
+plane or on a sphere: `(2, n)` local indices, and the tags of the curves. An edge belongs to the rank
+that owns its first node. Local.
 """
 function boundary_edges(placement::Placement)
     edges, tags = facets(placement, LibPNPBS.pnpbs_placement_get_boundary_edges, 2)

@@ -9,10 +9,11 @@ One layer of a file that GDAL reads, such as GeoJSON, a shapefile or GeoPackage,
 all its functions are local. Available where PNPBS was built with GDAL. Polygons bound a domain,
 edges shared by neighbours and lines are inner curves, points are fixed nodes; `pnpbs_geo.h` has the
 details. `projection` is a code (`"EPSG:2180"`), a PROJ string, WKT, the path of a `.prj` file,
-`"auto"`, a projection chosen for the data, or `"none"`, the coordinates of the file; by default
-longitude and latitude are projected as by `"auto"`, and other coordinates are kept. `unit` is `"m"`
-or `"km"`, `tag_field` the attribute that becomes the tag. A file that cannot be used is a
-[`PNPBSError`](@ref).
+`"auto"`, a projection chosen for the data, `"none"`, the coordinates of the file, or, for domains on
+a sphere ([`sphere_domain`](@ref)), `"sphere(LON,LAT)"` with the longitude and latitude of the point
+outside; by default longitude and latitude are projected as by `"auto"`, and other coordinates are
+kept. `unit` is `"m"` or `"km"`, `tag_field` the attribute that becomes the tag. A file that cannot
+be used is a [`PNPBSError`](@ref).
 
 `close` them when they are no longer needed; the second form calls `f(shapes)` and closes them, as
 `open` does with files.
@@ -68,10 +69,10 @@ Base.show(io::IO, shapes::Shapes) =
 """
     add_shapes!(domain, shapes; corner_angle = 0) -> domain
 
-Adds [`Shapes`](@ref) to a domain in the plane: curves as [`add_polyline!`](@ref) does, points as
-[`add_fixed_nodes!`](@ref) does, and the names of tags. With `corner_angle = 0` every vertex becomes
-a node; otherwise only those where the direction turns by more than this many degrees. Curves that
-cross or do not close are found by [`check_domain`](@ref); see [`explain`](@ref).
+Adds [`Shapes`](@ref) to a domain in the plane or on a sphere: curves as [`add_polyline!`](@ref)
+does, points as [`add_fixed_nodes!`](@ref) does, and the names of tags. With `corner_angle = 0` every
+vertex becomes a node; otherwise only those where the direction turns by more than this many degrees.
+Curves that cross or do not close are found by [`check_domain`](@ref); see [`explain`](@ref).
 """
 function add_shapes!(domain::Domain, shapes::Shapes; corner_angle::Real = 0)
     check_geo(LibPNPBSGeo.pnpbs_geo_add_to_domain(live(shapes), live(domain.context), live(domain),

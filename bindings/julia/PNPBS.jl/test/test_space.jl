@@ -285,3 +285,41 @@ end
                                                     step = (1, 1, 1))
     end
 end
+
+@testset "a sphere" begin
+    places = [permutedims(-178:2:180); fill(-70, 1, 180)]
+    ring = sphere_points(1, places)
+    @test size(ring) == (3, 180)
+    @test sphere_degrees(2 .* ring) ≈ places rtol = 1e-14
+    @test size(sphere_points(1, zeros(2, 0))) == (3, 0)
+    @test fails(() -> sphere_points(0, places), :error_argument, "radius is 0")
+    @test fails(() -> sphere_points(1, [0 0; 0 91]), :error_argument, "degrees[1][1] = 91")
+    @test fails(() -> sphere_degrees(zeros(3, 1)), :error_argument, "coordinates[0]")
+    @test thrown(() -> sphere_points(1, ring)) isa DimensionMismatch
+    @test thrown(() -> sphere_degrees(places)) isa DimensionMismatch
+    Context() do context
+        @test fails(() -> sphere_domain(context, 0, (0, 0, -1)), :error_argument, "radius is 0")
+        @test fails(() -> sphere_domain(context, 1, (0, 0, 0)), :error_argument, "outside")
+        @test thrown(() -> sphere_domain(context, 1, (0, -1))) isa DimensionMismatch
+        domain = sphere_domain(context, 1, (0, 0, -1))
+        @test ndims(domain) == 3
+        @test fails(() -> add_arc!(domain, (0, 0), 0.1), :error_argument, "on a sphere")
+        @test thrown(() -> add_polyline!(domain, places)) isa DimensionMismatch
+        @test add_polyline!(domain, ring; corner_angle = 30) === domain
+        @test measure(domain) ≈ 2pi * (1 + sind(70)) rtol = 1e-4
+        placement = set_spacing!(Placement(domain), 0.1)
+        close(domain)
+        @test run!(placement) === :ok
+        points, corners = nodes(placement).points, triangles(placement)
+        @test size(points) == (3, node_count(placement))
+        @test all(x -> abs(sqrt(sum(abs2, x)) - 1) < 1e-15, eachcol(points))
+        # The tetrahedra from the centre to the triangles.
+        @test all(k -> determinant((points[:, c] for c in k)...) > 0, eachcol(corners))
+        edges = Set(minmax(ends...) for ends in sides(corners))
+        @test size(points, 2) - length(edges) + size(corners, 2) == 1
+        on_boundary = boundary_edges(placement)
+        @test 3 * size(corners, 2) == 2 * length(edges) - size(on_boundary.edges, 2)
+        @test thrown(() -> PNPBS.picture(placement, :triangles)) isa ArgumentError
+        @test fails(() -> VoronoiCells(placement), :error_argument, "on a sphere")
+    end
+end
