@@ -414,6 +414,58 @@ class Domains(Case):
         with self.assertRaisesRegex(ValueError, "corners"):
             domain.add_surface(corners, [(0, 1)])
 
+    def test_on_a_sphere(self):
+        places = np.array([(turn, -70) for turn in range(-178, 182, 2)], float)
+        ring = pnpbs.sphere_points(1, places)
+        self.assertEqual(ring.shape, (180, 3))
+        np.testing.assert_allclose(np.linalg.norm(ring, axis=1), 1, atol=1e-15)
+        np.testing.assert_allclose(pnpbs.sphere_degrees(2 * ring), places, atol=1e-12)
+        self.assertEqual(pnpbs.sphere_points(1, []).shape, (0, 3))
+        domain = pnpbs.Domain.on_sphere(self.context, 1, (0, 0, -1))
+        self.assertEqual(domain.dim, 3)
+        domain.add_polyline(ring, corner_angle=30)
+        self.assertAlmostEqual(domain.measure(), 2 * np.pi * (1 + np.sin(np.radians(70))), 3)
+        placement = pnpbs.Placement(domain).set_spacing(0.1)
+        domain.close()
+        self.assertEqual(placement.run(), Status.OK)
+        points, triangles = placement.nodes().points, placement.triangles()
+        self.assertEqual(points.shape, (placement.node_count, 3))
+        np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1, atol=1e-15)
+        a, b, c = (points[triangles[:, k]] for k in range(3))
+        self.assertGreater(np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c).min(), 0)
+        sides = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)
+        self.assertEqual(len(points) - len(sides) + len(triangles), 1)
+        edges, tags = placement.boundary_edges()
+        self.assertEqual(3 * len(triangles), 2 * len(sides) - len(edges))
+        self.assertEqual(set(tags), {1})
+        self.assertAlmostEqual(points[edges, 2].max(), -np.sin(np.radians(70)), 3)
+        mesh = placement.mesh()
+        self.assertEqual((mesh.dim, mesh.elements.shape), (3, triangles.shape))
+        self.assertEqual(mesh.facets.shape, edges.shape)
+
+    def test_wrong_arguments_on_a_sphere(self):
+        def refusal(function, *arguments):
+            return self.assert_status(Status.ERROR_ARGUMENT, function, *arguments)
+
+        on_sphere = pnpbs.Domain.on_sphere
+        self.assertIn("radius is 0", refusal(on_sphere, self.context, 0, (0, 0, -1)))
+        self.assertIn("outside", refusal(on_sphere, self.context, 1, (0, 0, 0)))
+        self.assertIn("radius is 0", refusal(pnpbs.sphere_points, 0, [(0, 0)]))
+        self.assertIn("degrees[1][1] = 91", refusal(pnpbs.sphere_points, 1, [(0, 0), (0, 91)]))
+        self.assertIn("coordinates[0]", refusal(pnpbs.sphere_degrees, [(0, 0, 0)]))
+        with self.assertRaisesRegex(ValueError, "outside"):
+            on_sphere(self.context, 1, (0, -1))
+        with self.assertRaisesRegex(ValueError, "degrees"):
+            pnpbs.sphere_points(1, [(0, 0, 1)])
+        with self.assertRaisesRegex(ValueError, "coordinates"):
+            pnpbs.sphere_degrees([(0, 1)])
+        domain = on_sphere(self.context, 1, (0, 0, -1))
+        self.assertIn("on a sphere", refusal(domain.add_arc, (0, 0), 0.1))
+        with self.assertRaisesRegex(ValueError, "coordinates"):
+            domain.add_polyline(SQUARE)
+        domain.close()
+        self.assertEqual(repr(domain), "<pnpbs.Domain, closed>")
+
 
 class Meshes(Case):
     def placed(self, domain, d):

@@ -48,6 +48,23 @@ class Shapes(unittest.TestCase):
         with self.assertRaises(PNPBSError):
             shapes.to_degrees(SQUARE)
 
+    def test_nodes_on_a_sphere(self):
+        with pnpbs.Context() as context, pnpbs.Shapes(self.path,
+                                                      projection="sphere(100,-20)") as shapes:
+            outside = pnpbs.sphere_points(1, [(100, -20)])[0]
+            domain = shapes.add_to(pnpbs.Domain.on_sphere(context, 6371, outside), corner_angle=45)
+            placement = pnpbs.Placement(domain).set_spacing(20)
+            self.assertEqual(placement.run(), Status.OK)
+            points = placement.nodes().points
+            np.testing.assert_allclose(np.linalg.norm(points, axis=1), 6371, rtol=1e-15)
+            # Sides are great circles: the northern one bows to 55.004 degrees.
+            degrees = pnpbs.sphere_degrees(points)
+            self.assertTrue(np.all((degrees > (17.999, 53.999)) & (degrees < (20.001, 55.01))))
+            for corner in pnpbs.sphere_points(6371, SQUARE):
+                self.assertLess(np.linalg.norm(points - corner, axis=1).min(), 1e-8)
+            with self.assertRaisesRegex(PNPBSError, "on a sphere"):
+                shapes.add_to(pnpbs.Domain(context))
+
     def test_grids(self):
         # 3 longitude + latitude, in degrees by the file beside it.
         rows = [[3 * (17 + 0.5 * i) + 56 - 0.5 * j for i in range(9)] for j in range(7)]

@@ -101,6 +101,10 @@ def in_space(context: pnpbs.Context) -> None:
         inset = pnpbs.Domain(context, dim=3).add_offset(box, -math.inf, -0.46, 0.4)
         walls = pnpbs.Domain(context, dim=3).add_offset(box, 0.1, 0.6, tag=2)
         assert inset.measure() < 1 < walls.measure()
+    ring: Doubles = pnpbs.sphere_points(2, [(0, -70), (120, -70), (-120, -70)])
+    places: Doubles = pnpbs.sphere_degrees(ring)
+    with pnpbs.Domain.on_sphere(context, 2, (0, 0, -1)).add_polyline(ring) as sea:
+        assert sea.dim == places.shape[1] + 1 and sea.measure() < 16 * math.pi
     option: pnpbs.OptionRow = pnpbs.option_table()[0]
     assert option.name and sum(pnpbs.library_version()) > 0
 

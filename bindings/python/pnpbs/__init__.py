@@ -13,13 +13,13 @@ Delaunay stars, identical for any number of threads and MPI ranks.
         placement.run()
         points = placement.nodes().points
 
-Points are the rows of (n, 2) arrays, in space of (n, 3) ones; indices, ids and ranks count from 0.
-"Collective" functions must be called by all ranks of the context in the same order, and raise on
-all of them or on none; "local" ones need not. One thread at a time may use a context."""
+Points are the rows of (n, 2) arrays, in space and on a sphere of (n, 3) ones; indices, ids and ranks
+count from 0. "Collective" functions must be called by all ranks of the context in the same order,
+and raise on all of them or on none; "local" ones need not. One thread at a time may use a context."""
 
 from ._library import library_path
 from .context import Context
-from .domain import Domain, LeftOut, Outline
+from .domain import Domain, LeftOut, Outline, sphere_degrees, sphere_points
 from .errors import PNPBSError, Status
 from .fields import Transfer
 from .mesh import DistributedMesh
@@ -41,5 +41,5 @@ __all__ = [
     "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars", "StatisticRow", "Status",
     "Transfer", "VoronoiCells", "build_info", "discard_unfinished_files", "file_dimension",
     "format_table", "geo_build_info", "library_path", "library_version", "mpi_library",
-    "option_table", "shutdown", "statistic_table",
+    "option_table", "shutdown", "sphere_degrees", "sphere_points", "statistic_table",
 ]

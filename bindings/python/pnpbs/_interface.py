@@ -43,6 +43,11 @@ pnpbs_status pnpbs_format_count(int32_t *count);
 pnpbs_status pnpbs_format_info(int32_t index, const char **name, const char **help,
     int32_t *binary, int32_t *elements);
 pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim, pnpbs_domain *domain);
+pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius, const double *outside,
+    pnpbs_domain *domain);
+pnpbs_status pnpbs_sphere_points(double radius, int64_t n, const double *degrees,
+    double *coordinates);
+pnpbs_status pnpbs_sphere_degrees(int64_t n, const double *coordinates, double *degrees);
 pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
 pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim);
 pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled);

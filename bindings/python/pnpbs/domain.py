@@ -18,6 +18,7 @@ from ._interface import library
 from ._summaries import summary
 from ._types import ArrayFunction, Doubles, Int32s, Path, Role
 from .context import Context, Handle
+from .errors import check_without_context
 
 _ROLES = {"boundary": _interface.BOUNDARY, "inner": _interface.INNER}
 
@@ -64,9 +65,37 @@ class Domain(Handle):
         self.context = context
         handle = ctypes.c_void_p()
         context._check(library().pnpbs_domain_create(context._live(), dim, ctypes.byref(handle)))
+        self._own(handle)
+
+    @classmethod
+    def on_sphere(cls, context: Context, radius: float, outside: ArrayLike) -> Domain:
+        """Creates an empty domain on a sphere about the origin. Its nodes lie on the sphere,
+        spacings are lengths along it, and points are the rows of (n, 3) arrays. Boundary curves
+        (`add_polyline`) follow great circles from vertex to vertex; the domain is what lies behind
+        an odd number of them, seen from a point in the direction `outside`, three numbers of any
+        length except 0. Nodes are placed in the stereographic projection from that point, which
+        should be ten spacings or more away from the domain. Placements have `triangles` and
+        `boundary_edges`, as in the plane. Not on a sphere yet: Voronoi cells, particles, arcs,
+        parametric curves, files of curves other than those of `Shapes`, and spacing given on grids,
+        meshes or points.
+
+            ring = pnpbs.sphere_points(1, [(lon, -70) for lon in range(0, 360, 2)])
+            sea = pnpbs.Domain.on_sphere(context, 1, (0, 0, -1))
+            sea.add_polyline(ring, corner_angle=30)"""
+        direction = as_point(outside, 3, "outside")
+        self = cls.__new__(cls)
+        Handle.__init__(self)
+        self.context = context
+        handle = ctypes.c_void_p()
+        context._check(library().pnpbs_domain_create_sphere(context._live(), radius, direction,
+                                                            ctypes.byref(handle)))
+        self._own(handle)
+        return self
+
+    def _own(self, handle: ctypes.c_void_p) -> None:
         self._handle = handle.value
         self._callbacks: List[Any] = []
-        context._children.append(self)
+        self.context._children.append(self)
 
     def close(self) -> None:
         """Releases the resources of the library. A placement keeps what it needs of its domain.
@@ -84,7 +113,7 @@ class Domain(Handle):
 
     @property
     def dim(self) -> int:
-        """2 in the plane, 3 in space."""
+        """2 in the plane, 3 in space and on a sphere."""
         dim = ctypes.c_int32()
         self._call("dimension", ctypes.byref(dim))
         return dim.value
@@ -369,3 +398,21 @@ class Domain(Handle):
         segments, tags = np.zeros((count.value, 2, 2)), np.zeros(count.value, dtype=np.int32)
         self._call("get_segments", count.value, ctypes.byref(count), segments, tags)
         return Outline(segments, tags)
+
+
+def sphere_points(radius: float, degrees: ArrayLike) -> Doubles:
+    """Computes points on a sphere about the origin, (n, 3), from longitude and latitude: `degrees`
+    is (n, 2), with longitudes that may exceed a full turn and latitudes from -90 to 90."""
+    places = as_points(degrees, 2, "degrees")
+    points = np.zeros((len(places), 3))
+    check_without_context(library().pnpbs_sphere_points(radius, len(places), places, points))
+    return points
+
+
+def sphere_degrees(coordinates: ArrayLike) -> Doubles:
+    """Computes longitude, from -180 to 180, and latitude, from -90 to 90, of the directions of
+    points: (n, 2) for the rows of `coordinates`, (n, 3), none of them 0."""
+    points = as_points(coordinates, 3, "coordinates")
+    degrees = np.zeros((len(points), 2))
+    check_without_context(library().pnpbs_sphere_degrees(len(points), points, degrees))
+    return degrees

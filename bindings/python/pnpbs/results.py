@@ -194,9 +194,9 @@ class Results(PlacementHandle):
         return Stars(rows, CompressedRows(rows.offsets, triangle.view(np.bool_)))
 
     def triangles(self) -> Ids:
-        """Returns the triangles of a placement in the plane, (n, 3) local indices,
-        counter-clockwise, each once: a triangle belongs to the rank that owns its node with the
-        lowest id; other corners may be ghosts. Collective."""
+        """Returns the triangles of a placement in the plane or on a sphere, (n, 3) local indices,
+        counter-clockwise, on a sphere as seen from outside, each once: a triangle belongs to the
+        rank that owns its node with the lowest id; other corners may be ghosts. Collective."""
         return self._elements("get_triangles", 3)
 
     def tetrahedra(self) -> Ids:
@@ -232,8 +232,8 @@ class Results(PlacementHandle):
 
     def boundary_edges(self) -> Facets:
         """Returns the edges between consecutive nodes on boundary and inner curves of a placement
-        in the plane: (n, 2) local indices, and the tags of the curves. An edge belongs to the rank
-        that owns its first node. Local."""
+        in the plane or on a sphere: (n, 2) local indices, and the tags of the curves. An edge
+        belongs to the rank that owns its first node. Local."""
         return self._facets("get_boundary_edges", 2)
 
     def boundary_triangles(self) -> Facets:

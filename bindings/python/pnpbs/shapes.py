@@ -107,9 +107,11 @@ class Shapes(Handle):
 
     Polygons bound a domain, edges shared by neighbours and lines are inner curves, points are fixed
     nodes. `projection` is a code ("EPSG:2180"), a PROJ string, WKT, the path of a .prj file,
-    "auto", a projection chosen for the data, or "none", the coordinates of the file; by default
-    longitude and latitude are projected as by "auto", and other coordinates are kept. `unit` is "m"
-    or "km", `tag_field` the attribute that becomes the tag. `pnpbs_geo.h` has the details.
+    "auto", a projection chosen for the data, "none", the coordinates of the file, or, for domains
+    on a sphere (`Domain.on_sphere`), "sphere(LON,LAT)" with the longitude and latitude of the point
+    outside; by default longitude and latitude are projected as by "auto", and other coordinates are
+    kept. `unit` is "m" or "km", `tag_field` the attribute that becomes the tag. `pnpbs_geo.h` has
+    the details.
 
         with pnpbs.Shapes("coast.geojson", unit="km") as shapes:
             shapes.add_to(domain, corner_angle=45)
@@ -136,9 +138,9 @@ class Shapes(Handle):
         _check(getattr(_library(), f"pnpbs_geo_{name}")(self._live(), *arguments))
 
     def add_to(self, domain: Domain, corner_angle: float = 0.0) -> Domain:
-        """Adds the shapes to a domain in the plane and returns it. With `corner_angle=0` every
-        vertex becomes a node; otherwise only those where the direction turns by more than this many
-        degrees."""
+        """Adds the shapes to a domain in the plane or on a sphere and returns it. With
+        `corner_angle=0` every vertex becomes a node; otherwise only those where the direction turns
+        by more than this many degrees."""
         self._call("add_to_domain", domain.context._live(), domain._live(), corner_angle)
         return domain
 
