@@ -69,6 +69,8 @@ class Package:
                 continue
             if method.name == "__init__":
                 self.add(method, prefix, node.name, ast.get_docstring(node))
+            elif has_decorator(method, "classmethod"):
+                self.add(method, prefix, f"{node.name}.{method.name}")
             else:
                 self.add(method, prefix, f"{called}.{method.name}")
 
@@ -137,11 +139,15 @@ def exported(module):
             and getattr(node.targets[0], "id", "") == "__all__" for name in node.value.elts]
 
 
+def has_decorator(node, name):
+    return any(isinstance(one, ast.Name) and one.id == name for one in node.decorator_list)
+
+
 def signature(node, name):
-    if any(isinstance(one, ast.Name) and one.id == "property" for one in node.decorator_list):
+    if has_decorator(node, "property"):
         return name
     for one in ast.walk(node.args):
         if isinstance(one, ast.arg):
             one.annotation = None
-    arguments = re.sub(r"^self(, )?", "", ast.unparse(node.args))
+    arguments = re.sub(r"^(self|cls)(, )?", "", ast.unparse(node.args))
     return f"{name}({arguments})"
