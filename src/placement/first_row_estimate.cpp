@@ -48,7 +48,8 @@ double more_by_first_row(const DomainMap<2>& map, const SpacingEvaluator<2>& spa
   }
   const std::vector<double> at_places = values_at(places, spacing);
   double more = 0;
-  for (std::size_t k = 0; k < places.size(); ++k) more += kOverGrowth * (1 - lengths[k] / at_places[k]);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    more += kOverGrowth * (1 - lengths[k] / at_places[k]);
   return more * static_cast<double>(edges) /
          static_cast<double>(std::max<std::size_t>(1, some.size()));
 }
