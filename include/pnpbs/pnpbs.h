@@ -22,10 +22,12 @@
  *   collective  "Collective" functions must be called by all ranks of the context, in the same
  *               order, and return the same status on all of them. "Local" ones need not.
  *   arrays      belong to the caller, are read or filled during the call, and are never kept.
- *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane, 3 in space.
- *               Counts, ids, indices and offsets are 64-bit; indices and offsets are 0-based.
- *   dimension   functions for domains or placements "in the plane" or "in space" reject others with
- *               PNPBS_ERROR_ARGUMENT; all other functions are for both.
+ *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane, 3 in space and on
+ * a sphere. Counts, ids, indices and offsets are 64-bit; indices and offsets are 0-based. dimension
+ * functions for domains or placements "in the plane" or "in space" reject others with
+ *               PNPBS_ERROR_ARGUMENT; all other functions are for both. On a sphere
+ *               (pnpbs_domain_create_sphere) functions are those of the plane, as far as there are
+ *               any.
  *   range       coordinates reach up to 1e60. The size of a domain is at least 1e-60, and at least
  *               1e-10 of its distance from the origin, so that coordinates resolve distinct points;
  *               other domains are PNPBS_ERROR_DOMAIN. A spacing may be larger than the domain:
@@ -231,8 +233,10 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  it is the land. Nodes are placed in the stereographic projection from that point, so that it
  *  should be ten d or more away from the domain: best in the middle of a continent, or of an ocean.
  *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
- *  there. Not on a sphere yet: Voronoi cells, particles, arcs, parametric curves, files of
- *  curves other than those of pnpbs_geo.h, and spacing given on grids, meshes or points. Local.
+ *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on
+ *  a sphere yet: Voronoi cells, particles and offsets, arcs, parametric curves, graphs, files of
+ *  curves other than those of geographic shapes, segments of the domain, and spacing given on
+ * grids, meshes or points. Local.
  *  @param[in] radius   > 0
  *  @param[in] outside  [3], any length but 0: its direction counts */
 PNPBS_API pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,
@@ -254,7 +258,7 @@ PNPBS_API pnpbs_status pnpbs_sphere_degrees(int64_t n, const double *coordinates
 PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
 
 /** Returns the dimension that the domain was created with. Local.
- *  @param[out] dim  2: in the plane, 3: in space */
+ *  @param[out] dim  2: in the plane, 3: in space and on a sphere */
 PNPBS_API pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim);
 
 /** Sets whether a domain in space is the volume enclosed by its surfaces (the default) or the
@@ -815,7 +819,7 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** Returns the dimension of the placement's domain. Local.
- *  @param[out] dim  2: in the plane, 3: in space */
+ *  @param[out] dim  2: in the plane, 3: in space and on a sphere */
 PNPBS_API pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t *dim);
 
 /** Returns the number of nodes of this rank. Local. */
@@ -991,10 +995,11 @@ PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int6
                                                  int64_t *offsets, int64_t *neighbours,
                                                  int8_t *triangle);
 
-/** Copies the triangles of the stars of a placement in the plane, each once, counter-clockwise. On
- *  several ranks a triangle belongs to the rank that owns its node with the lowest id; other
- *  corners may be ghosts, and the triangles of all ranks together are one conforming triangulation
- *  of the domain. Collective. Call with capacity 0 to get the count.
+/** Copies the triangles of the stars of a placement in the plane or on a sphere, each once,
+ *  counter-clockwise, on a sphere as seen from outside. On several ranks a triangle belongs to the
+ * rank that owns its node with the lowest id; other corners may be ghosts, and the triangles of all
+ * ranks together are one conforming triangulation of the domain. Collective. Call with capacity 0
+ * to get the count.
  *  @param[out] triangles  [count][3] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
                                                      int64_t *count, int64_t *triangles);
@@ -1003,7 +1008,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, 
  *  corner, the first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of
  *  corners a, b, c and d is positive. On several ranks a tetrahedron belongs to the rank that owns
  *  its node with the lowest id; other corners may be ghosts, and the tetrahedra of all ranks
- *  together are one conforming triangulation of the domain. Surfaces alone have none. Collective.
+ *  together are one conforming triangulation of the domain. Surfaces alone and spheres have none.
+ *  Collective.
  *  Call with capacity 0 to get the count.
  *  @param[out] tetrahedra  [count][4] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
@@ -1045,9 +1051,9 @@ PNPBS_API pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement pl
                                                               int64_t capacity, int64_t *count,
                                                               int64_t *triangles, int32_t *tags);
 
-/** Copies the boundary edges of a placement in the plane: consecutive nodes on boundary and inner
- *  curves. On several ranks an edge belongs to the rank that owns its first node; the other end may
- *  be a ghost. Local. Call with capacity 0 to get the count.
+/** Copies the boundary edges of a placement in the plane or on a sphere: consecutive nodes on
+ * boundary and inner curves. On several ranks an edge belongs to the rank that owns its first node;
+ * the other end may be a ghost. Local. Call with capacity 0 to get the count.
  *  @param[out] edges  [count][2] local indices, or NULL
  *  @param[out] tags   [count], or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement,

@@ -25,6 +25,7 @@ namespace {
 // With the texts that callers are given.
 struct Object {
   explicit Object(const Request& request) : shapes(request) {
+    if (shapes.on_sphere()) return;  // none that coordinates would be in
     const ReferenceSystem& system = shapes.projection().system();
     name = system.name(), unit = system.unit(), proj = system.proj();
     wkt = system.wkt(), prj = system.prj();
@@ -254,7 +255,9 @@ pnpbs_status pnpbs_geo_write_prj(pnpbs_geo_shapes shapes, const char* results) {
   return guarded(shapes, [&](Object& object) {
     require_pointer(results, "results");
     if (object.prj.empty())
-      throw Error(ErrorKind::state, "the file does not say what its coordinates are");
+      throw Error(ErrorKind::state, object.shapes.on_sphere()
+                                        ? "on a sphere there is no projection"
+                                        : "the file does not say what its coordinates are");
     write_text(std::filesystem::path(results).replace_extension(".prj").string(), object.prj);
   });
 }

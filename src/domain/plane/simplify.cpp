@@ -93,8 +93,11 @@ class Simplifier {
     for (std::size_t c = 0; c < chains_.size(); ++c) {
       if (!loop_goes_[c]) continue;
       ++left_out_.curves;
-      left_out_.vertices += static_cast<std::int64_t>(chains_[c].edges.size());
-      for (const std::int32_t v : chains_[c].vertices) gone_[v] = 1;
+      // Of a closed chain the first vertex is the last one, too.
+      const std::vector<std::int32_t>& vertices = chains_[c].vertices;
+      left_out_.vertices += std::count_if(vertices.begin() + 1, vertices.end(),
+                                          [this](std::int32_t v) { return was_given(v); });
+      for (const std::int32_t v : vertices) gone_[v] = 1;
       std::erase_if(region_points_, [&](const RegionPoint<2>& it) {
         return is_within(it.point, chains_[c], graph_);
       });
@@ -133,8 +136,8 @@ class Simplifier {
     for (const RegionPoint<2>& it : region_points_) positions.push_back(it.point);
     const PointTree points(positions);
     // What was in the way may have left, so all are asked again until none leaves.
-    for (std::int64_t before = -1; before != left_out_.vertices;) {
-      before = left_out_.vertices;
+    for (std::int64_t before = -1; before != vertices_gone_;) {
+      before = vertices_gone_;
       for (std::size_t s = 0; s < slots_.size(); ++s) offer(static_cast<std::int64_t>(s));
       empty_queue(points, positions);
     }
@@ -210,10 +213,19 @@ class Simplifier {
     return free;
   }
 
+  // Not one that only follows a great circle?
+  bool was_given(std::int32_t v) const {
+    const GraphVertex& vertex = graph_.vertices[v];
+    if (vertex.source < 0) return true;
+    const std::vector<char>& on_the_way = sources_[vertex.source].on_the_way;
+    return on_the_way.empty() || !on_the_way[vertex.index];
+  }
+
   void leave_out(std::int64_t slot) {
     const Slot here = slots_[slot];
     gone_[here.vertex] = 1;
-    ++left_out_.vertices;
+    ++vertices_gone_;
+    left_out_.vertices += was_given(here.vertex);
     slots_[here.before].after = here.after;
     slots_[here.after].before = here.before;
     if (--left_in_chain_[here.chain] == 2)
@@ -313,6 +325,7 @@ class Simplifier {
   std::vector<std::int32_t> turn_of_;                         // of slots: how often offered
   std::set<std::pair<std::int32_t, std::int32_t>> straight_;  // chains of one segment
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
+  std::int64_t vertices_gone_ = 0;
   LeftOut left_out_;
 };
 
