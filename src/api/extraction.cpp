@@ -218,10 +218,13 @@ pnpbs_status get_elements(pnpbs_placement placement, std::int64_t capacity, std:
                           std::int64_t* elements) {
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
-    *count = 0;
-    if (Dim == 3 && on_sphere(results)) return PNPBS_OK;  // as on surfaces alone
+    if (Dim == 3 && on_sphere(results)) {  // none, as on surfaces alone
+      *count = 0;
+      return PNPBS_OK;
+    }
     const Results<Dim>& in = require_dimension<Dim>(results);
     results.prepare_stars();
+    *count = 0;
     in.for_elements([&](const auto&) { ++*count; });
     if (capacity == 0 && !elements) return PNPBS_OK;
     require_capacity(capacity, *count);
