@@ -2,23 +2,17 @@
 // Spheres through the C interface.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "api/domain_calls.hpp"
 #include "api/sphere_points.hpp"
 #include "base/places_in_text.hpp"
 #include "domain/given_values.hpp"
+#include "sphere/degrees.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
 
 namespace {
-
-constexpr double kRadian = std::numbers::pi / 180;
-
-Point<2> degrees_of(const Point<3>& x) {
-  return {std::atan2(x[1], x[0]) / kRadian, std::atan2(x[2], std::hypot(x[0], x[1])) / kRadian};
-}
 
 void require_degrees(std::int64_t i, const double* degrees) {
   constexpr double kMostTurns = 3600;
@@ -77,11 +71,11 @@ pnpbs_status pnpbs_sphere_points(double radius, int64_t n, const double* degrees
     for (std::int64_t i = 0; i < n; ++i) require_degrees(i, degrees + 2 * i);
     for (std::int64_t i = 0; i < n; ++i) {
       const double turn = std::remainder(degrees[2 * i], 360), latitude = degrees[2 * i + 1];
-      const double across = std::fabs(latitude) == 90 ? 0 : radius * std::cos(kRadian * latitude);
+      const double across = std::fabs(latitude) == 90 ? 0 : radius * std::cos(kDegree * latitude);
       const bool opposite = std::fabs(turn) == 180;
-      coordinates[3 * i] = across * (opposite ? -1 : std::cos(kRadian * turn));
-      coordinates[3 * i + 1] = opposite ? 0 : across * std::sin(kRadian * turn);
-      coordinates[3 * i + 2] = radius * std::sin(kRadian * latitude);
+      coordinates[3 * i] = across * (opposite ? -1 : std::cos(kDegree * turn));
+      coordinates[3 * i + 1] = opposite ? 0 : across * std::sin(kDegree * turn);
+      coordinates[3 * i + 2] = radius * std::sin(kDegree * latitude);
     }
     return PNPBS_OK;
   });

@@ -108,7 +108,9 @@ void Shapes::project() {
     for (std::int64_t& place : route.places) place = place_of[place];
   for (std::size_t s = 0; s < spots.size(); ++s) layer_.spots[s].point = projected[spots[s]];
   places_ = places.points();
-  const double extent = places_.empty() ? 0 : extent_of(places_);
+  const double extent = on_sphere()       ? 2 * projection_.sphere_radius()
+                        : places_.empty() ? 0
+                                          : extent_of(places_);
   scale_ = projection_.scale_at(places_);
   const auto where = [&](std::int64_t place) { return with_degrees(point_text(places_[place])); };
   outlines_ = outlines_of(std::move(routes), places_, where, projection_.sphere_radius());
@@ -170,10 +172,10 @@ void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_an
     points.push_back(spot.point);
     tags.push_back(spot.tag);
   }
-  if (!points.empty())
-    check(pnpbs_domain_add_fixed_nodes(domain, static_cast<std::int64_t>(points.size()),
-                                       coordinates_of(std::move(points)).data(), tags.data()),
-          context);
+  if (points.empty()) return;
+  const std::vector<double> coordinates = coordinates_of(points);
+  check(pnpbs_domain_add_fixed_nodes(domain, std::ssize(points), coordinates.data(), tags.data()),
+        context);
 }
 
 void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const {
@@ -181,9 +183,10 @@ void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corne
   for (const Curve& curve : outlines_.curves) {
     points.clear();
     for (const std::int64_t place : curve.places) points.push_back(places_[place]);
+    const std::vector<double> coordinates = coordinates_of(points);
     check(pnpbs_domain_add_polyline(domain, curve.bounds ? PNPBS_BOUNDARY : PNPBS_INNER,
-                                    curve.closed, static_cast<std::int64_t>(points.size()),
-                                    coordinates_of(points).data(), curve.tags.data(), corner_angle),
+                                    curve.closed, std::ssize(points), coordinates.data(),
+                                    curve.tags.data(), corner_angle),
           context);
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/space_vectors.hpp"
+#include "sphere/degrees.hpp"
 
 namespace pnpbs {
 
@@ -19,7 +20,7 @@ struct PlaceOnSphere {
 // gradient of the stretch. Half of that over a piece is the angle that it makes with the great
 // circle at its ends.
 double longest_piece(double radius, const Point<2>& u) {
-  constexpr double kAngle = 0.3 * 3.14159265358979323846 / 180, kLongest = 0.1;
+  constexpr double kAngle = 0.3 * kDegree, kLongest = 0.1;
   const double away = length(Point<3>{u[0], u[1], 0}) / radius;
   return std::min(kLongest, 4 * kAngle / away);
 }

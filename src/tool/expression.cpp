@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tool/degrees.hpp"
+#include "sphere/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/formula_text.hpp"
 #include "tool/interrupt.hpp"
@@ -246,7 +246,7 @@ struct Expression::Parser {
   void go_to(const double* there) {
     std::copy_n(there, dimension, place);
     if (!asks_for_degrees) return;
-    const auto [longitude, latitude] = degrees_at(place);
+    const auto [longitude, latitude] = degrees_of({place[0], place[1], place[2]});
     lon = longitude;
     lat = latitude;
   }

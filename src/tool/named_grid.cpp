@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "spacing/beside_domain.hpp"
-#include "tool/degrees.hpp"
+#include "sphere/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/library.hpp"
 
@@ -120,7 +120,10 @@ void NamedGrid::evaluate(std::int64_t n, const double* coordinates, double* valu
                          std::int32_t* inside) const {
   if (!on_sphere_) return evaluate_in_plane(n, coordinates, values, inside);
   std::vector<Point<2>> degrees;
-  for (std::int64_t i = 0; i < n; ++i) degrees.push_back(degrees_at(coordinates + 3 * i));
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double* x = coordinates + 3 * i;
+    degrees.push_back(degrees_of({x[0], x[1], x[2]}));
+  }
   evaluate_in_plane(n, n > 0 ? degrees[0].data() : nullptr, values, inside);
 }
 

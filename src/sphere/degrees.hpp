@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // radians
+
+// Longitude and latitude of a place on a sphere about the origin; 0 and 0 of the origin.
+inline Point<2> degrees_of(const Point<3>& x) {
+  return {std::atan2(x[1], x[0]) / kDegree, std::atan2(x[2], std::hypot(x[0], x[1])) / kDegree};
+}
+
+}  // namespace pnpbs
