@@ -24,8 +24,10 @@ def feature(*polygons):
 
 
 # Cut open at 180 degrees, as files have it: along the meridian to the pole, and there around.
-ANTARCTICA = feature([[lon, -74 + 3 * np.cos(np.radians(3 * lon))] for lon in range(-180, 181, 5)]
-                     + [[180, -90], [-180 + 1e-13, -90]])
+# There some have -179.99999999999994.
+WEST = -180 + 6e-14
+ANTARCTICA = feature([[max(lon, WEST), -74 + 3 * np.cos(np.radians(3 * lon))]
+                      for lon in range(-180, 181, 5)] + [[180, -90], [WEST, -90]])
 ACROSS = feature([[168, 8], [180, 8], [180, 22], [170, 25]], [[-180, 8], [-172, 12], [-180, 22]])
 CONTINENT = feature([[-20, -10], [30, -30], [50, 10], [20, 40], [-30, 30]])
 
