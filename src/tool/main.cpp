@@ -95,9 +95,9 @@ bool leave_out_shapes(const std::vector<std::string>& warnings) {
 }
 
 // How a file of geographers was taken: before d is asked for, since its unit hangs on it.
-void tell_projection(const GeoFile& geo, bool on_sphere) {
+void tell_projection(const GeoFile& geo) {
   const GeoFile::Projection projection = geo.projection();
-  if (!projection.name.empty() && !on_sphere)
+  if (!projection.name.empty())
     std::cerr << "pnpbs: x and y are in '" << projection.name << "', in " << projection.unit
               << " (--projection, --unit)\n";
   for (const std::string& note : geo.notes()) std::cerr << "pnpbs: note: " << note << "\n";
@@ -239,7 +239,7 @@ void read_domain(Work& work) {
     source.create(work.context, work.domain.out());
   });
   source.read(work.domain, work.context, work.ranks);
-  if (source.geo() && work.talks()) tell_projection(*source.geo(), source.on_sphere());
+  if (source.geo() && work.talks()) tell_projection(*source.geo());
   work.ranks.agreed([&] {
     spacing.read_grids(work.domain, work.context, source.geo());
     if (arguments.simplify)

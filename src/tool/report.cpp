@@ -54,7 +54,7 @@ void describe(const GeoFile& geo, const Arguments& arguments, Json& report) {
   if (!arguments.layer.empty()) report["layer"] = arguments.layer;
   if (!arguments.tag_field.empty()) report["tag_field"] = arguments.tag_field;
   const GeoFile::Projection projection = geo.projection();
-  if (projection.name.empty() || arguments.sphere) return;
+  if (projection.name.empty()) return;
   report["projection"] = {{"name", projection.name},
                           {"unit", projection.unit},
                           {"scale", {projection.least_scale, projection.greatest_scale}},
