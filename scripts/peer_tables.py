@@ -7,35 +7,51 @@ usage: peer_tables.py [<folder of the sources>]"""
 import pathlib
 import re
 import sys
+from typing import NamedTuple
 
-PAGES = {"docs/comparison.md": "nodes/s", "docs/comparison_volumes.md": "nodes per CPU s"}
 BEGIN, END = "<!-- peer tables: written by scripts/peer_tables.py -->", "<!-- end of the peer tables -->"
 QUALITY = "quality: mean / 99 % above / least"
-# Each tool as the pages name it, in the plane or in space.
-COLUMNS = {
-    "PNPBS": ("PNPBS, default",),
-    "gmsh": ("gmsh, frontal", "gmsh, Delaunay"),
-    "gmsh HXT": ("gmsh, HXT",),
-    "CGAL": ("CGAL, Delaunay refinement",),
-    "Triangle": ("Triangle, by triangle",),
-    "TetGen": ("TetGen",),
-    "Netgen": ("Netgen",),
-    "JIGSAW": ("JIGSAW, default",),
-}
-# The cases as the headings of the pages name them, without "d for 100 000 nodes".
-CASES = {
-    "Unit square, d growing by 0.2 from a line": "square, from a line",
-    "Unit square, d graded 1:10": "square, 1:10",
-    "Box, d growing by 0.15 from an airfoil": "airfoil",
-    "Great Lakes with 109 islands, graded": "Great Lakes",
-    "Unit square, uniform": "square, even",
-    "Annulus, uniform": "annulus, even",
-    "Unit cube, uniform": "cube, even",
-    "Unit cube, d graded 1:5": "cube, 1:5",
-    "Ball, uniform": "ball, even",
-    "L-block, uniform": "L-block, even",
-    "Asteroid Kleopatra, uniform": "Kleopatra, even",
-    "Asteroid Eros, uniform": "Eros, even",
+
+
+class Page(NamedTuple):
+    """What of a page the tables show: the names of its columns, and by column of the tables the tool."""
+    where: str
+    speed: str
+    unit: str
+    least: str  # the quality of all, or of those where the domain is wide
+    tools: dict
+    cases: dict  # as the headings name them, without "d for 100 000 nodes"
+
+
+PAGES = {
+    "docs/comparison.md": Page(
+        "plane", "nodes/s", "thousand nodes a second", "least where wide",
+        {"PNPBS": "PNPBS, default",
+         "PNPBS, best": "PNPBS, best",
+         "gmsh": "gmsh, frontal",
+         "CGAL": "CGAL, Delaunay refinement",
+         "Triangle": "Triangle, by triangle",
+         "JIGSAW": "JIGSAW, default"},
+        {"Unit square, uniform": "square, even",
+         "Unit square, d graded 1:10": "square, 1:10",
+         "Unit square, d growing by 0.2 from a line": "square, from a line",
+         "Box, d growing by 0.15 from an airfoil": "airfoil",
+         "Annulus, uniform": "annulus, even",
+         "Great Lakes with 109 islands, graded": "Great Lakes"}),
+    "docs/comparison_volumes.md": Page(
+        "space", "nodes per CPU s", "thousand nodes a CPU second", QUALITY,
+        {"PNPBS": "PNPBS, default",
+         "gmsh": "gmsh, Delaunay",
+         "gmsh HXT": "gmsh, HXT",
+         "TetGen": "TetGen",
+         "Netgen": "Netgen",
+         "JIGSAW": "JIGSAW, default"},
+        {"Unit cube, uniform": "cube, even",
+         "Unit cube, d graded 1:5": "cube, 1:5",
+         "Ball, uniform": "ball, even",
+         "L-block, uniform": "L-block, even",
+         "Asteroid Kleopatra, uniform": "Kleopatra, even",
+         "Asteroid Eros, uniform": "Eros, even"}),
 }
 
 
@@ -62,61 +78,64 @@ def tables(text):
     return found
 
 
-def figures(row, speed):
-    """Mean and 1 % of the quality, and thousand nodes a second; None for a tool that failed."""
+def figures(row, page):
+    """As the tables show them: mean, 1 % and least of the quality, and thousand nodes a second. None for a
+    tool that failed."""
     if not row.get(QUALITY):
         return None
     mean, one_percent = row[QUALITY].split(" / ")[:2]
-    return float(mean), float(one_percent), float(row[speed].replace(" ", "")) / 1000
+    speed = float(row[page.speed].rstrip(" *").replace(" ", "")) / 1000
+    return ([mean, one_percent, row[page.least].split(" / ")[-1]],
+            [f"{speed:.0f}" if speed >= 10 else f"{speed:.1f}"])
 
 
-def lines_of(root):
-    """By case and column, its figures, or None; a column that a page does not have is not there."""
+def value(text):
+    return 0 if text == "-" else float(text)  # no triangle where the domain is wide
+
+
+def lines_of(root, name, page):
+    """By case and column, its figures, or None; a tool that the page does not have is not there."""
+    on_page = tables((root / name).read_text(encoding="utf-8"))
+    if not on_page:
+        raise Unknown(f"{name} has no table of a case")
     found = {}
-    for page, speed in PAGES.items():
-        on_page = tables((root / page).read_text(encoding="utf-8"))
-        if not on_page:
-            raise Unknown(f"{page} has no table of a case")
-        for case, rows in on_page.items():
-            if case not in CASES:
-                raise Unknown(f"{page}: no name for the case '{case}'")
-            found[CASES[case]] = {
-                column: figures(rows[name], speed)
-                for column, names in COLUMNS.items()
-                for name in [name for name in names if name in rows][:1]}
-            if "PNPBS" not in found[CASES[case]]:
-                raise Unknown(f"{page}: no row of {COLUMNS['PNPBS'][0]} for '{case}'")
-    missing = [name for name in CASES.values() if name not in found]
+    for case, rows in on_page.items():
+        if case not in page.cases:
+            raise Unknown(f"{name}: no name for the case '{case}'")
+        if page.tools["PNPBS"] not in rows:
+            raise Unknown(f"{name}: no row of {page.tools['PNPBS']} for '{case}'")
+        found[page.cases[case]] = {column: figures(rows[tool], page)
+                                   for column, tool in page.tools.items() if tool in rows}
+    missing = [case for case in page.cases.values() if case not in found]
     if missing:
-        raise Unknown(f"no page has the case '{missing[0]}'")
+        raise Unknown(f"{name} does not have the case '{missing[0]}'")
     return found
 
 
-def table(title, found, key, shown):
-    """A row for each case; the best figure is bold."""
-    rows = ["| " + " | ".join([title, *COLUMNS]) + " |", "| --- |" + " --- |" * len(COLUMNS)]
+def table(title, columns, found, which):
+    """A row for each case; the best of each figure is bold."""
+    rows = ["| " + " | ".join([title, *columns]) + " |", "| --- |" + " --- |" * len(columns)]
     for case, tools in found.items():
-        best = max(key(one) for one in tools.values() if one)
+        shown = {column: one[which] for column, one in tools.items() if one}
+        best = [max(map(value, same)) for same in zip(*shown.values())]
         row = [case]
-        for column in COLUMNS:
-            if column not in tools:
-                row.append("")
-            elif tools[column] is None:
-                row.append("failed")
+        for column in columns:
+            if column in shown:
+                row.append(" / ".join(f"**{text}**" if value(text) == most else text
+                                      for text, most in zip(shown[column], best)))
             else:
-                text = shown(tools[column])
-                row.append(f"**{text}**" if key(tools[column]) == best else text)
+                row.append("failed" if column in tools else "")
         rows.append("| " + " | ".join(row) + " |")
     return rows
 
 
 def block(root):
-    found = lines_of(root)
-    quality = table("quality: mean (1 %)", found, lambda one: round(one[0], 3),
-                    lambda one: f"{one[0]:.3f} ({one[1]:.2f})")
-    speed = table("thousand nodes a second", found, lambda one: round(one[2], 1),
-                  lambda one: f"{one[2]:.0f}" if one[2] >= 10 else f"{one[2]:.1f}")
-    return "\n".join([BEGIN, "", *quality, "", *speed, "", END])
+    lines = [BEGIN, ""]
+    for name, page in PAGES.items():
+        found = lines_of(root, name, page)
+        for which, title in enumerate(("quality", page.unit)):
+            lines += [*table(f"{page.where}, {title}", page.tools, found, which), ""]
+    return "\n".join([*lines, END])
 
 
 def parts(text):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The first row of inner nodes. Boundary nodes do not move, and rows of bubbles at rest slip
 // against them where d grows from a boundary or it is bent: the triangles between are the worst of
-// all. An advancing front begins with one node over each edge of the boundary (S. Lo, Int. J.
+// all. An advancing front begins with one node over each edge of the boundary (S. H. Lo, Int. J.
 // Numer. Methods Eng. 21, 1985, 1403-1426; with equilateral triangles, D. Engwirda, D. Ivers,
 // Comput.-Aided Des. 72, 2016, 157-171). Such a row replaces what bubbles have made.
 #pragma once
