@@ -22,9 +22,10 @@
  *   collective  "Collective" functions must be called by all ranks of the context, in the same
  *               order, and return the same status on all of them. "Local" ones need not.
  *   arrays      belong to the caller, are read or filled during the call, and are never kept.
- *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane, 3 in space and on
- * a sphere. Counts, ids, indices and offsets are 64-bit; indices and offsets are 0-based. dimension
- * functions for domains or placements "in the plane" or "in space" reject others with
+ *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane, 3 in space
+ *               and on a sphere. Counts, ids, indices and offsets are 64-bit; indices and offsets
+ *               are 0-based.
+ *   dimension   functions for domains or placements "in the plane" or "in space" reject others with
  *               PNPBS_ERROR_ARGUMENT; all other functions are for both. On a sphere
  *               (pnpbs_domain_create_sphere) functions are those of the plane, as far as there are
  *               any.
@@ -232,11 +233,15 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  must be outside: with coasts and a point on land the domain is the sea, with a point in the sea
  *  it is the land. Nodes are placed in the stereographic projection from that point, so that it
  *  should be ten d or more away from the domain: best in the middle of a continent, or of an ocean.
+ *  Without any boundary curve the domain is the whole sphere. Then nodes are laid first and fixed
+ *  up to 12 d around the point, where d must be a quarter of the radius at most, and should vary
+ *  little; no inner curve or fixed node may be there. The triangles close the sphere, and there are
+ *  no boundary edges.
  *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
- *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on
- *  a sphere yet: Voronoi cells, particles and offsets, arcs, parametric curves, graphs, files of
+ *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on a
+ *  sphere yet: Voronoi cells, particles and offsets, arcs, parametric curves, graphs, files of
  *  curves other than those of geographic shapes, segments of the domain, and spacing given on
- * grids, meshes or points. Local.
+ *  grids, meshes or points. Local.
  *  @param[in] radius   > 0
  *  @param[in] outside  [3], any length but 0: its direction counts */
 PNPBS_API pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,

@@ -46,6 +46,14 @@ const Point<Dim>* points_from(const double* coordinates) {
   return reinterpret_cast<const Point<Dim>*>(coordinates);
 }
 
+void require_shape(const PlaneDomain& domain) {
+  if (domain.is_whole_sphere() && domain.curves().empty())
+    throw Error(ErrorKind::argument,
+                "argument domain is a whole sphere without curves: there is nothing that distances "
+                "and other measures of its shape could be of");
+}
+void require_shape(const VolumeDomain&) {}
+
 // Calls ask(shapes) with what is known of the shape of the domain, which is checked first. Curves
 // by callback are asked then; so from inside a callback, the first question must have been before.
 template <class Ask>
@@ -55,6 +63,7 @@ pnpbs_status ask_shape(pnpbs_domain domain, const Ask& ask) {
       if (!shapes) {
         const Computing computing(*object.context);
         checked.check();
+        require_shape(checked);
         shapes = std::make_shared<DomainShapes<Dim>>(checked);
       }
       ask(*shapes);
@@ -121,6 +130,7 @@ pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
       std::shared_ptr<const Spacing<Dim>> spacing;
       agreed(p.communicator(), [&] {
         in.domain().check();
+        require_shape(in.domain());
         if constexpr (Dim == 2)
           if (const StereographicChart* chart = in.chart()) {
             DomainShapes<3> shapes(in.domain());

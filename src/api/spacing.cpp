@@ -227,11 +227,6 @@ pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int
                         std::to_string(results.level().nodes.id(results.node_at(i))) +
                         ": the spacing must be finite and greater than 0");
     std::vector<double> values(d, d + n);
-    if constexpr (Dim == 2)
-      if (const StereographicChart* chart = in.chart())
-        for (std::int64_t i = 0; i < n; ++i)
-          values[static_cast<std::size_t>(i)] *=
-              chart->stretch(results.level().nodes.position(results.node_at(i)));
     return spacing_from(results, std::move(values));
   });
 }

@@ -3,6 +3,7 @@
 // in.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -34,11 +35,14 @@ inline std::vector<Point<3>> require_directions(const char* argument, std::int64
   return points;
 }
 
+// The point that is projected from is far out in some direction.
 inline std::vector<double> in_chart(const StereographicChart& chart,
                                     const std::vector<Point<3>>& points) {
   std::vector<double> coordinates;
   for (const Point<3>& x : points) {
-    const Point<2> u = chart.in_chart(x);
+    constexpr double kFarOut = 1e9;
+    Point<2> u = chart.in_chart(x);
+    if (!std::isfinite(u[0]) || !std::isfinite(u[1])) u = {kFarOut * chart.radius(), 0};
     coordinates.insert(coordinates.end(), u.begin(), u.end());
   }
   return coordinates;

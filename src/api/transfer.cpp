@@ -68,6 +68,12 @@ pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t
   });
 }
 
+// Or of none, where there is none.
+bool is_of_sphere(const std::optional<StereographicChart>& chart,
+                  const StereographicChart* sphere) {
+  return sphere ? chart == *sphere : !chart;
+}
+
 }  // namespace
 
 pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n, int32_t components,
@@ -128,8 +134,7 @@ pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement pl
         throw Error(ErrorKind::argument,
                     "argument placement belongs to another context than the transfer");
       NodalResults& results = target->placement->results();
-      if (const StereographicChart* chart = target->placement->chart();
-          (chart ? *chart == object.chart : !object.chart) == false)
+      if (!is_of_sphere(object.chart, target->placement->chart()))
         throw Error(ErrorKind::argument,
                     "argument placement is not on the sphere that the transfer's nodes are on");
       if (results.dimension() != object.transfer->dimension())

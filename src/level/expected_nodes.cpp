@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/lattice.hpp"
 
@@ -74,12 +75,17 @@ double expected_nodes(const Level<Dim>& level) {
 namespace {
 
 // By which d grows in the chart of a sphere where it does not along the sphere: bubbles of the
-// sphere are bubbles of the chart, and such growth is none to them.
+// sphere are bubbles of the chart, and such growth is none to them. Any growth, in leaves across
+// which the chart grows too much for their samples to tell.
 double growth_of_chart(const Level<2>& level, std::int32_t leaf, double d) {
+  constexpr double kTooMuch = 0.5;  // over a leaf
   const StereographicChart* chart = level.ground.domain().chart();
   if (!chart) return 0;
   const BackgroundTree<2>& tree = level.map().tree();
-  return d * chart->relative_growth(tree.cell_centre(tree.leaf_cell(leaf)));
+  const std::int32_t cell = tree.leaf_cell(leaf);
+  const double growth = chart->relative_growth(tree.cell_centre(cell));
+  if (growth * tree.cell_side(cell) > kTooMuch) return std::numeric_limits<double>::infinity();
+  return d * growth;
 }
 double growth_of_chart(const Level<3>&, std::int32_t, double) { return 0; }
 

@@ -79,6 +79,9 @@ IncomingNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::functio
       inner.push_back({x, -1});
   });
   for (const Point<Dim>& x : graded_fill(level, owned)) inner.push_back({x, -1});
+  std::erase_if(inner, [&](const IncomingNode<Dim>& node) {
+    return level.ground.is_closed_at(node.position);
+  });
   return inner;
 }
 

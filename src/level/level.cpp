@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/level.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -68,7 +69,11 @@ std::int64_t Level<Dim>::owned_count() const {
   return pnpbs::owned_count(nodes);
 }
 
-std::int64_t boundary_nodes(const Level<2>& level) { return level.ground.boundary_nodes(); }
+std::int64_t boundary_nodes(const Level<2>& level) {
+  return std::ranges::count_if(level.ground.boundary().nodes, [&](const BoundaryNode<2>& node) {
+    return !level.ground.domain().is_in_patch(node.position);
+  });
+}
 
 std::int64_t boundary_nodes(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;

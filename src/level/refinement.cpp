@@ -89,6 +89,12 @@ void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visi
     if (pieces >= 3) for_new_nodes_in_triangles(level, i, d, pieces, visit);
 }
 
+// Nodes that close a whole sphere are nodes as others where the next level's patch does not reach.
+void leave_patch(const Level<2>& level, IncomingNode<2>& node) {
+  node.inner = node.inner || level.ground.domain().is_in_patch(node.position);
+}
+void leave_patch(const Level<3>&, IncomingNode<3>&) {}
+
 void append_surface_midpoints(const Level<2>&, const View<double>&, IncomingNodes<2>&) {}
 
 // With one where the spacing was `before` and will be d. Cutting edges in space may bring more than
@@ -139,7 +145,8 @@ IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
       std::size_t place = begin[static_cast<std::size_t>(chunk)];
       for_owned_in(chunk, [&](std::int64_t i) {
         const double before = level.ground.spacing_at(nodes, i);
-        refined[place++] = kept_node(nodes, i);
+        refined[place] = kept_node(nodes, i);
+        leave_patch(level, refined[place++]);
         for_new_nodes(level, i, spacing(i), [&](const Point<Dim>& x) {
           refined[place++] = new_node(x, before, spacing(i));
         });

@@ -37,6 +37,7 @@ namespace {
 // In the domain, and not too close to its boundary.
 template <int Dim>
 bool has_room(const Level<Dim>& level, const IncomingNode<Dim>& node) {
+  if (level.ground.is_closed_at(node.position)) return false;
   if (level.neighbourhood.near_boundary().leaf_is_clear(node.leaf))
     return !level.map().leaf_outside(node.leaf);
   return has_clearance(level, node.position, level.map().leaf_spacing(node.leaf));

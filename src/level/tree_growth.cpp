@@ -89,7 +89,8 @@ std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& sett
     map_.build_part(
         comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
         [&](const BackgroundTree<Dim>& tree, std::int32_t c, double nodes) {
-          return tree.cell(c).depth < kUniformDepth || nodes > max;
+          return tree.cell(c).depth < kUniformDepth || nodes > max ||
+                 chart_varies(ground_.domain(), tree.cell_box(c));
         },
         kLevelRefinement<Dim>);
     work = expected_work(map_);
@@ -129,7 +130,9 @@ void LevelTree<Dim>::link_leaves(const Settings& settings) {
                          : distribution_.cells().max_spacing(distribution_.cell_of(leaf));
     reach.push_back(map_.leaf_empty(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
   }
-  links_ = std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach));
+  const bool on_sphere = chart_of(ground_.domain()) != nullptr;
+  links_ = std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach),
+                                                  on_sphere ? PairReach::mean : PairReach::larger);
 }
 
 // In full wherever own nodes and ghosts can be. What is within the hops is known only once it is

@@ -26,14 +26,19 @@ class Fingerprint {
 std::uint64_t fingerprint_of(const PlaneDomain& domain) {
   Fingerprint print;
   if (const StereographicChart* chart = domain.chart()) print.add(chart->projected_from());
+  // How a whole sphere is closed depends on the spacing.
+  const bool whole = domain.is_whole_sphere();
   for (const BoundaryCurve& curve : domain.curves()) {
+    if (whole && curve.left_inside != curve.right_inside) continue;
     print.add(curve.tag);
     print.add(curve.left_inside);  // the role, and holes
     print.add(curve.right_inside);
     for (const Point<2>& x : curve.points) print.add(x);
   }
-  for (const Corner& corner : domain.corners()) print.add(corner.tag);
+  for (const Corner& corner : domain.corners())
+    if (!whole) print.add(corner.tag);
   for (const FixedNode<2>& node : domain.fixed_nodes()) {
+    if (domain.is_in_patch(node.position)) continue;
     print.add(node.tag);
     print.add(node.position);
   }

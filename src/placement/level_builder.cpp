@@ -8,6 +8,7 @@
 #include "level/first_nodes.hpp"
 #include "level/refinement.hpp"
 #include "level/volume/gaps.hpp"
+#include "placement/closing_patch.hpp"
 #include "placement/coarser_levels.hpp"
 #include "placement/holding_spacing.hpp"
 #include "placement/settling_surfaces.hpp"
@@ -25,6 +26,13 @@ IncomingNodes<Dim> new_nodes(IncomingNodes<Dim> nodes) {
   return nodes;
 }
 
+// The trees of both are partitioned alike: a sphere is closed closer to the point, and so farther
+// out in the chart, where d is less.
+void take_bounds(PlaneDomain& domain, const PlaneDomain& finer) {
+  if (domain.is_whole_sphere()) domain.take_bounds(finer.bounds());
+}
+void take_bounds(VolumeDomain&, const VolumeDomain&) {}
+
 }  // namespace
 
 // ------------------------------------------------------------------ levels without nodes -------
@@ -36,8 +44,10 @@ std::unique_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(
   agreed(*comm_, [&] {
     const PhaseTimer timer(timers_, Phase::boundary);
     // A copy: the caller may go on to change the domain.
-    level = std::make_unique<Level<Dim>>(comm_, std::make_shared<Domain<Dim>>(*domain_),
-                                         std::move(spacing), settings, timers_);
+    auto domain = std::make_shared<Domain<Dim>>(*closed_for(domain_, *spacing));
+    if (like) take_bounds(*domain, like->ground.domain());
+    level = std::make_unique<Level<Dim>>(comm_, std::move(domain), std::move(spacing), settings,
+                                         timers_);
   });
   level->grow_tree(like);
   return level;

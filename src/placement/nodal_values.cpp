@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "level/plane/closed_sphere.hpp"
 #include "spacing/nodal_spacing.hpp"
 
 namespace pnpbs {
@@ -58,6 +59,23 @@ void for_rim_facets(const Results<3>& results, const Visit& visit) {
   });
 }
 
+// The triangle that closes a whole sphere is no part of the chart: it is a border.
+template <class Row>
+bool add_what_closes(const Results<2>& results, const std::array<std::int64_t, 3>& places,
+                     const Row& row, Patch<2>& patch) {
+  const auto node = [&](std::size_t k) { return results.node_at(places[k]); };
+  if (!closes_sphere(results.level(), {node(0), node(1), node(2)})) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    patch.border.push_back(row(std::array<std::int64_t, 2>{places[k], places[(k + 1) % 3]}));
+    patch.behind.push_back(-1);
+  }
+  return true;
+}
+template <class Row>
+bool add_what_closes(const Results<3>&, const std::array<std::int64_t, 4>&, const Row&, Patch<3>&) {
+  return false;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -89,7 +107,9 @@ Patch<Dim> patch_of(Results<Dim>& results) {
     });
     return corners;
   };
-  results.for_elements([&](const auto& places) { patch.simplices.push_back(row(places)); });
+  results.for_elements([&](const auto& places) {
+    if (!add_what_closes(results, places, row, patch)) patch.simplices.push_back(row(places));
+  });
   for_rim_facets(results, [&](const auto& places, std::int64_t behind) {
     patch.border.push_back(row(places));
     patch.behind.push_back(static_cast<std::int32_t>(behind));
@@ -104,7 +124,7 @@ std::shared_ptr<const Spacing<Dim>> spacing_from(Results<Dim>& results,
   values.resize(patch.nodes.size());
   fill_ghosts(results.communicator(), *results.exchange_pattern(), values);
   for (std::size_t p = 0; p < values.size(); ++p) patch.nodes[p].value = values[p];
-  return std::make_shared<NodalSpacing<Dim>>(results.ranks(), std::move(patch));
+  return std::make_shared<NodalSpacing<Dim>>(results.ranks(), std::move(patch), results.chart());
 }
 
 template Patch<2> patch_of(Results<2>&);

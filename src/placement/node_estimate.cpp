@@ -196,11 +196,16 @@ double nodes_in(const DomainMap<Dim>& map, const Domain<Dim>& domain,
 bool is_filled(const PlaneDomain&) { return true; }
 bool is_filled(const VolumeDomain& domain) { return domain.filled(); }
 
-double nodes_on_boundary(const BoundaryMesh<2>& boundary, const SpacingEvaluator<2>&) {
-  return static_cast<double>(boundary.nodes.size());
+// Those that close a sphere stand where others would.
+double nodes_on_boundary(const PlaneDomain& domain, const BoundaryMesh<2>& boundary,
+                         const SpacingEvaluator<2>&) {
+  return static_cast<double>(std::ranges::count_if(
+      boundary.nodes,
+      [&](const BoundaryNode<2>& node) { return !domain.is_in_patch(node.position); }));
 }
 
-double nodes_on_boundary(const BoundaryMesh<3>& boundary, const SpacingEvaluator<3>& spacing) {
+double nodes_on_boundary(const VolumeDomain&, const BoundaryMesh<3>& boundary,
+                         const SpacingEvaluator<3>& spacing) {
   std::vector<FacetCorners<3>> facets;
   for (const BoundaryTriangle& facet : boundary.facets)
     facets.push_back(corners_of(boundary, facet));
@@ -223,7 +228,7 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
   double on_boundary = 0;
   agreed(comm, [&] {
     boundary = facets_for_tree(domain, evaluator, max_boundary_nodes);
-    on_boundary = nodes_on_boundary(boundary, evaluator);
+    on_boundary = nodes_on_boundary(domain, boundary, evaluator);
   });
   DomainMap<Dim> map;
   double max = std::numeric_limits<double>::infinity(), nodes = 0;
@@ -231,7 +236,8 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
     map.build_part(
         comm, domain.bounds(), boundary, evaluator, std::numeric_limits<std::int64_t>::max(),
         [&](const BackgroundTree<Dim>& tree, std::int32_t c, double in_cell) {
-          return tree.cell(c).depth < kUniformDepth || in_cell > max;
+          return tree.cell(c).depth < kUniformDepth || in_cell > max ||
+                 chart_varies(domain, tree.cell_box(c));
         },
         kLevelRefinement<Dim>);
     const bool last = pass + 1 == passes;

@@ -11,6 +11,7 @@
 #include "level/expected_nodes.hpp"
 #include "level/reach.hpp"
 #include "method/constants.hpp"
+#include "placement/closing_patch.hpp"
 #include "placement/domain_fingerprint.hpp"
 #include "placement/estimate.hpp"
 #include "placement/holding_spacing.hpp"
@@ -54,7 +55,7 @@ Outcome PlacementOf<Dim>::prepare_level() {
 
 // Once spacing and domain are there, right, and the same on all ranks. Collective.
 template <int Dim>
-Settings PlacementOf<Dim>::settings_for_new_level() const {
+Settings PlacementOf<Dim>::settings_for_new_level() {
   if (!spacing_)
     throw Error(ErrorKind::state,
                 "the placement has no spacing yet: call one of the set_spacing functions first");
@@ -62,16 +63,14 @@ Settings PlacementOf<Dim>::settings_for_new_level() const {
   settings.max_bytes = bytes_allowed(*comm_, options_);
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain(*comm_, *domain_);
+  agreed(*comm_, [this] { closed_ = closed_for(domain_, *spacing_); });
   return settings;
 }
 
 template <int Dim>
 LevelBuilder<Dim> PlacementOf<Dim>::builder() {
-  return {comm_,
-          domain_,
-          options_,
-          timers_,
-          {state_, monitoring_, results_, done_by_rounds(rounds_of_run_)}};
+  const LevelContext<Dim> context{state_, monitoring_, results_, done_by_rounds(rounds_of_run_)};
+  return {comm_, closed_, options_, timers_, context};
 }
 
 template <int Dim>
@@ -379,7 +378,7 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
   const std::shared_ptr<const Spacing<Dim>> before = spacing_;
   try {
     if (state.spacing_saved)
-      spacing_ = std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch));
+      spacing_ = std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch), chart());
     const Settings settings = settings_for_new_level();
     PlacedSpacing<Dim> placed;
     LevelBuilder<Dim> builder = this->builder();

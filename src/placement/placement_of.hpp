@@ -84,8 +84,8 @@ class PlacementOf : public Placement {
   }
   bool shows_its_level() const override { return level_ && results_.shown() == level_.get(); }
   Settings present_settings() const;
-  Settings settings_for_new_level() const;
-  SpacingToPlace<Dim> to_place() const { return {comm_, domain_, spacing_, options_}; }
+  Settings settings_for_new_level();
+  SpacingToPlace<Dim> to_place() const { return {comm_, closed_, spacing_, options_}; }
   LevelBuilder<Dim> builder();
   NodesBefore<Dim> nodes_before() const;
   Outcome prepare_level();
@@ -112,6 +112,7 @@ class PlacementOf : public Placement {
 
   std::shared_ptr<Domain<Dim>> domain_;
   std::shared_ptr<const Spacing<Dim>> spacing_;
+  std::shared_ptr<const Domain<Dim>> closed_;  // the domain; a whole sphere closed for the spacing
   std::unique_ptr<Level<Dim>> level_;
   Results<Dim> results_;
   IncomingNodes<Dim> given_;  // nodes to start from instead of a fill

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "level/plane/closed_sphere.hpp"
 #include "placement/conformity.hpp"
 #include "placement/corner_check.hpp"
 #include "placement/node_check.hpp"
@@ -17,7 +18,9 @@ namespace {
 class ResultCheck : public NodeCheck<2> {
  public:
   explicit ResultCheck(const Results<2>& results)
-      : NodeCheck<2>(results), boundary_(level_.ground.boundary()) {
+      : NodeCheck<2>(results),
+        boundary_(level_.ground.boundary()),
+        closed_(level_.ground.domain().closing() != nullptr) {
     sectors_.build(boundary_);
   }
 
@@ -46,6 +49,7 @@ class ResultCheck : public NodeCheck<2> {
   void check_area() const;
 
   const Boundary& boundary_;
+  bool closed_;
   IncidentSectors sectors_;
 };
 
@@ -94,7 +98,8 @@ void ResultCheck::check_star(std::int64_t i, CornerCheck<2, 2>& corners) const {
         fail_check("the star of node " + name(i) + " has " + name(j) + " twice");
     if (!left) continue;
     const std::int64_t next = star[(k + 1) % n].first;
-    if (orientation(position(i), position(j), position(next)) <= 0)
+    const int turn = orientation(position(i), position(j), position(next));
+    if (turn == 0 || (turn > 0) == closes_sphere(level_, {i, j, next}))
       fail_check("the triangle of nodes " + name(i) + ", " + name(j) + " and " + name(next) +
                  " is not counter-clockwise");
     corners.look_at(j, {next, i});
@@ -109,6 +114,7 @@ void ResultCheck::check_sides_of(std::int64_t i, std::int64_t j, bool left, bool
   for (std::int32_t k = b < 0 ? 0 : sectors_.begin(b); b >= 0 && k < sectors_.end(b); ++k) {
     if (sectors_.edge(k).other != c) continue;
     const BoundaryEdge& e = boundary_.facets[static_cast<std::size_t>(sectors_.edge(k).edge)];
+    if (closed_ && e.bounds()) continue;  // the sphere goes on behind it
     left_inside = e.begin == b ? e.left_inside : e.right_inside;
     right_inside = e.begin == b ? e.right_inside : e.left_inside;
   }
@@ -144,6 +150,7 @@ double ResultCheck::area_of_triangles(double unit) const {
   double mine = 0;
   p_.for_elements([&](const std::array<std::int64_t, 3>& places) {
     const auto [a, b, c] = places;
+    if (closes_sphere(level_, {p_.node_at(a), p_.node_at(b), p_.node_at(c)})) return;
     const Point<2> x = position(p_.node_at(a)), y = position(p_.node_at(b)),
                    z = position(p_.node_at(c));
     mine += 0.5 * ((y[0] - x[0]) * (z[1] - x[1]) - (y[1] - x[1]) * (z[0] - x[0]));

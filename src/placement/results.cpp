@@ -10,6 +10,7 @@
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/node_digest.hpp"
+#include "level/plane/closed_sphere.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "placement/element_angles.hpp"
 
@@ -103,6 +104,7 @@ void Results<Dim>::prepare_stars() {
     if (!level_->distributed()) rebuild_stars(*level_);
   }
   settle_elements(*level_, kThoroughRounds);
+  close_sphere(*level_);
   stars_stamp_ = level_->stamp();
 }
 

@@ -164,7 +164,8 @@ void Results<Dim>::for_boundary_facets(const Visit& visit) const {
       if (!nodes.moves(i)) place[static_cast<std::size_t>(nodes.boundary_node(i))] = place_of(i);
     const std::int64_t owned = count();
     for (const BoundaryEdge& e : boundary.facets) {
-      if (e.begin == e.end) continue;  // a fixed node
+      if (e.begin == e.end) continue;                                 // a fixed node
+      if (level_->ground.domain().closing() && e.bounds()) continue;  // there is a triangle behind
       const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
       if (begin >= 0 && begin < owned)
         visit(std::array<std::int64_t, 2>{begin, place[static_cast<std::size_t>(e.end)]}, e.tag);

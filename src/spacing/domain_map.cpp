@@ -37,6 +37,16 @@ class DomainMap<Dim>::Growth {
     double mean_density = 0;  // mean of 1/d^Dim
   };
 
+  struct CellSamples {
+    std::vector<Point<Dim>> at;
+    std::vector<double> d;
+
+    void add(const Point<Dim>& x, double value) {
+      at.push_back(x);
+      d.push_back(value);
+    }
+  };
+
   Growth(const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
          const NodeLimit& limit, Refinement by, const std::vector<GrowthSource<Dim>>& known)
       : boundary_(boundary),
@@ -87,9 +97,10 @@ class DomainMap<Dim>::Growth {
  private:
   bool wholly_inside(std::int32_t c) const { return !facets_->outside(c) && !facets_->crossed(c); }
   double min_nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const;
-  void add_boundary_samples(const Box<Dim>& box, std::int32_t c, std::vector<double>& values) const;
+  void add_boundary_samples(const Box<Dim>& box, std::int32_t c, CellSamples& samples) const;
   Point<Dim> nearest_of_facets(std::int32_t c, const Point<Dim>& x) const;
   void take_samples(const std::vector<double>& values, CellState& cell) const;
+  void expect_by_chart(const Box<Dim>& box, const CellSamples& samples, CellState& cell) const;
   void expect_known(const Box<Dim>& box, CellState& cell) const;
   bool holds_many_boundary_nodes(const BackgroundTree<Dim>& tree, std::int32_t c) const;
 
@@ -130,13 +141,16 @@ void DomainMap<Dim>::Growth::sample(const BackgroundTree<Dim>& tree, std::int32_
   std::vector<double> d(points.size());
   spacing_(static_cast<std::int64_t>(points.size()), points.data(), d.data());
   std::size_t next = 0;
-  std::vector<double> values;
+  CellSamples samples;
   for (std::int32_t c = first; c < last; ++c) {
-    values.clear();
-    for (; next < owner.size() && owner[next] == c; ++next) values.push_back(d[next]);
-    add_boundary_samples(tree.cell_box(c), c, values);
-    take_samples(values, cells_[static_cast<std::size_t>(c)]);
-    expect_known(tree.cell_box(c), cells_[static_cast<std::size_t>(c)]);
+    samples.at.clear();
+    samples.d.clear();
+    for (; next < owner.size() && owner[next] == c; ++next) samples.add(points[next], d[next]);
+    const Box<Dim> box = tree.cell_box(c);
+    add_boundary_samples(box, c, samples);
+    take_samples(samples.d, cells_[static_cast<std::size_t>(c)]);
+    expect_by_chart(box, samples, cells_[static_cast<std::size_t>(c)]);
+    expect_known(box, cells_[static_cast<std::size_t>(c)]);
   }
 }
 
@@ -145,6 +159,20 @@ template <int Dim>
 void DomainMap<Dim>::Growth::expect_known(const Box<Dim>& box, CellState& cell) const {
   for (const Point<Dim>& fraction : cell_samples<Dim>())
     cell.min = known_.limit(point_in<Dim>(box, fraction), cell.min);
+}
+
+// In the chart of a sphere d is least where the chart is: a few samples of a large cell miss that,
+// but they tell how small d is along the sphere.
+template <int Dim>
+void DomainMap<Dim>::Growth::expect_by_chart(const Box<Dim>& box, const CellSamples& samples,
+                                             CellState& cell) const {
+  if constexpr (Dim == 2) {
+    if (!boundary_.chart || samples.d.empty() || !boundary_.chart->varies_much_in(box)) return;
+    double along = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < samples.d.size(); ++k)
+      along = std::min(along, samples.d[k] / boundary_.chart->stretch(samples.at[k]));
+    cell.min = std::min(cell.min, along * boundary_.chart->least_stretch_in(box));
+  }
 }
 
 // Where a sample point of the cell asks for d: there if it is inside; for surfaces alone at the
@@ -179,11 +207,12 @@ Point<Dim> DomainMap<Dim>::Growth::nearest_of_facets(std::int32_t c, const Point
 
 template <int Dim>
 void DomainMap<Dim>::Growth::add_boundary_samples(const Box<Dim>& box, std::int32_t c,
-                                                  std::vector<double>& values) const {
+                                                  CellSamples& samples) const {
   for (const std::int32_t f : facets_->facets(c))
-    for (const std::int32_t node : boundary_.facets[static_cast<std::size_t>(f)].corners())
-      if (in_closed_box(box, boundary_.nodes[static_cast<std::size_t>(node)].position))
-        values.push_back(boundary_spacing_[static_cast<std::size_t>(node)]);
+    for (const std::int32_t node : boundary_.facets[static_cast<std::size_t>(f)].corners()) {
+      const Point<Dim>& x = boundary_.nodes[static_cast<std::size_t>(node)].position;
+      if (in_closed_box(box, x)) samples.add(x, boundary_spacing_[static_cast<std::size_t>(node)]);
+    }
 }
 
 template <int Dim>

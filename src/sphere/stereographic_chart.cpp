@@ -44,8 +44,22 @@ double StereographicChart::stretch(const Point<2>& u) const {
   return 1 + dot(u, u) / (4 * radius_ * radius_);
 }
 
+double StereographicChart::least_stretch_in(const Box<2>& box) const {
+  Point<2> near;
+  for (std::size_t k = 0; k < 2; ++k) near[k] = std::clamp(0.0, box.low[k], box.high[k]);
+  return stretch(near);
+}
+
+bool StereographicChart::varies_much_in(const Box<2>& box) const {
+  constexpr double kMuch = 4;
+  Point<2> far;
+  for (std::size_t k = 0; k < 2; ++k)
+    far[k] = std::fabs(box.low[k]) > std::fabs(box.high[k]) ? box.low[k] : box.high[k];
+  return stretch(far) > kMuch * least_stretch_in(box);
+}
+
 double StereographicChart::relative_growth(const Point<2>& u) const {
-  return std::sqrt(dot(u, u)) / (2 * radius_ * radius_) / stretch(u);
+  return std::hypot(u[0], u[1]) / (2 * radius_ * radius_) / stretch(u);
 }
 
 double StereographicChart::distance(const Point<2>& u, const Point<2>& v) const {

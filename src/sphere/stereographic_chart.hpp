@@ -33,6 +33,9 @@ class StereographicChart {
   // A length in the chart over that on the sphere: 1 opposite to the point projected from, and more
   // everywhere else.
   double stretch(const Point<2>& u) const;
+  double least_stretch_in(const Box<2>& box) const;
+  // Is it so different in the box that a few samples of a length there tell nothing of the others?
+  bool varies_much_in(const Box<2>& box) const;
   // By how much the stretch grows, over itself, per length in the chart.
   double relative_growth(const Point<2>& u) const;
   // Along the sphere, between points of the chart.

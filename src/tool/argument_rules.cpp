@@ -69,7 +69,8 @@ void ask_for_what_files_need(Arguments& arguments) {
 }
 
 void require_arguments_that_fit(const Arguments& arguments) {
-  if (arguments.domain.empty()) refuse("--domain is missing");
+  if (arguments.domain.empty() && !arguments.sphere)
+    refuse("--domain is missing (without it, --sphere RADIUS is the whole sphere)");
   const std::size_t grids = arguments.spacing_grids.size();
   if (arguments.spacing.empty() && grids == 0) refuse("--spacing or --spacing-grid is missing");
   if (arguments.spacing.empty() && grids > 1)

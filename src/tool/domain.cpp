@@ -77,13 +77,13 @@ DomainSource::DomainSource(const Arguments& arguments)
       inner_(arguments.inner),
       names_(arguments.names),
       regions_(arguments.regions) {
-  if (sphere_ && !geo_)
+  if (sphere_ && !geo_ && !path_.empty())
     throw BadInput(
         "--sphere is for the coasts in GeoJSON, shapefiles and what else GDAL reads, "
         "and '" +
         path_ + "' is none of these");
   if (sphere_) dimension_ = 3;
-  if (geo_) return;
+  if (geo_ || sphere_) return;
   dimension_ = level_set_ || primitive_ ? 3 : dimension_of(path_, arguments.surfaces_only);
 }
 
@@ -158,6 +158,7 @@ void DomainSource::create(pnpbs_context context, pnpbs_domain* domain) const {
 }
 
 void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
+  if (is_whole_sphere()) return;
   if (geo_) {
     geo_->read();
     return geo_->add_to(domain, context, corner_angle_);

@@ -27,6 +27,7 @@ class DomainSource {
   const GeoFile* geo() const { return geo_.get(); }
   int dimension() const { return dimension_; }  // 2: in the plane, 3: a body, or on a sphere
   bool on_sphere() const { return sphere_.has_value(); }
+  bool is_whole_sphere() const { return on_sphere() && path_.empty(); }
   // A domain of that kind, without anything in it. Local. Throws Failure.
   void create(pnpbs_context context, pnpbs_domain* domain) const;
 

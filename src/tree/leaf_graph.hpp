@@ -14,11 +14,17 @@
 
 namespace pnpbs {
 
+// How far two leaves see each other: as far as the larger bubbles of the two reach. In the chart of
+// a sphere bubbles grow towards the point projected from, near which some would reach all others:
+// there it is the geometric mean of what both reach, for which the chart's growth cancels out.
+enum class PairReach { larger, mean };
+
 template <int Dim>
 class LeafGraph {
  public:
   // reach[leaf]: 0 for a leaf that interacts with nothing.
-  void build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach);
+  void build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
+             PairReach pairs = PairReach::larger);
 
   std::int32_t begin(std::int32_t leaf) const { return offset_[index(leaf)]; }
   std::int32_t end(std::int32_t leaf) const { return offset_[index(leaf) + 1]; }
@@ -43,18 +49,21 @@ inline constexpr double kRoomForGrowth = 1.25;
 // The graph for bubbles that reach so far from each leaf.
 template <int Dim>
 struct LeafLinks {
-  LeafLinks(const BackgroundTree<Dim>& tree, std::vector<double> reaches)
-      : reach(std::move(reaches)) {
-    graph.build(tree, reach);
+  LeafLinks(const BackgroundTree<Dim>& tree, std::vector<double> reaches,
+            PairReach of_pairs = PairReach::larger)
+      : reach(std::move(reaches)), pairs(of_pairs) {
+    graph.build(tree, reach, pairs);
   }
   std::vector<double> reach;
+  PairReach pairs;
   LeafGraph<Dim> graph;
 };
 
 // Every leaf looks as far as it reaches itself; a pair is linked if either sees the other. (Pairs
 // of bubbles reach half as far each, but the stars must know of every bubble that near.)
 template <int Dim>
-void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach) {
+void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
+                           PairReach pairs) {
   const std::int32_t leaves = tree.leaf_count();
   ChunkedRows<std::int32_t> seen;  // of each pair, only in the row of the one that reaches farther
   seen.build("pnpbs::LeafGraph::look", leaves, [&] {
@@ -66,7 +75,8 @@ void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<do
       tree.for_leaves_in(widened(own, reach_a), [&](std::int32_t b) {
         const double reach_b = reach[index(b)];
         if (a == b || reach_b > reach_a || (reach_b == reach_a && b < a)) return;
-        if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > reach_a * reach_a) return;
+        const double most = reach_a * (pairs == PairReach::mean ? reach_b : reach_a);
+        if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > most) return;
         out.push_back(b);
       });
     };

@@ -272,6 +272,153 @@ START_TEST(meshes) {
 }
 END_TEST
 
+static void check_is_closed(const results* r) {
+  ck_assert_int_eq(r->triangles, 2 * (r->nodes - 2)); /* Euler */
+  ck_assert_double_eq_tol(area_on_sphere(r) / (4 * PI * R * R), 1, 1e-12);
+}
+
+static job globe_job(double longitude, double latitude) {
+  job it = {0};
+  MUST(pnpbs_context_create_serial(&it.context));
+  it.domain = sphere_of(it.context, longitude, latitude);
+  return it;
+}
+
+static int32_t gentle_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  int64_t i;
+  (void)user;
+  for (i = 0; i < n; ++i) d[i] = 250 - 100 * x[dim * i + 2] / R;
+  return 0;
+}
+
+/* Without a curve: the triangles cover all of it once, and nothing tells where the point is that
+ * it is projected from. */
+START_TEST(nothing_bounds_a_whole_sphere) {
+  job it = globe_job(55, -82);
+  double measure, outside[3], furthest = -2;
+  const double degrees[2] = {55, -82};
+  int64_t i, edges;
+  int32_t* tags;
+  results r;
+  MUST(pnpbs_domain_measure(it.domain, &measure));
+  ck_assert_double_eq_tol(measure / (4 * PI * R * R), 1, 1e-15);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, gentle_spacing, NULL));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  r = results_of(it.placement);
+  check_is_closed(&r);
+  MUST(pnpbs_placement_get_boundary_edges(it.placement, 0, &edges, NULL, NULL));
+  ck_assert_int_eq(edges, 0);
+  ck_assert_int_eq(integer_of(it.placement, "boundary_nodes"), 0);
+  tags = malloc((size_t)r.nodes * sizeof *tags);
+  ck_assert(tags);
+  MUST(pnpbs_placement_get_nodes(it.placement, r.nodes, NULL, NULL, tags, NULL));
+  MUST(pnpbs_sphere_points(1, 1, degrees, outside));
+  for (i = 0; i < r.nodes; ++i) {
+    const double* x = r.x + 3 * i;
+    const double near = (x[0] * outside[0] + x[1] * outside[1] + x[2] * outside[2]) / R;
+    if (near > furthest) furthest = near;
+    ck_assert_double_eq_tol(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / R, 1, 1e-15);
+    ck_assert_double_eq_tol(r.d[i] / (250 - 100 * x[2] / R), 1, 1e-9);
+    ck_assert_int_eq(tags[i], 0);
+  }
+  ck_assert_double_lt(R * acos(furthest), 0.7 * 350); /* in the middle of a triangle */
+  ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.994);
+  ck_assert_double_gt(real_of(it.placement, "quality.min"), 0.6);
+  ck_assert_double_eq_tol(real_of(it.placement, "edge.mean"), 1, 0.01);
+  free(tags);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+/* Whatever closed it for one spacing is laid anew for another. */
+START_TEST(whole_spheres_follow_a_new_spacing) {
+  job it = globe_job(10, 40);
+  double *values, at[3], value, degrees[2] = {10, 40};
+  int64_t i, expected;
+  int k;
+  pnpbs_transfer transfer;
+  results r;
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 500));
+  MUST(pnpbs_placement_run(it.placement));
+  for (k = 0; k < 3; ++k) {
+    const double d = k == 0 ? 250 : k == 1 ? 700 : 350;
+    r = results_of(it.placement);
+    values = malloc((size_t)r.nodes * sizeof *values);
+    ck_assert(values);
+    for (i = 0; i < r.nodes; ++i) values[i] = d;
+    MUST(pnpbs_placement_set_spacing_at_nodes(it.placement, r.nodes, values));
+    free(values);
+    results_free(&r);
+    MUST(pnpbs_placement_run(it.placement));
+    MUST(pnpbs_placement_check(it.placement));
+    r = results_of(it.placement);
+    check_is_closed(&r);
+    expected = (int64_t)(4 * PI * R * R / (sqrt(0.75) * d * d));
+    ck_assert_double_eq_tol((double)r.nodes / (double)expected, 1, 0.04);
+    results_free(&r);
+  }
+  /* Values at nodes tell something of the point, too. */
+  r = results_of(it.placement);
+  values = malloc((size_t)r.nodes * sizeof *values);
+  ck_assert(values);
+  for (i = 0; i < r.nodes; ++i) values[i] = r.x[3 * i + 2] / R;
+  MUST(pnpbs_transfer_create(it.placement, r.nodes, 1, values, &transfer));
+  MUST(pnpbs_sphere_points(1, 1, degrees, at));
+  MUST(pnpbs_transfer_at_points(transfer, 1, at, &value));
+  ck_assert_double_eq_tol(value, at[2], 350 / R);
+  MUST(pnpbs_transfer_destroy(&transfer));
+  free(values);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(whole_spheres_have_curves_and_fixed_nodes_inside) {
+  job it = globe_job(0, -90);
+  const double degrees[4] = {10, -30, 100, 60};
+  const int32_t tags[2] = {5, 6};
+  double fixed[6];
+  int64_t edges;
+  results r;
+  add_parallel(it.domain, 90, 20, 30, PNPBS_INNER);
+  MUST(pnpbs_sphere_points(R, 2, degrees, fixed));
+  MUST(pnpbs_domain_add_fixed_nodes(it.domain, 2, fixed, tags));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 300));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  r = results_of(it.placement);
+  check_is_closed(&r);
+  MUST(pnpbs_placement_get_boundary_edges(it.placement, 0, &edges, NULL, NULL));
+  ck_assert_double_eq_tol((double)edges, 2 * PI * R * cos(20 * PI / 180) / 300, 2);
+  ck_assert_int_eq(integer_of(it.placement, "boundary_nodes"), edges + 2);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(what_whole_spheres_refuse) {
+  job it = globe_job(0, -90);
+  const double degrees[2] = {10, -85};
+  double x[3], d;
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 2000));
+  MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "2000", "1592.805");
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 300));
+  MUST(pnpbs_sphere_points(R, 1, degrees, x));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_distance(it.domain, 0, 1, x, &d), "whole sphere",
+            "without curves");
+  MUST(pnpbs_domain_add_fixed_nodes(it.domain, 1, x, NULL));
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_placement_run(it.placement), "name another point",
+            "(longitude 10, latitude -85)");
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(bad_input) {
   job it = sea_job();
   pnpbs_domain domain;
@@ -317,6 +464,10 @@ int main(void) {
   tcase_add_test(tests, growth_is_limited_along_the_sphere);
   tcase_add_test(tests, nodes_and_values_are_taken_back);
   tcase_add_test(tests, meshes);
+  tcase_add_test(tests, nothing_bounds_a_whole_sphere);
+  tcase_add_test(tests, whole_spheres_follow_a_new_spacing);
+  tcase_add_test(tests, whole_spheres_have_curves_and_fixed_nodes_inside);
+  tcase_add_test(tests, what_whole_spheres_refuse);
   tcase_add_test(tests, bad_input);
   tcase_set_timeout(tests, 0);
   suite_add_tcase(suite, tests);

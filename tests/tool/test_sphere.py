@@ -32,6 +32,55 @@ ACROSS = feature([[168, 8], [180, 8], [180, 22], [170, 25]], [[-180, 8], [-172, 
 CONTINENT = feature([[-20, -10], [30, -30], [50, 10], [20, 40], [-30, 30]])
 
 
+class WholeSphere(CommandTest):
+    """Without a file, and so without GDAL."""
+
+    SPACING = "250 + 150*sin(pi*lon/180)^2"
+
+    def placed(self, *arguments, ranks=0, spacing=SPACING, **more):
+        run = (lambda *a: self.run_on_ranks(*a, ranks=ranks)) if ranks else self.run_command
+        run("--sphere", f"{RADIUS},20,-30", "--spacing", spacing, "--check", "--quiet", "--output", "nodes.csv",
+            "--report", "report.json", *arguments, **more)
+        return ((self.folder / "nodes.csv").read_bytes(),
+                json.loads((self.folder / "report.json").read_text()))
+
+    def test_it_is_closed(self):
+        nodes, report = self.placed("--output", "sphere.msh2", "--output", "sphere.svg")
+        text = (self.folder / "sphere.msh2").read_text().split("$Elements\n")[1].split("\n")[1:]
+        rows = [[int(word) for word in line.split()] for line in text if line and line[0] != "$"]
+        self.assertEqual({row[1] for row in rows}, {2})  # triangles alone
+        corners = np.array([row[-3:] for row in rows]) - 1
+        self.assertEqual(len(corners), 2 * (report["nodes"] - 2))
+        edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
+        self.assertTrue(np.all(np.unique(edges, axis=0, return_counts=True)[1] == 2))
+        self.assertEqual(report["boundary_nodes"], 0)
+        seen = len(re.findall(r"<path[^>]*Z", (self.folder / "sphere.svg").read_text()))
+        self.assertTrue(0.4 * len(corners) < seen < 0.6 * len(corners), f"{seen} of {len(corners)}")
+
+    def test_as_many_nodes_as_are_wanted(self):
+        nodes = self.placed("--nodes", "20000", spacing="100 + 2*abs(lat)")[1]["nodes"]
+        self.assertLess(abs(nodes / 20000 - 1), 0.02)
+
+    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    def test_ranks_place_the_same_nodes(self):
+        nodes, _ = self.placed()
+        for ranks in (2, 3, 5):
+            self.assertEqual(self.placed(ranks=ranks)[0], nodes)
+
+    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    def test_ranks_go_on_from_one_file(self):
+        self.placed("--checkpoint", "half.h5", "--set", "steps=20", code=3)
+        goes_on = ("--restart", "half.h5", "--set", "steps=20")
+        nodes, _ = self.placed(*goes_on)
+        self.assertEqual(self.placed(*goes_on, ranks=3)[0], nodes)
+
+    def test_what_is_refused(self):
+        for spacing, words in (("auto", "without curves"), ("100 + 0.1*dist", "without curves"),
+                               ("2000", "name another point")):
+            self.assertIn(words, self.refuse("--sphere", str(RADIUS), "--spacing", spacing))
+        self.assertIn("--domain is missing", self.refuse("--spacing", "1"))
+
+
 @unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
 class Sphere(CommandTest):
     def sea(self, *features):

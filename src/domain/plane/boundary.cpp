@@ -64,6 +64,7 @@ class Layer {
   // ------------------------------------------------------------ nodes and edges
   void assemble() {
     boundary_ = {};
+    if (domain_.chart()) boundary_.chart = *domain_.chart();
     places_.clear();
     for (const Corner& corner : domain_.corners()) {
       boundary_.nodes.push_back({corner.position, corner.tag});
@@ -338,7 +339,10 @@ class Layer {
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(fixed.size()); ++f) {
       look(fixed[f].position, fixed[f].position, d_[boundary_.first_fixed + f], f);
     }
-    std::erase_if(nearest, [](const Worst& worst) { return worst.ratio == HUGE_VAL; });
+    // Those that close a sphere are as near to each other as they should be, in spite of the chart.
+    std::erase_if(nearest, [&](const Worst& worst) {
+      return worst.ratio == HUGE_VAL || domain_.is_in_patch(worst.at);
+    });
     if (nearest.empty()) return;
     boundary_.warnings.push_back(
         std::to_string(nearest.size()) +

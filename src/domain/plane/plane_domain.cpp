@@ -3,10 +3,12 @@
 // together is for check().
 #include "domain/plane/plane_domain.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/given_values.hpp"
@@ -255,13 +257,91 @@ LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const Sim
   return left_out;
 }
 
+namespace {
+
+bool is_boundary(const BoundaryCurve& curve) { return curve.left_inside != curve.right_inside; }
+
+}  // namespace
+
+bool PlaneDomain::has_boundary_curve() const {
+  return std::ranges::any_of(sources_, [](const CurveSource& source) {
+    return source.kind == CurveSource::Kind::graph || source.role == CurveRole::boundary;
+  });
+}
+
+bool PlaneDomain::is_whole_sphere() const { return chart_ && (closing_ || !has_boundary_curve()); }
+
+void PlaneDomain::reject_what_is_in(const ClosingPatch& patch) const {
+  const auto require_outside = [&](const Point<2>& u) {
+    if (dot(u, u) < patch.edge * patch.edge) return;
+    reject_domain(
+        "on a whole sphere nodes are laid first about the point that is named as outside "
+        "of the domain, up to 12 spacings from it, and a curve or a fixed node is there, at " +
+        point_text(u) + ": name another point");
+  };
+  for (const CurveSource& source : sources_) std::ranges::for_each(source.points, require_outside);
+  for (const FixedNode<2>& node : given_nodes_) require_outside(node.position);
+}
+
+void PlaneDomain::close(const ClosingPatch& patch) {
+  if (closing_) {
+    sources_.resize(open_sources_);
+    given_nodes_.resize(open_nodes_);
+  }
+  open_sources_ = sources_.size();
+  open_nodes_ = given_nodes_.size();
+  reject_what_is_in(patch);
+  constexpr double kEachIsACorner = 0;  // degrees
+  add_great_circles(CurveRole::boundary, true, {patch.rim.begin(), patch.rim.end()}, nullptr,
+                    kEachIsACorner);
+  for (const Point<2>& u : patch.nodes) given_nodes_.push_back({u, 0, "a node of the patch"});
+  closing_ = {patch.edge, patch.beyond, patch.d};
+  checked_ = false;
+}
+
 void PlaneDomain::check() {
   if (checked_) return;
+  if (is_whole_sphere() && !closing_) return check_open_sphere();
   for (CurveSource& source : sources_)
     if (source.kind == CurveSource::Kind::graph) find_corners(source, corner_angle_);
   resolved_ = resolve_domain(sources_, region_points_, given_nodes_);
+  if (closing_) follow_patch();
   resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),
                             given_warnings_.end());
+  checked_ = true;
+}
+
+// Its nodes are such as are inside, and its triangle has straight edges in the chart, whatever the
+// ways along the sphere are.
+void PlaneDomain::follow_patch() {
+  resolved_.area = 0;
+  for (BoundaryCurve& curve : resolved_.curves) {
+    if (!is_boundary(curve)) continue;
+    curve.tag = 0;
+    for (const std::int64_t corner : {curve.corner_begin, curve.corner_end})
+      resolved_.corners[static_cast<std::size_t>(corner)].tag = 0;
+    const Point<2>&a = curve.points.front(), &b = curve.points.back();
+    resolved_.area += (curve.left_inside ? 0.5 : -0.5) * (a[0] * b[1] - a[1] * b[0]);
+  }
+  for (FixedNode<2>& node : resolved_.fixed_nodes)
+    if (is_in_patch(node.position)) node.tag = 0;
+}
+
+// What is given is checked as if the sphere were closed by next to nothing.
+void PlaneDomain::check_open_sphere() {
+  constexpr double kNextToNothing = 1e-3;  // radians
+  PlaneDomain closed = *this;
+  ClosingPatch patch;
+  const double r = 2 * chart_->radius() / std::tan(kNextToNothing / 2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double turn = 2 * std::numbers::pi * static_cast<double>(k) / 3;
+    patch.rim[k] = chart_->on_sphere({r * std::cos(turn), r * std::sin(turn)});
+  }
+  patch.edge = patch.beyond = r / 2;
+  closed.close(patch);
+  closed.check();
+  resolved_ = std::move(closed.resolved_);
+  std::erase_if(resolved_.curves, [](const BoundaryCurve& curve) { return is_boundary(curve); });
   checked_ = true;
 }
 

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "base/space_vectors.hpp"
 #include "base/types.hpp"
 #include "domain/domain_base.hpp"
+#include "domain/plane/closing_patch.hpp"
 #include "domain/plane/curve_source.hpp"
 #include "domain/region_index.hpp"
 #include "domain/spacing_evaluator.hpp"
@@ -67,7 +69,8 @@ struct ResolvedDomain {
 };
 
 // Or a domain on a sphere, in a chart of it: then all coordinates are those of the chart. The point
-// that it is projected from lies outside.
+// that it is projected from lies outside or, if no curve bounds the domain, is in the middle of
+// what closes the whole sphere.
 class PlaneDomain : public DomainBase<2> {
  public:
   PlaneDomain() = default;
@@ -75,6 +78,27 @@ class PlaneDomain : public DomainBase<2> {
 
   // Null in the plane.
   const StereographicChart* chart() const { return chart_ ? &*chart_ : nullptr; }
+
+  // On a sphere, and nothing bounds it?
+  bool is_whole_sphere() const;
+  // Closes a whole sphere, in place of how it was closed before. Throws Error(ErrorKind::domain)
+  // where something of the domain lies in the patch.
+  void close(const ClosingPatch& patch);
+  // What of the patch counts later; null if the sphere is not closed yet.
+  struct Closing {
+    double edge, beyond, d;  // of ClosingPatch
+  };
+  const Closing* closing() const { return closing_ ? &*closing_ : nullptr; }
+  // Is a boundary node or a fixed one at that place of the patch?
+  bool is_in_patch(const Point<2>& u) const {
+    return closing_ && dot(u, u) >= closing_->edge * closing_->edge;
+  }
+  // Is the place one that only nodes of the patch may have?
+  bool is_closed_at(const Point<2>& u) const {
+    return closing_ && dot(u, u) > closing_->beyond * closing_->beyond;
+  }
+  // The bounds of a closed one that is larger in the chart. After check().
+  void take_bounds(const Box<2>& bounds) { resolved_.bounds = bounds; }
 
   // Building; see pnpbs.h for what each means. They throw Error(ErrorKind::argument) naming
   // the argument and its value, and leave the domain as it was.
@@ -119,7 +143,14 @@ class PlaneDomain : public DomainBase<2> {
   void add_way(CurveSource& source, const std::vector<Point<3>>& vertices,
                const std::vector<std::int32_t>& tags, std::int64_t v, std::int64_t next_v) const;
 
+  void check_open_sphere();
+  void follow_patch();
+  void reject_what_is_in(const ClosingPatch& patch) const;
+  bool has_boundary_curve() const;
+
   std::optional<StereographicChart> chart_;
+  std::optional<Closing> closing_;
+  std::size_t open_sources_ = 0, open_nodes_ = 0;  // of a closed sphere, those given
   std::vector<CurveSource> sources_;
   double corner_angle_ = 0;  // of graphs
   std::int64_t curves_given_ = 0, graphs_given_ = 0;

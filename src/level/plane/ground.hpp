@@ -53,6 +53,8 @@ class Ground<2> {
   double spacing_at(const Nodes<2>& nodes, std::int64_t i) const {
     return nodes.moves(i) ? nodes.d(i) : boundary_spacing(nodes.boundary_node(i));
   }
+  // Of a whole sphere, is it where only the nodes are that close it?
+  bool is_closed_at(const Point<2>& x) const { return domain_->is_closed_at(x); }
   // Are these the ends of a boundary edge?
   bool on_one_edge(const Nodes<2>& nodes, std::int64_t i, std::int64_t j) const {
     return !nodes.moves(i) && !nodes.moves(j) &&

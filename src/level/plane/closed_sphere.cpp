@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/plane/closed_sphere.hpp"
+
+#include <vector>
+
+#include "predicates/plane.hpp"
+
+namespace pnpbs {
+
+// Nothing else bounds the sphere: what keeps a star from being all triangles is the way around the
+// domain.
+void close_sphere(Level<2>& level) {
+  if (!level.ground.domain().closing()) return;
+  using Entry = DelaunayStars::Entry;
+  std::vector<char> open(static_cast<std::size_t>(level.nodes.count), 0);
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    open[static_cast<std::size_t>(i)] = level.stars.size(i) > 0 && !level.stars.closed(i);
+  level.stars.rewrite(open, [&](std::int64_t i) {
+    std::vector<Entry> star;
+    level.stars.for_neighbours_in_order(i, [&](std::int64_t j, bool) {
+      star.push_back({j, true});
+    });
+    return star;
+  });
+}
+
+// Seen from outside all triangles turn left, and so they do in the chart but for this one.
+bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& corners) {
+  if (!level.ground.domain().closing()) return false;
+  std::array<Point<2>, 3> x;
+  for (std::size_t k = 0; k < 3; ++k) x[k] = level.nodes.position(corners[k]);
+  return level.ground.domain().is_in_patch(x[0]) && orientation(x[0], x[1], x[2]) < 0;
+}
+
+}  // namespace pnpbs

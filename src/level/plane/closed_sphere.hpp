@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one triangle of a whole sphere that its chart turns inside out: that around the point which
+// is projected from. In the chart it is all that lies around the domain.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "level/level.hpp"
+
+namespace pnpbs {
+
+// Adds it to the stars of its corners, as far as they are here. No other part of the domain does
+// anything.
+void close_sphere(Level<2>& level);
+inline void close_sphere(Level<3>&) {}
+// Is it that triangle? By its nodes.
+bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& corners);
+
+}  // namespace pnpbs

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "placement/closing_patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
+#include "comm/communicator.hpp"
+#include "placement/placement_of.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Of the patch, in spacings: 12 spacings from the point the chart grows by a sixth from node
+// to node, which bubbles follow. The disc is wider, since its border is no natural one.
+constexpr double kRadius = 12, kRadiusOfDisc = 17;
+constexpr double kMostOfSphere = 1.6, kMostOfSphereForDisc = 2.4;  // radians
+constexpr double kLargest = 0.25;                                  // spacing, of the radius
+// Free nodes keep so far off the patch's last ones.
+constexpr double kSeam = 0.5;  // spacings
+constexpr double kSameSpacing = 0.02;
+// To the point, at which the chart has no place for d.
+constexpr double kNotNearer = 0.25;  // spacings
+
+Point<3> opposite(const Point<3>& x) { return {-x[0], -x[1], -x[2]}; }
+
+// A spacing in the chart of one side, as it is in the chart of the other one. Nearer than `least`
+// to the point that the first is projected from it is what it is there.
+class FromOtherSide : public Spacing<2> {
+ public:
+  FromOtherSide(const Spacing<2>& spacing, const StereographicChart& chart,
+                const StereographicChart& other, double least)
+      : spacing_(spacing), chart_(chart), other_(other), least_(least) {}
+
+  void evaluate(std::int64_t n, const Point<2>* v, double* d) const override {
+    std::vector<Point<2>> u(static_cast<std::size_t>(n));
+    std::vector<double> factor(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      u[i] = chart_.in_chart(other_.on_sphere(not_too_near(v[i])));
+      factor[i] = other_.stretch(v[i]) / chart_.stretch(u[i]);
+    }
+    const double area = 4 * std::numbers::pi * chart_.radius() * chart_.radius();
+    evaluate_spacing<2>(spacing_, area, n, u.data(), d);
+    for (std::size_t i = 0; i < u.size(); ++i) d[i] *= factor[i];
+  }
+
+ private:
+  Point<2> not_too_near(const Point<2>& v) const {
+    const double r = std::hypot(v[0], v[1]);
+    if (r >= least_) return v;
+    return r > 0 ? Point<2>{v[0] * (least_ / r), v[1] * (least_ / r)} : Point<2>{least_, 0};
+  }
+
+  const Spacing<2>& spacing_;
+  const StereographicChart &chart_, &other_;
+  double least_;
+};
+
+// Along the sphere, at the point that the chart is projected from.
+double spacing_at_point(const Spacing<2>& spacing, const StereographicChart& chart,
+                        const StereographicChart& other) {
+  constexpr double kFirst = 1e-3;
+  const Point<2> at{0, 0};
+  double d = 0;
+  FromOtherSide(spacing, chart, other, kFirst * chart.radius()).evaluate(1, &at, &d);
+  FromOtherSide(spacing, chart, other, kNotNearer * d).evaluate(1, &at, &d);
+  return d;
+}
+
+// Turns the sphere so that c comes to p, both of length 1.
+Point<3> turned(const Point<3>& x, const Point<3>& c, const Point<3>& p) {
+  const Point<3> sum{c[0] + p[0], c[1] + p[1], c[2] + p[2]};
+  const double along = dot(sum, x) / (1 + dot(c, p)), twice = 2 * dot(c, x);
+  Point<3> y;
+  for (std::size_t k = 0; k < 3; ++k) y[k] = x[k] - along * sum[k] + twice * p[k];
+  return y;
+}
+
+// The nodes of a disc of that radius, in radians, around the point, on the sphere; the corners of
+// one of its triangles next to the point come first.
+std::vector<Point<3>> nodes_around(const StereographicChart& other, const Spacing<2>& spacing,
+                                   double radius) {
+  auto disc = std::make_shared<PlaneDomain>(other);
+  disc->add_arc(CurveRole::boundary, {0, 0}, 2 * other.radius() * std::tan(radius / 2), 0,
+                2 * std::numbers::pi, 1);
+  PlacementOf<2> placement(serial_communicator(), disc, Options());
+  // It lives as long as the placement.
+  placement.set_spacing(std::shared_ptr<const Spacing<2>>(&spacing, [](const Spacing<2>*) {}));
+  if (placement.run() == Outcome::stopped)
+    throw Error(ErrorKind::state, "the nodes that close the sphere were not placed");
+  Results<2>& results = placement.results();
+  results.prepare_stars();
+  const auto place = [&](std::int64_t p) {
+    return results.level().nodes.position(results.node_at(p));
+  };
+  std::array<std::int64_t, 3> next_to_point{};
+  double least = std::numeric_limits<double>::infinity();
+  results.for_elements([&](const std::array<std::int64_t, 3>& places) {
+    double x = 0, y = 0;
+    for (const std::int64_t p : places) {
+      x += place(p)[0] / 3;
+      y += place(p)[1] / 3;
+    }
+    if (x * x + y * y >= least) return;
+    least = x * x + y * y;
+    next_to_point = places;
+  });
+  std::vector<Point<3>> nodes;
+  for (const std::int64_t p : next_to_point) nodes.push_back(other.on_sphere(place(p)));
+  for (std::int64_t p = 0; p < results.count(); ++p)
+    if (std::ranges::find(next_to_point, p) == next_to_point.end())
+      nodes.push_back(other.on_sphere(place(p)));
+  return nodes;
+}
+
+// Shrinks the triangle around the point until in the chart all other nodes lie well inside the
+// straight edges between its corners: in a regular lattice its neighbours' circles go through the
+// point, and their triangles would be flat there.
+void draw_in(const StereographicChart& chart, ClosingPatch& patch) {
+  constexpr double kStep = 0.94, kInside = 0.97;
+  constexpr int kMostSteps = 8;
+  const Point<3> point = chart.projected_from();
+  const auto all_inside = [&] {
+    std::array<Point<2>, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = chart.in_chart(patch.rim[k]);
+    return std::ranges::all_of(patch.nodes, [&](const Point<2>& u) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point<2>&a = corners[k], &b = corners[(k + 1) % 3];
+        const Point<2> across{b[1] - a[1], a[0] - b[0]};
+        if (dot(across, u) / dot(across, a) > kInside) return false;
+      }
+      return true;
+    });
+  };
+  for (int step = 0; step < kMostSteps && !all_inside(); ++step)
+    for (Point<3>& corner : patch.rim) {
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = point[k] + kStep * (corner[k] - point[k]);
+      const double factor = chart.radius() / length(corner);
+      for (double& x : corner) x *= factor;
+    }
+}
+
+// On the sphere; the corners of the triangle around the point come first.
+std::vector<Point<3>> turned_to_point(const StereographicChart& chart,
+                                      std::vector<Point<3>> nodes) {
+  Point<3> middle{};
+  for (std::size_t corner = 0; corner < 3; ++corner) middle = shifted(middle, 1, nodes[corner]);
+  const Point<3> from = unit_vector(middle), to = unit_vector(chart.projected_from());
+  for (Point<3>& x : nodes) x = turned(x, from, to);
+  return nodes;
+}
+
+// Nodes that stick out of the patch have no lattice around them that fits.
+void leave_out_those_that_stick_out(const StereographicChart& chart, ClosingPatch& patch) {
+  constexpr double kNear = 1.35;  // spacings
+  constexpr int kFewest = 4;
+  std::vector<Point<3>> all(patch.rim.begin(), patch.rim.end());
+  for (const Point<2>& u : patch.nodes) all.push_back(chart.on_sphere(u));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
+    const auto near = std::ranges::count_if(
+        all, [&](const Point<3>& x) { return distance<3>(x, all[i + 3]) < kNear * patch.d; });
+    if (near > kFewest) patch.nodes[kept++] = patch.nodes[i];  // one of them is the node itself
+  }
+  patch.nodes.resize(kept);
+}
+
+ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& spacing) {
+  const double radius = chart.radius();
+  const StereographicChart other(radius, opposite(chart.projected_from()));
+  ClosingPatch patch;
+  patch.d = spacing_at_point(spacing, chart, other);
+  const double d = patch.d / radius;  // radians
+  if (d > kLargest)
+    throw Error(ErrorKind::spacing, "the spacing at the point that is named as outside is " +
+                                        number_text(patch.d) + ": on a whole sphere of radius " +
+                                        number_text(radius) + " it must be at most " +
+                                        number_text(kLargest * radius) +
+                                        " there: name another point");
+  const FromOtherSide around(spacing, chart, other, kNotNearer * patch.d);
+  const std::vector<Point<3>> nodes = turned_to_point(
+      chart, nodes_around(other, around, std::min(kRadiusOfDisc * d, kMostOfSphereForDisc)));
+  std::copy_n(nodes.begin(), 3, patch.rim.begin());
+  const double last = std::min(kRadius * d, kMostOfSphere);  // radians from the point
+  const auto in_chart = [&](double angle) { return 2 * radius / std::tan(angle / 2); };
+  patch.edge = in_chart(last);
+  patch.beyond = in_chart(last - kSeam * d);
+  for (std::size_t n = 3; n < nodes.size(); ++n) {
+    const Point<2> u = chart.in_chart(nodes[n]);
+    if (dot(u, u) >= patch.edge * patch.edge) patch.nodes.push_back(u);
+  }
+  leave_out_those_that_stick_out(chart, patch);
+  draw_in(chart, patch);
+  return patch;
+}
+
+bool is_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing) {
+  if (!domain.closing()) return false;
+  const StereographicChart& chart = *domain.chart();
+  const StereographicChart other(chart.radius(), opposite(chart.projected_from()));
+  const double d = spacing_at_point(spacing, chart, other);
+  return std::fabs(d / domain.closing()->d - 1) < kSameSpacing;
+}
+
+}  // namespace
+
+std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneDomain>& domain,
+                                              const Spacing<2>& spacing) {
+  if (!domain->is_whole_sphere() || is_closed_for(*domain, spacing)) return domain;
+  auto closed = std::make_shared<PlaneDomain>(*domain);
+  closed->close(closing_patch(*domain->chart(), spacing));
+  closed->check();
+  return closed;
+}
+
+std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const VolumeDomain>& domain,
+                                               const Spacing<3>&) {
+  return domain;
+}
+
+}  // namespace pnpbs

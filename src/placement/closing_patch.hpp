@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes the nodes that close a whole sphere: a placement of its own, in a disc around the point
+// that the sphere is projected from, as it is seen from the other side.
+#pragma once
+
+#include <memory>
+
+#include "domain/domain.hpp"
+#include "spacing/spacing.hpp"
+
+namespace pnpbs {
+
+// The domain itself or, of a whole sphere, one that is closed for this spacing in its chart. Every
+// rank makes the same patch; the spacing is asked for the same points everywhere. Throws
+// Error(ErrorKind::domain) where curves or fixed nodes lie in the patch. Collective.
+std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneDomain>& domain,
+                                              const Spacing<2>& spacing);
+std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const VolumeDomain>& domain,
+                                               const Spacing<3>& spacing);
+
+}  // namespace pnpbs
