@@ -577,8 +577,9 @@ contains
   !> lengths along it, and points have three coordinates. Boundary curves (add_polyline) follow
   !> great circles from vertex to vertex; the domain is what lies behind an odd number of them, seen
   !> from a point outside. Nodes are placed in the stereographic projection from that point, which
-  !> should be ten spacings or more away from the domain. Placements have triangles and boundary
-  !> edges, as in the plane. Not on a sphere yet: see pnpbs_domain_create_sphere in pnpbs.h. Local.
+  !> should be ten spacings or more away from the domain. Without a boundary curve the domain is the
+  !> whole sphere, on which nodes around that point are laid first. Placements have triangles and
+  !> boundary edges, as in the plane. Not on a sphere yet: see pnpbs_domain_create_sphere in pnpbs.h. Local.
   !>   radius   > 0
   !>   outside  (3) the direction of a point outside the domain; any length except 0
   subroutine domain_create_sphere(self, context, radius, outside, stat, errmsg)

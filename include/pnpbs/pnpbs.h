@@ -239,9 +239,9 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  no boundary edges.
  *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
  *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on a
- *  sphere yet: Voronoi cells, particles and offsets, arcs, parametric curves, graphs, files of
- *  curves other than those of geographic shapes, segments of the domain, and spacing given on
- *  grids, meshes or points. Local.
+ *  sphere yet: Voronoi cells, conserved integrals, particles and offsets, arcs, parametric curves,
+ *  graphs, holes of a whole sphere, files of curves other than those of geographic shapes, segments
+ *  of the domain, and spacing given on grids, meshes or points. Local.
  *  @param[in] radius   > 0
  *  @param[in] outside  [3], any length but 0: its direction counts */
 PNPBS_API pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,

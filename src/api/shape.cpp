@@ -48,9 +48,10 @@ const Point<Dim>* points_from(const double* coordinates) {
 
 void require_shape(const PlaneDomain& domain) {
   if (domain.is_whole_sphere() && domain.curves().empty())
-    throw Error(ErrorKind::argument,
-                "argument domain is a whole sphere without curves: there is nothing that distances "
-                "and other measures of its shape could be of");
+    throw Error(
+        ErrorKind::argument,
+        "argument domain is a whole sphere without curves: it has none to measure distances "
+        "or any other shape from");
 }
 void require_shape(const VolumeDomain&) {}
 

@@ -142,6 +142,8 @@ pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement pl
                                              std::to_string(results.dimension()) +
                                              " dimensions; the transfer's nodes had " +
                                              std::to_string(object.transfer->dimension()));
+      if (conserve != 0)
+        require_no_sphere(target->placement->chart(), "placement", "integrals are conserved");
       results.prepare_order();
       require_capacity(capacity, results.count());
       if (results.count() > 0) require_pointer(values, "values");

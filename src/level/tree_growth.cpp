@@ -130,9 +130,14 @@ void LevelTree<Dim>::link_leaves(const Settings& settings) {
                          : distribution_.cells().max_spacing(distribution_.cell_of(leaf));
     reach.push_back(map_.leaf_empty(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
   }
-  const bool on_sphere = chart_of(ground_.domain()) != nullptr;
-  links_ = std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach),
-                                                  on_sphere ? PairReach::mean : PairReach::larger);
+  std::vector<double> stretch;
+  if constexpr (Dim == 2)
+    if (const StereographicChart* chart = ground_.domain().chart())
+      for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf)
+        stretch.push_back(
+            chart->most_stretch_in(map_.tree().cell_box(map_.tree().leaf_cell(leaf))));
+  links_ =
+      std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach), std::move(stretch));
 }
 
 // In full wherever own nodes and ghosts can be. What is within the hops is known only once it is

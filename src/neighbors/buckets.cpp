@@ -115,7 +115,7 @@ void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<
     const double max = radius * max_in(b);
     if (max > reach[index(b)]) reach[index(b)] = max * kRoomForGrowth;
   }
-  links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(reach), links_->pairs);
+  links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(reach), links_->stretch);
 }
 
 template class Buckets<2>;

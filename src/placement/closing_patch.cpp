@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/lattice.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 #include "comm/communicator.hpp"
 #include "placement/placement_of.hpp"
+#include "spacing/multiplied_spacing.hpp"
 
 namespace pnpbs {
 
@@ -22,14 +24,21 @@ namespace {
 // to node, which bubbles follow. The disc is wider, since its border is no natural one.
 constexpr double kRadius = 12, kRadiusOfDisc = 17;
 constexpr double kMostOfSphere = 1.6, kMostOfSphereForDisc = 2.4;  // radians
-constexpr double kLargest = 0.25;                                  // spacing, of the radius
-// Free nodes keep so far off the patch's last ones.
+// Free nodes may come so far between the patch's last ones.
 constexpr double kSeam = 0.5;  // spacings
 constexpr double kSameSpacing = 0.02;
 // To the point, at which the chart has no place for d.
 constexpr double kNotNearer = 0.25;  // spacings
 
 Point<3> opposite(const Point<3>& x) { return {-x[0], -x[1], -x[2]}; }
+
+double area_of(const StereographicChart& chart) {
+  return 4 * std::numbers::pi * chart.radius() * chart.radius();
+}
+
+StereographicChart opposite_of(const StereographicChart& chart) {
+  return {chart.radius(), opposite(chart.projected_from())};
+}
 
 // A spacing in the chart of one side, as it is in the chart of the other one. Nearer than `least`
 // to the point that the first is projected from it is what it is there.
@@ -46,8 +55,7 @@ class FromOtherSide : public Spacing<2> {
       u[i] = chart_.in_chart(other_.on_sphere(not_too_near(v[i])));
       factor[i] = other_.stretch(v[i]) / chart_.stretch(u[i]);
     }
-    const double area = 4 * std::numbers::pi * chart_.radius() * chart_.radius();
-    evaluate_spacing<2>(spacing_, area, n, u.data(), d);
+    evaluate_spacing<2>(spacing_, area_of(chart_), n, u.data(), d);
     for (std::size_t i = 0; i < u.size(); ++i) d[i] *= factor[i];
   }
 
@@ -158,15 +166,19 @@ std::vector<Point<3>> turned_to_point(const StereographicChart& chart,
 }
 
 // Nodes that stick out of the patch have no lattice around them that fits.
-void leave_out_those_that_stick_out(const StereographicChart& chart, ClosingPatch& patch) {
-  constexpr double kNear = 1.35;  // spacings
+void leave_out_those_that_stick_out(const StereographicChart& chart, const Spacing<2>& spacing,
+                                    ClosingPatch& patch) {
+  constexpr double kNear = 1.35;  // spacings there
   constexpr int kFewest = 4;
   std::vector<Point<3>> all(patch.rim.begin(), patch.rim.end());
   for (const Point<2>& u : patch.nodes) all.push_back(chart.on_sphere(u));
+  std::vector<double> d(patch.nodes.size());
+  evaluate_spacing<2>(spacing, area_of(chart), std::ssize(d), patch.nodes.data(), d.data());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
+    const double reach = kNear * d[i] / chart.stretch(patch.nodes[i]);
     const auto near = std::ranges::count_if(
-        all, [&](const Point<3>& x) { return distance<3>(x, all[i + 3]) < kNear * patch.d; });
+        all, [&](const Point<3>& x) { return distance<3>(x, all[i + 3]) < reach; });
     if (near > kFewest) patch.nodes[kept++] = patch.nodes[i];  // one of them is the node itself
   }
   patch.nodes.resize(kept);
@@ -174,15 +186,15 @@ void leave_out_those_that_stick_out(const StereographicChart& chart, ClosingPatc
 
 ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& spacing) {
   const double radius = chart.radius();
-  const StereographicChart other(radius, opposite(chart.projected_from()));
+  const StereographicChart other = opposite_of(chart);
   ClosingPatch patch;
   patch.d = spacing_at_point(spacing, chart, other);
   const double d = patch.d / radius;  // radians
-  if (d > kLargest)
+  if (d > kMostAtPoint)
     throw Error(ErrorKind::spacing, "the spacing at the point that is named as outside is " +
                                         number_text(patch.d) + ": on a whole sphere of radius " +
                                         number_text(radius) + " it must be at most " +
-                                        number_text(kLargest * radius) +
+                                        number_text(kMostAtPoint * radius) +
                                         " there: name another point");
   const FromOtherSide around(spacing, chart, other, kNotNearer * patch.d);
   const std::vector<Point<3>> nodes = turned_to_point(
@@ -196,7 +208,7 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
     const Point<2> u = chart.in_chart(nodes[n]);
     if (dot(u, u) >= patch.edge * patch.edge) patch.nodes.push_back(u);
   }
-  leave_out_those_that_stick_out(chart, patch);
+  leave_out_those_that_stick_out(chart, spacing, patch);
   draw_in(chart, patch);
   return patch;
 }
@@ -204,12 +216,31 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
 bool is_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing) {
   if (!domain.closing()) return false;
   const StereographicChart& chart = *domain.chart();
-  const StereographicChart other(chart.radius(), opposite(chart.projected_from()));
+  const StereographicChart other = opposite_of(chart);
   const double d = spacing_at_point(spacing, chart, other);
   return std::fabs(d / domain.closing()->d - 1) < kSameSpacing;
 }
 
 }  // namespace
+
+std::shared_ptr<const PlaneDomain> closed_before_sizing(
+    const std::shared_ptr<const PlaneDomain>& domain,
+    const std::shared_ptr<const Spacing<2>>& spacing, double wanted_nodes) {
+  if (!domain->is_whole_sphere() || wanted_nodes == 0) return closed_for(domain, *spacing);
+  constexpr double kALittleLess = 0.99;
+  const StereographicChart& chart = *domain->chart();
+  const StereographicChart other = opposite_of(chart);
+  const double even = std::sqrt(Lattice<2>::kDensity * area_of(chart) / wanted_nodes),
+               d = std::min(even, kALittleLess * kMostAtPoint * chart.radius());
+  return closed_for(domain,
+                    MultipliedSpacing<2>(spacing, d / spacing_at_point(*spacing, chart, other)));
+}
+
+std::shared_ptr<const VolumeDomain> closed_before_sizing(
+    const std::shared_ptr<const VolumeDomain>& domain, const std::shared_ptr<const Spacing<3>>&,
+    double) {
+  return domain;
+}
 
 std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneDomain>& domain,
                                               const Spacing<2>& spacing) {
@@ -224,5 +255,12 @@ std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const Volum
                                                const Spacing<3>&) {
   return domain;
 }
+
+double factor_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing) {
+  if (!domain.closing()) return 1;
+  const StereographicChart& chart = *domain.chart();
+  return domain.closing()->d / spacing_at_point(spacing, chart, opposite_of(chart));
+}
+double factor_closed_for(const VolumeDomain&, const Spacing<3>&) { return 1; }
 
 }  // namespace pnpbs

@@ -36,6 +36,13 @@ bool boundary_leaves_room(const Level<Dim>& finest, const Domain<Dim>& domain,
   return true;
 }
 
+// Every level of a whole sphere has a patch of its own.
+bool can_be_closed(const PlaneDomain& domain, double factor) {
+  return !domain.closing() ||
+         domain.closing()->d * factor <= kMostAtPoint * domain.chart()->radius();
+}
+bool can_be_closed(const VolumeDomain&, double) { return true; }
+
 }  // namespace
 
 template <int Dim>
@@ -66,6 +73,7 @@ int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
   while (levels < finest.settings.levels && d.max > method::kPatchVariation * d.min &&
          nodes >= method::kMinNodesOfCoarsest * std::pow(coarser_by(levels + 1), Dim) &&
          d.steepest * coarser_by(levels + 1) <= method::kSteepestOnCoarsest &&
+         can_be_closed(domain, coarser_by(levels + 1)) &&
          boundary_leaves_room(finest, domain, *spacing_of_level(spacing, levels + 1),
                               coarser_by(levels + 1), nodes))
     ++levels;

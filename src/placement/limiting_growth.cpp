@@ -9,6 +9,7 @@
 #include "base/point_text.hpp"
 #include "level/finer_region.hpp"
 #include "method/constants.hpp"
+#include "placement/closing_patch.hpp"
 #include "placement/estimate.hpp"
 #include "spacing/growth_limit.hpp"
 #include "spacing/held_spacing.hpp"
@@ -51,7 +52,7 @@ double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& sett
     return estimated_nodes(*this, bounded(resized(spacing_, factor), settings), settings, samples) /
            wanted_nodes;
   };
-  double factor = 1, power = steepest, before = 0, step = 1;
+  double factor = factor_closed_for(*domain_, *spacing_), power = steepest, before = 0, step = 1;
   for (int round = 0; round < kMaxRounds; ++round) {
     const double more = more_than_wanted(factor, Samples::few);
     if (!(more > 0)) return factor;

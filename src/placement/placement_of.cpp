@@ -38,8 +38,7 @@ Settings PlacementOf<Dim>::present_settings() const {
   return settings;
 }
 
-// A level for the present spacing, with the present options. Stopped if the monitor has stopped
-// what leads to it.
+// A level for the present spacing and options. Stopped if the monitor has stopped what leads to it.
 template <int Dim>
 Outcome PlacementOf<Dim>::prepare_level() {
   const Settings settings = present_settings();
@@ -63,7 +62,8 @@ Settings PlacementOf<Dim>::settings_for_new_level() {
   settings.max_bytes = bytes_allowed(*comm_, options_);
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain(*comm_, *domain_);
-  agreed(*comm_, [this] { closed_ = closed_for(domain_, *spacing_); });
+  const double wanted = options_.real("wanted_nodes");
+  agreed(*comm_, [&] { closed_ = closed_before_sizing(domain_, spacing_, wanted); });
   return settings;
 }
 
@@ -89,7 +89,7 @@ Outcome PlacementOf<Dim>::make_level() {
       builder.with_first_nodes(std::move(next), std::move(placed), settings, nodes_before()));
 }
 
-// Nothing has failed: from here on the new level counts.
+// From here on the new level counts: nothing has failed.
 template <int Dim>
 Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>* replaced) {
   std::unique_ptr<Level<Dim>> before = replace_level(std::move(made.level), std::move(made.placed));
@@ -344,7 +344,8 @@ template <int Dim>
 Estimate PlacementOf<Dim>::estimate() {
   require_kokkos();
   require_same_options();
-  return estimate_of(to_place(), settings_for_new_level());
+  const Settings settings = settings_for_new_level();  // sets closed_
+  return estimate_of(to_place(), settings);
 }
 
 // ------------------------------------------------------------------ checkpoints ----------------

@@ -104,7 +104,7 @@ void Results<Dim>::prepare_stars() {
     if (!level_->distributed()) rebuild_stars(*level_);
   }
   settle_elements(*level_, kThoroughRounds);
-  close_sphere(*level_);
+  agreed(*comm_, [this] { close_sphere(*level_); });
   stars_stamp_ = level_->stamp();
 }
 

@@ -161,8 +161,8 @@ void DomainMap<Dim>::Growth::expect_known(const Box<Dim>& box, CellState& cell) 
     cell.min = known_.limit(point_in<Dim>(box, fraction), cell.min);
 }
 
-// In the chart of a sphere d is least where the chart is: a few samples of a large cell miss that,
-// but they tell how small d is along the sphere.
+// In the chart of a sphere d is least where its stretch is: a few samples of a large cell miss
+// that, but they tell how small d is along the sphere.
 template <int Dim>
 void DomainMap<Dim>::Growth::expect_by_chart(const Box<Dim>& box, const CellSamples& samples,
                                              CellState& cell) const {

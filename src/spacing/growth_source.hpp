@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "base/types.hpp"
@@ -45,9 +46,11 @@ struct GrowthLabel {
 template <int Dim>
 struct GrowthRule {
   double growth = 0;
-  const StereographicChart* chart = nullptr;  // in the plane; outlives this
+  std::optional<StereographicChart> chart{};  // in the plane
 
-  GrowthRule(double most = 0, const StereographicChart* of = nullptr) : growth(most), chart(of) {}
+  GrowthRule(double most = 0, const StereographicChart* of = nullptr) : growth(most) {
+    if (of) chart = *of;
+  }
 
   // What d is at most at a point, with this source.
   double limit(const GrowthSource<Dim>& source, const Point<Dim>& at) const {

@@ -50,12 +50,16 @@ double StereographicChart::least_stretch_in(const Box<2>& box) const {
   return stretch(near);
 }
 
-bool StereographicChart::varies_much_in(const Box<2>& box) const {
-  constexpr double kMuch = 4;
+double StereographicChart::most_stretch_in(const Box<2>& box) const {
   Point<2> far;
   for (std::size_t k = 0; k < 2; ++k)
     far[k] = std::fabs(box.low[k]) > std::fabs(box.high[k]) ? box.low[k] : box.high[k];
-  return stretch(far) > kMuch * least_stretch_in(box);
+  return stretch(far);
+}
+
+bool StereographicChart::varies_much_in(const Box<2>& box) const {
+  constexpr double kMuch = 4;
+  return most_stretch_in(box) > kMuch * least_stretch_in(box);
 }
 
 double StereographicChart::relative_growth(const Point<2>& u) const {

@@ -34,6 +34,7 @@ class StereographicChart {
   // everywhere else.
   double stretch(const Point<2>& u) const;
   double least_stretch_in(const Box<2>& box) const;
+  double most_stretch_in(const Box<2>& box) const;
   // Is it so different in the box that a few samples of a length there tell nothing of the others?
   bool varies_much_in(const Box<2>& box) const;
   // By how much the stretch grows, over itself, per length in the chart.

@@ -119,8 +119,10 @@ void add_geo(CLI::App& app, Arguments& arguments) {
          "on a sphere of this radius, in the unit of d, without a\n"
          "projection: what the coasts in a GeoJSON file, a shapefile or the\n"
          "like bound, seen from a point outside of it at a longitude and\n"
-         "latitude; default: 55,-82, in Antarctica, for the seas. Formulas\n"
-         "know lon and lat, and lengths are along the sphere")
+         "latitude; default: 55,-82, in Antarctica, for the seas. Without\n"
+         "--domain, the whole sphere, on which nodes around that point are\n"
+         "laid first. Formulas know lon and lat, and lengths are along the\n"
+         "sphere")
       ->type_name("RADIUS[,LON,LAT]")
       ->group(group);
   app.add_option("--projection", arguments.projection,

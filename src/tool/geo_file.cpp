@@ -39,6 +39,8 @@ bool GeoFile::is_meant_by(const Arguments& arguments) {
   const bool is_other =
       arguments.domain == "-" || arguments.domain.ends_with(')') || is_in(ending, other_endings);
   if (arguments.domain.empty() && (option.empty() || option == "--sphere")) return false;
+  if (arguments.domain.empty())
+    throw BadInput(option + " is for the file of --domain, and there is none");
   if (!option.empty() && is_other)
     throw BadInput(option + " is for GeoJSON, shapefiles and what else GDAL reads, and '" +
                    arguments.domain + "' is none of these");

@@ -14,17 +14,14 @@
 
 namespace pnpbs {
 
-// How far two leaves see each other: as far as the larger bubbles of the two reach. In the chart of
-// a sphere bubbles grow towards the point projected from, near which some would reach all others:
-// there it is the geometric mean of what both reach, for which the chart's growth cancels out.
-enum class PairReach { larger, mean };
-
 template <int Dim>
 class LeafGraph {
  public:
-  // reach[leaf]: 0 for a leaf that interacts with nothing.
+  // reach[leaf]: 0 for a leaf that interacts with nothing. In the chart of a sphere stretch[leaf]
+  // is the chart's largest in it. There bubbles grow towards the point projected from, and the last
+  // ones would reach all others: what counts is how far either reaches along the sphere.
   void build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
-             PairReach pairs = PairReach::larger);
+             const std::vector<double>& stretch = {});
 
   std::int32_t begin(std::int32_t leaf) const { return offset_[index(leaf)]; }
   std::int32_t end(std::int32_t leaf) const { return offset_[index(leaf) + 1]; }
@@ -50,12 +47,11 @@ inline constexpr double kRoomForGrowth = 1.25;
 template <int Dim>
 struct LeafLinks {
   LeafLinks(const BackgroundTree<Dim>& tree, std::vector<double> reaches,
-            PairReach of_pairs = PairReach::larger)
-      : reach(std::move(reaches)), pairs(of_pairs) {
-    graph.build(tree, reach, pairs);
+            std::vector<double> stretches = {})
+      : reach(std::move(reaches)), stretch(std::move(stretches)) {
+    graph.build(tree, reach, stretch);
   }
-  std::vector<double> reach;
-  PairReach pairs;
+  std::vector<double> reach, stretch;  // see LeafGraph
   LeafGraph<Dim> graph;
 };
 
@@ -63,7 +59,7 @@ struct LeafLinks {
 // of bubbles reach half as far each, but the stars must know of every bubble that near.)
 template <int Dim>
 void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
-                           PairReach pairs) {
+                           const std::vector<double>& stretch) {
   const std::int32_t leaves = tree.leaf_count();
   ChunkedRows<std::int32_t> seen;  // of each pair, only in the row of the one that reaches farther
   seen.build("pnpbs::LeafGraph::look", leaves, [&] {
@@ -75,7 +71,11 @@ void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<do
       tree.for_leaves_in(widened(own, reach_a), [&](std::int32_t b) {
         const double reach_b = reach[index(b)];
         if (a == b || reach_b > reach_a || (reach_b == reach_a && b < a)) return;
-        const double most = reach_a * (pairs == PairReach::mean ? reach_b : reach_a);
+        double most = reach_a * reach_a;
+        if (!stretch.empty()) {
+          const double along = std::max(reach_a / stretch[index(a)], reach_b / stretch[index(b)]);
+          most = std::min(most, along * along * stretch[index(a)] * stretch[index(b)]);
+        }
         if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > most) return;
         out.push_back(b);
       });

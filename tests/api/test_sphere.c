@@ -365,15 +365,71 @@ START_TEST(whole_spheres_follow_a_new_spacing) {
   r = results_of(it.placement);
   values = malloc((size_t)r.nodes * sizeof *values);
   ck_assert(values);
-  for (i = 0; i < r.nodes; ++i) values[i] = r.x[3 * i + 2] / R;
+  for (i = 0; i < r.nodes; ++i) values[i] = r.x[3 * i + 2];
   MUST(pnpbs_transfer_create(it.placement, r.nodes, 1, values, &transfer));
   MUST(pnpbs_sphere_points(1, 1, degrees, at));
   MUST(pnpbs_transfer_at_points(transfer, 1, at, &value));
-  ck_assert_double_eq_tol(value, at[2], 350 / R);
+  /* On an edge of its triangle, half a spacing away at most. */
+  ck_assert_double_eq_tol(value, R * at[2], 0.6 * 350 * cos(40 * PI / 180));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_transfer_at_nodes(transfer, it.placement, 1, r.nodes, values), "sphere",
+            "integrals");
   MUST(pnpbs_transfer_destroy(&transfer));
   free(values);
   results_free(&r);
   job_end(&it);
+}
+END_TEST
+
+static int32_t spacing_from_point(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  const double* at = (const double*)user;
+  int64_t i;
+  for (i = 0; i < n; ++i) {
+    const double* y = x + dim * i;
+    const double cosine = (y[0] * at[0] + y[1] * at[1] + y[2] * at[2]) / (R * R);
+    d[i] = 100 + 0.05 * R * acos(cosine > 1 ? 1 : cosine < -1 ? -1 : cosine);
+  }
+  return 0;
+}
+
+/* By half and more across what is laid first: there is no gap beside it. The estimate is told
+ * before anything else is. */
+START_TEST(whole_spheres_are_closed_where_the_spacing_grows) {
+  job it = globe_job(10, 40);
+  double at[3];
+  const double degrees[2] = {10, 40};
+  int64_t estimated;
+  results r;
+  MUST(pnpbs_sphere_points(R, 1, degrees, at));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, spacing_from_point, at));
+  MUST(pnpbs_placement_estimate(it.placement, &estimated, NULL, NULL));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  r = results_of(it.placement);
+  check_is_closed(&r);
+  ck_assert_double_eq_tol((double)r.nodes / (double)estimated, 1, 0.04);
+  ck_assert_double_gt(real_of(it.placement, "quality.min"), 0.3);
+  ck_assert_double_gt(real_of(it.placement, "d_error.least"), 0.5);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+/* Whatever the size of d is that is to be multiplied. */
+START_TEST(whole_spheres_have_as_many_nodes_as_are_wanted) {
+  double d;
+  for (d = 1; d < 1e7; d *= 100) {
+    job it = globe_job(10, 40);
+    int64_t nodes;
+    job_place(&it);
+    MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
+    MUST(pnpbs_placement_set(it.placement, "wanted_nodes", "3000"));
+    MUST(pnpbs_placement_run(it.placement));
+    MUST(pnpbs_placement_count(it.placement, &nodes));
+    ck_assert_double_eq_tol((double)nodes / 3000, 1, 0.03);
+    job_end(&it);
+  }
 }
 END_TEST
 
@@ -413,8 +469,13 @@ START_TEST(what_whole_spheres_refuse) {
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_distance(it.domain, 0, 1, x, &d), "whole sphere",
             "without curves");
   MUST(pnpbs_domain_add_fixed_nodes(it.domain, 1, x, NULL));
+  MUST(pnpbs_domain_check(it.domain));
   MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_placement_run(it.placement), "name another point",
             "(longitude 10, latitude -85)");
+  x[2] = -x[2];
+  MUST(pnpbs_domain_add_hole(it.domain, x));
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "no holes",
+            "(longitude 10, latitude 85)");
   job_end(&it);
 }
 END_TEST
@@ -466,6 +527,8 @@ int main(void) {
   tcase_add_test(tests, meshes);
   tcase_add_test(tests, nothing_bounds_a_whole_sphere);
   tcase_add_test(tests, whole_spheres_follow_a_new_spacing);
+  tcase_add_test(tests, whole_spheres_are_closed_where_the_spacing_grows);
+  tcase_add_test(tests, whole_spheres_have_as_many_nodes_as_are_wanted);
   tcase_add_test(tests, whole_spheres_have_curves_and_fixed_nodes_inside);
   tcase_add_test(tests, what_whole_spheres_refuse);
   tcase_add_test(tests, bad_input);

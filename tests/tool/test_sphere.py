@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Seas on a sphere, bounded by coasts in longitude and latitude. PNPBS_GEO says whether the command was
+"""Spheres, and the seas on them that coasts in longitude and latitude bound. PNPBS_GEO says whether the command was
 built with GDAL."""
 
 import json

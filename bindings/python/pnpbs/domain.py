@@ -74,7 +74,8 @@ class Domain(Handle):
         (`add_polyline`) follow great circles from vertex to vertex; the domain is what lies behind
         an odd number of them, seen from a point in the direction `outside`, three numbers of any
         length except 0. Nodes are placed in the stereographic projection from that point, which
-        should be ten spacings or more away from the domain. Placements have `triangles` and
+        should be ten spacings or more away from the domain. Without a boundary curve the domain is
+        the whole sphere, on which nodes around that point are laid first. Placements have `triangles` and
         `boundary_edges`, as in the plane. Not on a sphere yet: Voronoi cells, particles, arcs,
         parametric curves, files of curves other than those of `Shapes`, and spacing given on grids,
         meshes or points.

@@ -11,6 +11,9 @@
 
 namespace pnpbs {
 
+// Of d at the point: more leave a sphere of some hundred nodes no room for a patch. [of its radius]
+inline constexpr double kMostAtPoint = 0.25;
+
 struct ClosingPatch {
   std::array<Point<3>, 3> rim;  // on the sphere: the triangle around the point, whose inside is the
                                 // only part of the sphere that has no place in the chart's domain

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -329,6 +330,10 @@ void PlaneDomain::follow_patch() {
 
 // What is given is checked as if the sphere were closed by next to nothing.
 void PlaneDomain::check_open_sphere() {
+  for (const RegionPoint<2>& point : region_points_)
+    if (point.is_hole())
+      reject_domain("a whole sphere has no holes, and there is one at " + point_text(point.point) +
+                    ": curves around it with the role of a boundary bound the domain there");
   constexpr double kNextToNothing = 1e-3;  // radians
   PlaneDomain closed = *this;
   ClosingPatch patch;
@@ -337,7 +342,7 @@ void PlaneDomain::check_open_sphere() {
     const double turn = 2 * std::numbers::pi * static_cast<double>(k) / 3;
     patch.rim[k] = chart_->on_sphere({r * std::cos(turn), r * std::sin(turn)});
   }
-  patch.edge = patch.beyond = r / 2;
+  patch.edge = patch.beyond = std::numeric_limits<double>::infinity();
   closed.close(patch);
   closed.check();
   resolved_ = std::move(closed.resolved_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/plane/closed_sphere.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "predicates/plane.hpp"
@@ -29,7 +30,11 @@ bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& cor
   if (!level.ground.domain().closing()) return false;
   std::array<Point<2>, 3> x;
   for (std::size_t k = 0; k < 3; ++k) x[k] = level.nodes.position(corners[k]);
-  return level.ground.domain().is_in_patch(x[0]) && orientation(x[0], x[1], x[2]) < 0;
+  const auto is_on_rim = [&](std::int64_t i) {
+    const std::int32_t b = level.nodes.boundary_node(i);
+    return b >= 0 && level.ground.bounds_domain_at(b);
+  };
+  return std::ranges::all_of(corners, is_on_rim) && orientation(x[0], x[1], x[2]) < 0;
 }
 
 }  // namespace pnpbs

@@ -3,6 +3,8 @@
 
 #include <iterator>
 
+#include "base/error.hpp"
+
 namespace pnpbs {
 
 Ground<2>::Ground(std::shared_ptr<const PlaneDomain> domain,
@@ -16,11 +18,20 @@ Ground<2>::Ground(std::shared_ptr<const PlaneDomain> domain,
     boundary_.facets.push_back({node, node, boundary_.nodes[f].tag, true, true});
   }
   sectors_.build(boundary_);
+  if (domain_->closing()) require_one_triangle_left();
   bubble_bound_ = bubbles_on_boundary(boundary_);
   std::vector<Point<2>> positions;
   for (const BoundaryNode<2>& node : boundary_.nodes) positions.push_back(node.position);
   boundary_spacing_.resize(positions.size());
   evaluator()(std::ssize(positions), positions.data(), boundary_spacing_.data());
+}
+
+// What closes a whole sphere has to leave that, and nothing else bounds it.
+void Ground<2>::require_one_triangle_left() const {
+  const auto edges = std::ranges::count_if(boundary_.facets, &BoundaryEdge::bounds);
+  if (edges != 3)
+    throw Error(ErrorKind::internal, "the patch that closes the sphere leaves " +
+                                         std::to_string(edges) + " edges open, not 3");
 }
 
 SpacingEvaluator<2> Ground<2>::evaluator() const {

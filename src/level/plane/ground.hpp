@@ -55,6 +55,13 @@ class Ground<2> {
   }
   // Of a whole sphere, is it where only the nodes are that close it?
   bool is_closed_at(const Point<2>& x) const { return domain_->is_closed_at(x); }
+  // Does the domain end at an edge of this boundary node?
+  bool bounds_domain_at(std::int32_t b) const {
+    bool bounds = false;
+    for (std::int32_t k = sectors_.begin(b); k < sectors_.end(b); ++k)
+      bounds = bounds || boundary_.facets[index(sectors_.edge(k).edge)].bounds();
+    return bounds;
+  }
   // Are these the ends of a boundary edge?
   bool on_one_edge(const Nodes<2>& nodes, std::int64_t i, std::int64_t j) const {
     return !nodes.moves(i) && !nodes.moves(j) &&
@@ -62,6 +69,7 @@ class Ground<2> {
   }
 
  private:
+  void require_one_triangle_left() const;
   static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
   std::shared_ptr<const PlaneDomain> domain_;

@@ -35,7 +35,8 @@ lengths along it, and points are the columns of a `(3, n)` matrix. Boundary curv
 ([`add_polyline!`](@ref)) follow great circles from vertex to vertex; the domain is what lies behind
 an odd number of them, seen from a point in the direction `outside`, three numbers of any length
 except 0. Nodes are placed in the stereographic projection from that point, which should be ten
-spacings or more away from the domain. Placements have [`triangles`](@ref) and
+spacings or more away from the domain. Without a boundary curve the domain is the whole sphere, on
+which nodes around that point are laid first. Placements have [`triangles`](@ref) and
 [`boundary_edges`](@ref), as in the plane. Not on a sphere yet: Voronoi cells, particles, arcs,
 parametric curves, files of curves other than those of [`Shapes`](@ref), and spacing given on grids,
 meshes or points.
