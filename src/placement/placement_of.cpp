@@ -89,7 +89,7 @@ Outcome PlacementOf<Dim>::make_level() {
       builder.with_first_nodes(std::move(next), std::move(placed), settings, nodes_before()));
 }
 
-// From here on the new level counts: nothing has failed.
+// Nothing has failed: from here on the new level counts.
 template <int Dim>
 Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>* replaced) {
   std::unique_ptr<Level<Dim>> before = replace_level(std::move(made.level), std::move(made.placed));

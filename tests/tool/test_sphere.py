@@ -32,6 +32,18 @@ ACROSS = feature([[168, 8], [180, 8], [180, 22], [170, 25]], [[-180, 8], [-172, 
 CONTINENT = feature([[-20, -10], [30, -30], [50, 10], [20, 40], [-30, 30]])
 
 
+def element_rows(path):
+    """Of an .msh2 file: number, kind (1: edge, 2: triangle), tags and nodes."""
+    lines = path.read_text().split("$Elements\n")[1].split("\n")[1:]
+    return [[int(word) for word in line.split()] for line in lines if line and line[0] != "$"]
+
+
+def triangles_and_edges(rows):
+    """By the places of their nodes."""
+    return (np.array([row[-3:] for row in rows if row[1] == 2]) - 1,
+            np.array([row[-2:] for row in rows if row[1] == 1]) - 1)
+
+
 class WholeSphere(CommandTest):
     """Without a file, and so without GDAL."""
 
@@ -46,10 +58,9 @@ class WholeSphere(CommandTest):
 
     def test_it_is_closed(self):
         nodes, report = self.placed("--output", "sphere.msh2", "--output", "sphere.svg")
-        text = (self.folder / "sphere.msh2").read_text().split("$Elements\n")[1].split("\n")[1:]
-        rows = [[int(word) for word in line.split()] for line in text if line and line[0] != "$"]
+        rows = element_rows(self.folder / "sphere.msh2")
         self.assertEqual({row[1] for row in rows}, {2})  # triangles alone
-        corners = np.array([row[-3:] for row in rows]) - 1
+        corners, _ = triangles_and_edges(rows)
         self.assertEqual(len(corners), 2 * (report["nodes"] - 2))
         edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
         self.assertTrue(np.all(np.unique(edges, axis=0, return_counts=True)[1] == 2))
@@ -98,10 +109,7 @@ class Sphere(CommandTest):
         return np.column_stack([table[k] for k in "xyz"]), table, report, err.decode()
 
     def triangles(self):
-        lines = (self.folder / "sea.msh2").read_text().split("$Elements\n")[1].split("\n")[1:]
-        rows = [[int(word) for word in line.split()] for line in lines if line and line[0] != "$"]
-        return (np.array([row[-3:] for row in rows if row[1] == 2]) - 1,
-                np.array([row[-2:] for row in rows if row[1] == 1]) - 1)
+        return triangles_and_edges(element_rows(self.folder / "sea.msh2"))
 
     def test_a_sea_with_a_pole_and_the_date_line(self):
         x, table, report, _ = self.placed()
