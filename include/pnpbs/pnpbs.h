@@ -1484,6 +1484,12 @@ PNPBS_API pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t 
  *    .hdf5  initial conditions of SWIFT and Gadget by HDF5, of gas at rest: PartType0 has
  *           coordinates, masses, densities and smoothing lengths of 1.2348 times the square or
  *           cube root of the volume. Needs the same fields
+ *    .mpas  on a sphere, a grid of MPAS in NetCDF's 64-bit data format: the Voronoi cells of all
+ *           nodes but those of the boundary, their vertices and edges, how these are joined, and
+ *           the weights that give velocities along edges (Thuburn and others 2009). Lengths are in
+ *           the unit of the radius; cells are in the order of the nodes. Beyond the last cells
+ *           there is land, as in grids that have been culled
+ *    .graph on a sphere, which of these cells are beside each other, for METIS (graph.info of MPAS)
  *  Nodes are in the order of their ids, elements and boundary in the order of their corners: all
  *  formats but .pvtu have the same bytes for any number of ranks and threads. All ranks write at
  *  the same time (MPI-IO), and none holds more than its share. A file appears under its name only

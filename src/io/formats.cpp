@@ -7,6 +7,7 @@
 
 #include "base/extension.hpp"
 #include "base/small_letters.hpp"
+#include "io/mpas.hpp"
 #include "io/particle_fields.hpp"
 
 namespace pnpbs::io {
@@ -42,6 +43,24 @@ constexpr std::array table{
            Elements::regions, true, false, write_lammps, kMatter},
     Format{"hdf5", "initial conditions of SWIFT and Gadget: particles of gas at rest; needs HDF5",
            true, Elements::never, false, true, write_gadget, kMatter},
+    Format{"mpas",
+           "MPAS grid of a sphere: Voronoi cells, edges, vertices and weights as NetCDF",
+           true,
+           Elements::always,
+           false,
+           false,
+           nullptr,
+           {},
+           write_mpas},
+    Format{"graph",
+           "graph of these cells for gpmetis, MPAS' graph.info",
+           false,
+           Elements::always,
+           false,
+           false,
+           nullptr,
+           {},
+           write_cell_graph},
 };
 
 constexpr Format heavy_data{"h5", "arrays of a .xdmf file", true, Elements::on_request, false,

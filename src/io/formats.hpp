@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "cgrid/sphere_grid.hpp"
 #include "io/node_source.hpp"
 #include "io/shared_file.hpp"
 
@@ -22,9 +23,13 @@ struct Format {
   Elements elements;
   bool bodies_only;  // none of the plane
   bool by_hdf5;      // in part at least: a file of its own, no stream
-  // Collective. nullptr: in pieces, which is not one file's business.
+  // Collective. nullptr: in pieces, which is not one file's business, or of cells.
   void (*write)(const NodeSource& nodes, SharedFile& file);
   std::span<const std::string_view> fields{};  // of the caller's, that it cannot do without
+  // Of the cells of a sphere, not of its nodes and triangles. Collective.
+  void (*write_cells)(const SphereGrid& grid, SharedFile& file) = nullptr;
+
+  bool in_pieces() const { return !write && !write_cells; }
 };
 
 std::span<const Format> formats();

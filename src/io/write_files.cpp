@@ -56,7 +56,7 @@ void require_possible(const std::string& path, const Format& format, bool elemen
   if (format.bodies_only && dimension == 2)
     refuse(std::string("a .") + format.name + " file is of bodies, none of the plane: '" + path +
            "'");
-  if (!format.write && path == "-")
+  if (format.in_pieces() && path == "-")
     refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
   if (format.by_hdf5) require_places(path, format);
   if (elements && (format.elements == Elements::never || format.elements == Elements::regions))
@@ -80,7 +80,9 @@ class Writing {
       : monitoring_(monitoring), results_(results), fields_(fields), expected_(files) {}
 
   void add(const FileWish& wish) {
-    if (wish.format->write) {
+    if (wish.format->write_cells) {
+      add_grid(wish);
+    } else if (wish.format->write) {
       add_file(wish);
     } else {
       add_piece(wish);
@@ -112,6 +114,15 @@ class Writing {
     else
       wish.format->write(*nodes, file);
     file.close();
+  }
+
+  void add_grid(const FileWish& wish) {
+    if constexpr (Dim == 2) {
+      if (!grid_) grid_ = make_sphere_grid(results_);
+      SharedFile& file = open(comm(), wish.path);
+      wish.format->write_cells(*grid_, file);
+      file.close();
+    }
   }
 
   // Each rank alone; what fails on one is told to all.
@@ -154,7 +165,8 @@ class Writing {
   const std::int64_t nodes_ = results_.global_count();
   std::size_t expected_, done_ = 0;
   std::optional<NodesById<Dim>> with_elements_, nodes_only_;
-  Contents like_;  // of this rank's piece
+  std::unique_ptr<SphereGrid> grid_;  // once a file needs it
+  Contents like_;                     // of this rank's piece
   std::vector<std::unique_ptr<SharedFile>> files_;
 };
 
@@ -179,7 +191,7 @@ void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& c
 
 Wished wished_of(const Placement& placement) {
   const bool surfaces_alone = placement.results().surfaces_alone();
-  return {placement.dimension(), !surfaces_alone, surfaces_alone};
+  return {placement.dimension(), !surfaces_alone, surfaces_alone, placement.chart() != nullptr};
 }
 
 void give_up_if_asked(const AsksToStop& asks_to_stop, std::size_t done, std::size_t files) {
@@ -201,6 +213,8 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
   require_possible(path, format, elements, of.dimension);
+  if (format.write_cells && !of.on_sphere)
+    refuse(std::string("a .") + format.name + " file is of the cells of a sphere: '" + path + "'");
   if (of.surfaces_alone && format.bodies_only && !format.fields.empty())
     refuse(std::string("a .") + format.name + " file is of bodies, none of surfaces alone: '" +
            path + "'");

@@ -26,6 +26,7 @@ struct Wished {
   int dimension = 2;
   bool has_elements = false;
   bool surfaces_alone = false;
+  bool on_sphere = false;
 };
 
 Wished wished_of(const Placement& placement);

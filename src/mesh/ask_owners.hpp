@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/mesh_records.hpp"
 #include "mesh/rank_ranges.hpp"
 
 namespace pnpbs {

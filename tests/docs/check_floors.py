@@ -14,7 +14,7 @@ import checks
 
 FLOORS = ("base sphere method comm predicates tree geometry formats surfaces implicit domain shape spacing "
           "initial partition neighbors dynamics population delaunay quality settings level "
-          "placement mesh voronoi particles io picture api geo tool").split()
+          "placement mesh cgrid voronoi particles io picture api geo tool").split()
 PUBLIC_HEADER_FOR = "api", "geo", "tool"
 MAX_LINES = 400
 MAX_FUNCTION_LINES = 60

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Arcs, areas and circles on the sphere of radius 1 about the origin. Points are unit vectors.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/space_vectors.hpp"
+
+namespace pnpbs {
+
+// Along the great circle.
+inline double arc(const Point<3>& a, const Point<3>& b) {
+  return 2 * std::asin(std::min(1.0, 0.5 * length(difference(a, b))));
+}
+
+inline Point<3> arc_middle(const Point<3>& a, const Point<3>& b) {
+  return unit_vector({a[0] + b[0], a[1] + b[1], a[2] + b[2]});
+}
+
+// Positive where the corners turn counter-clockwise, seen from outside (A. van Oosterom and J.
+// Strackee, IEEE Transactions on Biomedical Engineering 30 (1983), 125-126). By differences, since
+// small triangles are what there is.
+inline double signed_area(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  const double volume = dot(a, cross(difference(b, a), difference(c, a)));
+  return 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+// As far from all three. The centre of their circle in space, seen from the origin: the normal of
+// their plane has the same direction, but an error as many times larger as the triangle is smaller
+// than the sphere.
+inline Point<3> circumcentre(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  const Point<3> u = difference(b, a), v = difference(c, a), normal = cross(u, v);
+  const Point<3> to_u = cross(v, normal), to_v = cross(normal, u);
+  const double uu = dot(u, u), vv = dot(v, v), twice = 2 * dot(normal, normal);
+  Point<3> centre;
+  for (std::size_t k = 0; k < 3; ++k) centre[k] = a[k] + (uu * to_u[k] + vv * to_v[k]) / twice;
+  return unit_vector(centre);
+}
+
+// Of the way from a to b, where it leaves a point between them, against the east there: positive
+// towards the north. Radians, -pi .. pi.
+inline double angle_to_east(const Point<3>& at, const Point<3>& a, const Point<3>& b) {
+  const double across = std::hypot(at[0], at[1]);
+  const Point<3> east =
+      across > 0 ? Point<3>{-at[1] / across, at[0] / across, 0} : Point<3>{0, 1, 0};  // longitude 0
+  const Point<3> way = difference(b, a);
+  return std::atan2(dot(way, cross(at, east)), dot(way, east));
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The head of a NetCDF file in 64-bit data format (CDF-5, which NetCDF 4.4 and PnetCDF read): what
+// arrays follow it, each behind the other, without records (The NetCDF classic format
+// specification, docs.unidata.ucar.edu/netcdf-c). Numbers are big-endian.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/number_type.hpp"
+
+namespace pnpbs::io {
+
+struct NetcdfDimension {
+  std::string name;
+  std::int64_t size;
+};
+
+struct NetcdfAttribute {
+  std::string name;
+  std::variant<std::string, double, std::int32_t> value;
+};
+
+struct NetcdfVariable {
+  std::string name;
+  NumberType type;                      // int32 or real
+  std::vector<std::size_t> dimensions;  // their places in the list of all
+  std::vector<NetcdfAttribute> attributes;
+};
+
+struct NetcdfContents {
+  std::vector<NetcdfDimension> dimensions;
+  std::vector<NetcdfAttribute> attributes;
+  std::vector<NetcdfVariable> variables;
+};
+
+std::string netcdf_head(const NetcdfContents& contents);
+
+// Turns them over where the processor is little-endian.
+void make_big_endian(std::vector<std::int32_t>& values);
+void make_big_endian(std::vector<double>& values);
+
+}  // namespace pnpbs::io
