@@ -239,7 +239,7 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  no boundary edges.
  *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
  *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on a
- *  sphere yet: Voronoi cells, conserved integrals, particles and offsets, arcs, parametric curves,
+ *  sphere yet: conserved integrals, particles and offsets, arcs, parametric curves,
  *  graphs, holes of a whole sphere, files of curves other than those of geographic shapes, segments
  *  of the domain, and spacing given on grids, meshes or points. Local.
  *  @param[in] radius   > 0
@@ -1326,11 +1326,12 @@ PNPBS_API pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
 /** Makes the Voronoi cells of the current nodes: for each node the part of the elements of the
  *  placement that is closer to it than to any other, with its volume, its faces to neighbours and
  *  its share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces
- * are lengths there; on surfaces distances are straight. Each element is divided among the corners
- * of all elements that touch it, so a node sees none through a gap that has no elements. The
- * volumes add up to that of the elements to rounding. Cells are functions of the nodes alone: any
- * number of ranks and threads gives the same bits. The cells are a copy: nodes may move afterwards,
- * and the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes.
+ *  are lengths there; on surfaces distances are straight, and on spheres lengths, areas and
+ *  distances are along the sphere. Each element is divided among the corners of all elements that
+ *  touch it, so a node sees none through a gap that has no elements. The volumes add up to that of
+ *  the elements to rounding. Cells are functions of the nodes alone: any number of ranks and
+ *  threads gives the same bits. The cells are a copy: nodes may move afterwards, and the placement
+ *  may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes.
  *  @param[in] placement  whose nodes have the cells
  *  @param[out] voronoi   the handle */
 PNPBS_API pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);

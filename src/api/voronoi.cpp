@@ -2,7 +2,6 @@
 // Voronoi cells, handed out through the C interface.
 #include "api/copy_out.hpp"
 #include "api/placement_calls.hpp"
-#include "api/sphere_points.hpp"
 #include "voronoi/voronoi_cells.hpp"
 
 using namespace pnpbs;
@@ -13,10 +12,7 @@ pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi* voro
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
     NodalResults& results = object.placement->results();
-    agreed(results.communicator(), [&] {
-      require_pointer(voronoi, "voronoi");
-      require_no_sphere(object.placement->chart(), "placement", "Voronoi cells are found");
-    });
+    agreed(results.communicator(), [&] { require_pointer(voronoi, "voronoi"); });
     agreed(results.communicator(), [&] {
       auto made = std::make_shared<VoronoiObject>();
       made->context = object.context;

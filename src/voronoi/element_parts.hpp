@@ -10,7 +10,7 @@
 
 #include "base/chunked_rows.hpp"
 #include "voronoi/element_sites.hpp"
-#include "voronoi/part_rows.hpp"
+#include "voronoi/sphere_parts.hpp"
 
 namespace pnpbs {
 
@@ -32,7 +32,8 @@ class ElementParts {
  private:
   class Writer {
    public:
-    Writer(const ElementSites<Dim>& all, std::int64_t first) : all_(all), first_(first) {}
+    Writer(const ElementSites<Dim>& all, std::int64_t first)
+        : all_(all), first_(first), rows_(all.sphere_radius) {}
 
     void operator()(std::int64_t row, std::vector<double>& out) {
       x_.clear();
@@ -40,12 +41,13 @@ class ElementParts {
         x_.push_back(all_.x[static_cast<std::size_t>(s)]);
       divided_.set(x_);
       divided_.divide_among_corners();
-      append_parts(divided_, out);
+      rows_.append(divided_, out);
     }
 
    private:
     const ElementSites<Dim>& all_;
     std::int64_t first_;
+    PartRows<Dim, Corners> rows_;
     DividedElement<Dim, Corners> divided_;
     std::vector<Point<Dim>> x_;  // of the sites
   };

@@ -11,8 +11,8 @@
 #include "base/rank_limit.hpp"
 #include "comm/records.hpp"
 #include "voronoi/few_nodes.hpp"
-#include "voronoi/part_rows.hpp"
 #include "voronoi/site_finder.hpp"
+#include "voronoi/sphere_parts.hpp"
 
 namespace pnpbs {
 
@@ -92,14 +92,15 @@ void find_own(const DistributedMesh& mesh, ElementSites<Dim>& found, ChunkedRows
   found.elements.resize(static_cast<std::size_t>(mesh.owned_elements));
   ChunkedRows<std::int32_t> rows;
   rows.build_with(parts, "pnpbs::voronoi::sites", mesh.owned_elements, [&] {
-    return [&, finder = SiteFinder<Dim, Corners>(found, neighbours)](
+    return [&, finder = SiteFinder<Dim, Corners>(found, neighbours),
+            rows_of = PartRows<Dim, Corners>(found.sphere_radius)](
                std::int64_t element, std::vector<std::int32_t>& out,
                std::vector<double>& parts_out) mutable {
       const std::size_t e = static_cast<std::size_t>(element);
       std::array<std::int32_t, Corners> corners;
       found.elements[e].boundary = sort_corners(mesh, e, sides[e], corners);
       finder.find(corners, out);
-      append_parts(finder.divided(), parts_out);
+      rows_of.append(finder.divided(), parts_out);
     };
   });
   std::size_t sites = 0;
@@ -179,19 +180,20 @@ void add_arrived(const std::vector<SentSite<Dim>>& arrived, ElementSites<Dim>& f
 
 template <std::size_t Corners, int Dim>
 ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh,
-                                     ChunkedRows<double>& parts) {
+                                     double sphere_radius, ChunkedRows<double>& parts) {
   ElementSites<Dim> found;
+  found.sphere_radius = sphere_radius;
   copy_nodes(mesh, found);
   find_own<Corners>(mesh, found, parts);
   add_arrived(deliver<SentSite<Dim>>(comm, elements_for_others(comm, mesh, found)), found);
   return found;
 }
 
-template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&,
+template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&, double,
                                                ChunkedRows<double>&);
-template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&,
+template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&, double,
                                                ChunkedRows<double>&);
-template ElementSites<3> find_element_sites<4>(const Communicator&, const DistributedMesh&,
+template ElementSites<3> find_element_sites<4>(const Communicator&, const DistributedMesh&, double,
                                                ChunkedRows<double>&);
 
 }  // namespace pnpbs

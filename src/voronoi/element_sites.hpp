@@ -17,6 +17,7 @@ namespace pnpbs {
 // Nodes and elements that a rank knows, by local indices.
 template <int Dim>
 struct ElementSites {
+  double sphere_radius = 0;   // 0: not on a sphere
   std::vector<Point<Dim>> x;  // of nodes, those that the rank owns first
   std::vector<std::int64_t> ids, numbers;
 
@@ -37,17 +38,18 @@ struct ElementSites {
 
 // All elements of which a node of this rank is a site. mesh: with a layer of ghost elements. The
 // candidates of an element are the corners of all elements that touch it. parts: gets the rows
-// (part_rows.hpp) of those that this rank owns, which come first. Collective.
+// (part_rows.hpp) of those that this rank owns, which come first. sphere_radius: of the sphere that
+// they are on, or 0. Collective.
 template <std::size_t Corners, int Dim>
 ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh,
-                                     ChunkedRows<double>& parts);
+                                     double sphere_radius, ChunkedRows<double>& parts);
 
 // Triangles of the plane and of surfaces alone, and tetrahedra.
 extern template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&,
-                                                      ChunkedRows<double>&);
+                                                      double, ChunkedRows<double>&);
 extern template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&,
-                                                      ChunkedRows<double>&);
+                                                      double, ChunkedRows<double>&);
 extern template ElementSites<3> find_element_sites<4>(const Communicator&, const DistributedMesh&,
-                                                      ChunkedRows<double>&);
+                                                      double, ChunkedRows<double>&);
 
 }  // namespace pnpbs

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/chunked_rows.hpp"
+#include "placement/results.hpp"
 #include "voronoi/element_parts.hpp"
 #include "voronoi/elements_of_sites.hpp"
 #include "voronoi/few_nodes.hpp"
@@ -90,11 +91,27 @@ class CellMaker {
 
   // The side opposite to corner k; its height points inwards.
   void add_boundary(std::size_t k, std::size_t site) {
+    if constexpr (Dim == 3 && Corners == 3)
+      if (all_.sphere_radius > 0) return add_coast(k, site);
     const double area = divided_.part_of_side(k, site).measure();
     if (area == 0) return;
     const Point<Dim> inward = divided_.height(k);
     const double length = std::sqrt(dot(inward, inward));
     for (std::size_t c = 0; c < Dim; ++c) boundary_[c].push_back(-inward[c] / length * area);
+  }
+
+  // On a sphere, along which the normal of a great circle is the same everywhere.
+  void add_coast(std::size_t k, std::size_t site) requires(Dim == 3 && Corners == 3) {
+    const double length = all_.sphere_radius * arc_of(divided_.part_of_side(k, site).points());
+    if (length == 0) return;
+    const Point<3> normal = unit_vector(cross(x_[(k + 1) % 3], x_[(k + 2) % 3]));
+    const double outward = dot(normal, x_[k]) > 0 ? -1 : 1;
+    for (std::size_t c = 0; c < 3; ++c) boundary_[c].push_back(outward * normal[c] * length);
+  }
+
+  // Of a chord.
+  double along_sphere(double straight) const {
+    return 2 * all_.sphere_radius * std::asin(std::min(1.0, straight / (2 * all_.sphere_radius)));
   }
 
   // By the neighbours' ids.
@@ -109,10 +126,11 @@ class CellMaker {
         area += areas_[k];
       const std::int32_t neighbour = neighbours_[place];
       const Point<Dim>& there = all_.x[static_cast<std::size_t>(neighbour)];
-      const double away = distance<Dim>(x, there);
+      const double straight = distance<Dim>(x, there);
+      const double away = all_.sphere_radius > 0 ? along_sphere(straight) : straight;
       if (area <= kNoFace * std::pow(away, static_cast<int>(Corners) - 2)) continue;
       Point<Dim> normal;
-      for (std::size_t k = 0; k < Dim; ++k) normal[k] = (there[k] - x[k]) / away;
+      for (std::size_t k = 0; k < Dim; ++k) normal[k] = (there[k] - x[k]) / straight;
       out.push_back({neighbour, area, away, normal});
     }
   }
@@ -167,12 +185,14 @@ void append(const ElementSites<Dim>& all, std::span<const CellFace<Dim>> faces,
 }
 
 template <std::size_t Corners, int Dim>
-std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMesh& mesh) {
+std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMesh& mesh,
+                                   double sphere_radius = 0) {
   auto made = std::make_unique<VoronoiCells>();
   VoronoiCells& cells = *made;
   cells.dimension = Dim;
   ChunkedRows<double> own_parts;
-  const ElementSites<Dim> all = find_element_sites<Corners, Dim>(comm, mesh, own_parts);
+  const ElementSites<Dim> all =
+      find_element_sites<Corners, Dim>(comm, mesh, sphere_radius, own_parts);
   const ElementsOfSites<Dim> at_nodes(all, mesh.owned_nodes);
   const ElementParts<Dim, Corners> parts(all, std::move(own_parts), mesh.owned_elements);
   cells.volumes.resize(static_cast<std::size_t>(mesh.owned_nodes));
@@ -189,12 +209,21 @@ std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMe
   return made;
 }
 
+double sphere_radius_of(NodalResults& results) {
+  double radius = 0;
+  in_its_dimension(results, [&]<int Dim>(const Results<Dim>& in) {
+    if (in.chart()) radius = in.chart()->radius();
+  });
+  return radius;
+}
+
 }  // namespace
 
 std::unique_ptr<VoronoiCells> make_voronoi_cells(NodalResults& results) {
   const std::unique_ptr<DistributedMesh> mesh = make_distributed_mesh(results, 1);
   const Communicator& comm = results.communicator();
   if (mesh->dimension == 2) return make<3, 2>(comm, *mesh);
+  if (results.dimension() == 2) return make<3, 3>(comm, *mesh, sphere_radius_of(results));
   if (mesh->corners == 3) return make<3, 3>(comm, *mesh);
   return make<4, 3>(comm, *mesh);
 }

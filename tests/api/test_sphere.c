@@ -243,7 +243,6 @@ END_TEST
 START_TEST(meshes) {
   job it = sea_job();
   pnpbs_mesh mesh;
-  pnpbs_voronoi voronoi;
   int64_t nodes, edges, facets, k, coast = 0;
   int32_t dim, corners, *tags;
   double* x;
@@ -264,10 +263,128 @@ START_TEST(meshes) {
   for (k = 0; k < facets; ++k) coast += tags[k] != 0;
   ck_assert_int_eq(coast, edges);
   MUST(pnpbs_mesh_destroy(&mesh));
-  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_voronoi_create(it.placement, &voronoi), "sphere",
-            "Voronoi");
   free(x);
   free(tags);
+  job_end(&it);
+}
+END_TEST
+
+typedef struct {
+  int64_t nodes, faces, *offsets, *numbers;
+  double *volumes, *boundary, *areas, *distances, *normals;
+} cells;
+
+static cells cells_of(pnpbs_placement placement) {
+  cells c;
+  pnpbs_voronoi voronoi;
+  int32_t dim;
+  MUST(pnpbs_voronoi_create(placement, &voronoi));
+  MUST(pnpbs_voronoi_sizes(voronoi, &dim, &c.nodes, &c.faces));
+  ck_assert_int_eq(dim, 3);
+  c.offsets = malloc((size_t)(c.nodes + 1) * sizeof *c.offsets);
+  c.numbers = malloc((size_t)c.faces * sizeof *c.numbers);
+  c.volumes = malloc((size_t)c.nodes * sizeof(double));
+  c.boundary = malloc((size_t)c.nodes * 3 * sizeof(double));
+  c.areas = malloc((size_t)c.faces * sizeof(double));
+  c.distances = malloc((size_t)c.faces * sizeof(double));
+  c.normals = malloc((size_t)c.faces * 3 * sizeof(double));
+  ck_assert(c.offsets && c.numbers && c.volumes && c.boundary && c.areas && c.distances &&
+            c.normals);
+  MUST(pnpbs_voronoi_get_cells(voronoi, c.nodes, c.volumes, c.boundary));
+  MUST(pnpbs_voronoi_get_faces(voronoi, c.nodes, c.faces, c.offsets, NULL, c.numbers, c.areas,
+                               c.distances, c.normals));
+  MUST(pnpbs_voronoi_destroy(&voronoi));
+  return c;
+}
+
+static void cells_free(cells* c) {
+  free(c->offsets), free(c->numbers), free(c->volumes), free(c->boundary);
+  free(c->areas), free(c->distances), free(c->normals);
+}
+
+/* Faces are on the great circle between two nodes, as long on both sides, and lengths are along the
+ * sphere. */
+static void check_faces(const results* r, const cells* c) {
+  int64_t i, k, m;
+  int a;
+  for (i = 0; i < c->nodes; ++i)
+    for (k = c->offsets[i]; k < c->offsets[i + 1]; ++k) {
+      const int64_t j = c->numbers[k];
+      const double* n = c->normals + 3 * k;
+      double chord = 0, along = 0;
+      for (a = 0; a < 3; ++a) {
+        const double way = r->x[3 * j + a] - r->x[3 * i + a];
+        chord += way * way;
+        along += way * n[a];
+      }
+      ck_assert_double_eq_tol(along / sqrt(chord), 1, 1e-14);
+      ck_assert_double_eq_tol(c->distances[k], 2 * R * asin(sqrt(chord) / (2 * R)), 1e-9);
+      for (m = c->offsets[j]; m < c->offsets[j + 1] && c->numbers[m] != i; ++m) continue;
+      ck_assert(m < c->offsets[j + 1] && c->areas[m] == c->areas[k]);
+    }
+}
+
+static double sum_of(int64_t n, const double* values) {
+  double sum = 0;
+  int64_t i;
+  for (i = 0; i < n; ++i) sum += values[i];
+  return sum;
+}
+
+/* The cells cover what the triangles cover, and the lengths of their shares of the coast add up to
+ * it. A regular cell has the area of a hexagon, and so has its share of the faces. */
+START_TEST(voronoi_cells) {
+  job it = sea_job();
+  double coast = 0, boundary = 0, hexagons = 0;
+  int64_t edges, *nodes, i, regular = 0;
+  results r;
+  cells c;
+  int whole;
+  for (whole = 0; whole < 2; ++whole) {
+    if (whole) {
+      job_end(&it);
+      memset(&it, 0, sizeof it);
+      MUST(pnpbs_context_create_serial(&it.context));
+      it.domain = sphere_of(it.context, 10, 40);
+    }
+    job_place(&it);
+    MUST(pnpbs_placement_set_spacing_constant(it.placement, 400));
+    MUST(pnpbs_placement_run(it.placement));
+    r = results_of(it.placement);
+    c = cells_of(it.placement);
+    ck_assert_int_eq(c.nodes, r.nodes);
+    ck_assert_double_eq_tol(sum_of(c.nodes, c.volumes) / area_on_sphere(&r), 1, 1e-12);
+    check_faces(&r, &c);
+    MUST(pnpbs_placement_get_boundary_edges(it.placement, 0, &edges, NULL, NULL));
+    nodes = malloc((size_t)(2 * edges + 1) * sizeof *nodes);
+    ck_assert(nodes);
+    MUST(pnpbs_placement_get_boundary_edges(it.placement, edges, &edges, nodes, NULL));
+    for (i = 0, coast = 0; i < edges; ++i) {
+      const double *a = r.x + 3 * nodes[2 * i], *b = r.x + 3 * nodes[2 * i + 1];
+      coast += 2 * R * asin(hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]) / (2 * R));
+    }
+    for (i = 0, boundary = 0; i < c.nodes; ++i) {
+      const double* b = c.boundary + 3 * i;
+      const double length = hypot(hypot(b[0], b[1]), b[2]);
+      boundary += length;
+      /* Away from the domain, which lies in the north. */
+      if (length > 0) ck_assert_double_lt(b[2], 0);
+    }
+    /* Less where the coast turns at a node. */
+    ck_assert_double_ge(coast * (1 + 1e-12), boundary);
+    ck_assert_double_ge(boundary, 0.99 * coast);
+    for (i = 0; i < c.nodes; ++i)
+      if (c.offsets[i + 1] - c.offsets[i] == 6 &&
+          hypot(c.boundary[3 * i], c.boundary[3 * i + 1]) == 0) {
+        hexagons += c.volumes[i] / (sqrt(0.75) * 400 * 400);
+        ++regular;
+      }
+    ck_assert_double_eq_tol(hexagons / (double)regular, 1, 0.03);
+    free(nodes);
+    cells_free(&c);
+    results_free(&r);
+  }
+  ck_assert(coast == 0 && boundary == 0);
   job_end(&it);
 }
 END_TEST
@@ -525,6 +642,7 @@ int main(void) {
   tcase_add_test(tests, growth_is_limited_along_the_sphere);
   tcase_add_test(tests, nodes_and_values_are_taken_back);
   tcase_add_test(tests, meshes);
+  tcase_add_test(tests, voronoi_cells);
   tcase_add_test(tests, nothing_bounds_a_whole_sphere);
   tcase_add_test(tests, whole_spheres_follow_a_new_spacing);
   tcase_add_test(tests, whole_spheres_are_closed_where_the_spacing_grows);

@@ -18,6 +18,7 @@ import time
 import unittest
 import unittest.mock
 
+import netCDF4
 import numpy as np
 import pnpbs
 from mesh_checks import check_mesh, measures
@@ -581,6 +582,26 @@ class Meshes(Case):
             self.assertEqual(faces, {(j, i): area for (i, j), area in faces.items()})
             self.assertIn(f"{len(nodes.ids)} cells, {len(rows)} faces", repr(cells))
         self.assert_status(Status.ERROR_STATE, pnpbs.Placement(box).voronoi)
+
+    def test_voronoi_cells_of_a_sphere_are_those_of_its_grid(self):
+        sphere = pnpbs.Domain.on_sphere(self.context, 3, (0, 1, 1))
+        placement = self.placed(sphere, lambda x: 0.3 + 0.05 * x[:, 2])
+        cells = placement.voronoi()
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "grid.mpas"
+            placement.write(path)
+            grid = netCDF4.Dataset("grid", memory=path.read_bytes())
+        with grid:
+            np.testing.assert_allclose(cells.volumes, grid["areaCell"][:], rtol=1e-12)
+            rows = np.repeat(np.arange(len(cells.volumes)), cells.neighbours.lengths())
+            order = np.lexsort(grid["cellsOnEdge"][:].T)
+            ends = grid["cellsOnEdge"][:][order] - 1
+            first = rows < cells.numbers
+            faces = np.lexsort((rows[first], cells.numbers[first]))
+            np.testing.assert_array_equal(np.column_stack([rows[first], cells.numbers[first]])[faces], ends)
+            np.testing.assert_allclose(cells.areas[first][faces], grid["dvEdge"][:][order], rtol=1e-9)
+            np.testing.assert_allclose(cells.distances[first][faces], grid["dcEdge"][:][order], rtol=1e-12)
+        placement.close()
 
     def check_particles(self, placement, body):
         """The measure of the body is 1."""

@@ -76,7 +76,7 @@ class Domain(Handle):
         length except 0. Nodes are placed in the stereographic projection from that point, which
         should be ten spacings or more away from the domain. Without a boundary curve the domain is
         the whole sphere, on which nodes around that point are laid first. Placements have `triangles` and
-        `boundary_edges`, as in the plane. Not on a sphere yet: Voronoi cells, particles, arcs,
+        `boundary_edges`, as in the plane. Not on a sphere yet: particles, arcs,
         parametric curves, files of curves other than those of `Shapes`, and spacing given on grids,
         meshes or points.
 

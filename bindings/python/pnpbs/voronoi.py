@@ -19,7 +19,8 @@ from .rows import CompressedRows
 class VoronoiCells:
     """The Voronoi cells of the nodes that this rank owns, made by `placement.voronoi`, in the order
     of `placement.nodes`. Volumes are areas in the plane and on surfaces, and areas of faces are
-    lengths there; on surfaces distances are straight.
+    lengths there; on surfaces distances are straight, and on spheres lengths, areas and distances
+    are along the sphere.
 
     - `volumes`: of each cell.
     - `boundary`: the outward normal integrated over the part of the boundary that is closest to the

@@ -37,7 +37,7 @@ an odd number of them, seen from a point in the direction `outside`, three numbe
 except 0. Nodes are placed in the stereographic projection from that point, which should be ten
 spacings or more away from the domain. Without a boundary curve the domain is the whole sphere, on
 which nodes around that point are laid first. Placements have [`triangles`](@ref) and
-[`boundary_edges`](@ref), as in the plane. Not on a sphere yet: Voronoi cells, particles, arcs,
+[`boundary_edges`](@ref), as in the plane. Not on a sphere yet: particles, arcs,
 parametric curves, files of curves other than those of [`Shapes`](@ref), and spacing given on grids,
 meshes or points.
 
