@@ -67,11 +67,15 @@ struct ElementRows {
   std::vector<std::int32_t> regions;  // [elements], 0: without a tag; with_regions only
 };
 
+// Of an edge, from its first corner to its second. both: it is on an inner curve.
+enum class Side : std::uint8_t { left, right, both };
+
 struct FacetRows {  // on inner curves and surfaces, too
   std::int64_t first = 0;
   std::vector<std::int64_t> corners;  // [facets][dimension], numbers
   std::vector<std::int32_t> tags;     // [facets]
   std::vector<float> quality;         // [facets], 2 r_in / R; in space only
+  std::vector<Side> domain;           // [facets], where it is; in the plane only, not of pieces
 };
 
 // All nodes, all facets, or all elements of regions, with one tag.

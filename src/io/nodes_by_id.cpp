@@ -40,7 +40,13 @@ struct FacetRow {
   std::array<std::int64_t, Dim> corners;  // in space the least first
   std::int32_t tag;
   float quality;
+  Side domain;  // in the plane only
 };
+
+Side side_of_domain(const BoundaryEdge& edge) {
+  if (!edge.bounds()) return Side::both;
+  return edge.left_inside ? Side::left : Side::right;
+}
 
 template <int Dim>
 NodeRow<Dim> node_row(const Results<Dim>& results, std::int64_t i, std::int32_t region) {
@@ -83,6 +89,7 @@ FacetRows sorted_facets(std::vector<FacetRow<Dim>> rows) {
     sorted.corners.insert(sorted.corners.end(), row.corners.begin(), row.corners.end());
     sorted.tags.push_back(row.tag);
     sorted.quality.push_back(row.quality);
+    if constexpr (Dim == 2) sorted.domain.push_back(row.domain);
   }
   return sorted;
 }
@@ -250,9 +257,6 @@ template <int Dim>
 void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
   std::int64_t before = 0;
   std::vector<FacetRow<Dim>> own;
-  const auto keep = [&](const auto& places, std::int32_t tag) {
-    own.push_back({labels(places), tag, facet_quality(results_, places)});
-  };
   const auto first = [](const FacetRow<Dim>& f) { return f.corners[0]; };
   const auto pass_on = [&](std::vector<FacetRow<Dim>> arrived) {
     FacetRows rows = sorted_facets<Dim>(std::move(arrived));
@@ -261,12 +265,17 @@ void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& vis
   };
   if constexpr (Dim == 2) {
     // All at once: the boundary is in every rank's memory anyway.
-    results_.for_boundary_facets(keep);
+    results_.for_boundary_edges([&](const auto& places, const BoundaryEdge& edge) {
+      own.push_back({labels(places), edge.tag, 0, side_of_domain(edge)});
+    });
     if (blocks_)
       own = redistribute<FacetRow<Dim>>(
           comm_, own, [&](const FacetRow<Dim>& f) { return blocks_->rank_of(first(f)); });
     pass_on(std::move(own));
   } else {
+    const auto keep = [&](const auto& places, std::int32_t tag) {
+      own.push_back({labels(places), tag, facet_quality(results_, places), Side::both});
+    };
     for_windows([&](const Window& window) {
       own.clear();
       results_.for_boundary_facets(window.begin, window.end, keep);

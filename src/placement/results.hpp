@@ -60,6 +60,9 @@ class Results : public NodalResults {
   template <class Visit>
   void for_boundary_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
       requires(Dim == 3);
+  // The same in the plane as visit(places of its nodes, edge).
+  template <class Visit>
+  void for_boundary_edges(const Visit& visit) const requires(Dim == 2);
   // Calls visit(places) for every face of only one tetrahedron, once, over all ranks: at the owner
   // of its node with the least id, which comes first; so that from outside they turn
   // counter-clockwise. After prepare_stars.
@@ -156,22 +159,29 @@ void Results<Dim>::for_elements(std::int64_t begin, std::int64_t end, const Visi
 template <int Dim>
 template <class Visit>
 void Results<Dim>::for_boundary_facets(const Visit& visit) const {
-  if constexpr (Dim == 2) {
-    const Boundary& boundary = level_->ground.boundary();
-    const Nodes<2>& nodes = level_->nodes;
-    std::vector<std::int64_t> place(boundary.nodes.size(), -1);
-    for (std::int64_t i = 0; i < nodes.count; ++i)
-      if (!nodes.moves(i)) place[static_cast<std::size_t>(nodes.boundary_node(i))] = place_of(i);
-    const std::int64_t owned = count();
-    for (const BoundaryEdge& e : boundary.facets) {
-      if (e.begin == e.end) continue;                                 // a fixed node
-      if (level_->ground.domain().closing() && e.bounds()) continue;  // there is a triangle behind
-      const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
-      if (begin >= 0 && begin < owned)
-        visit(std::array<std::int64_t, 2>{begin, place[static_cast<std::size_t>(e.end)]}, e.tag);
-    }
-  } else {
+  if constexpr (Dim == 2)
+    for_boundary_edges([&](const std::array<std::int64_t, 2>& places, const BoundaryEdge& e) {
+      visit(places, e.tag);
+    });
+  else
     for_boundary_facets(0, count(), visit);
+}
+
+template <int Dim>
+template <class Visit>
+void Results<Dim>::for_boundary_edges(const Visit& visit) const requires(Dim == 2) {
+  const Boundary& boundary = level_->ground.boundary();
+  const Nodes<2>& nodes = level_->nodes;
+  std::vector<std::int64_t> place(boundary.nodes.size(), -1);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (!nodes.moves(i)) place[static_cast<std::size_t>(nodes.boundary_node(i))] = place_of(i);
+  const std::int64_t owned = count();
+  for (const BoundaryEdge& e : boundary.facets) {
+    if (e.begin == e.end) continue;                                 // a fixed node
+    if (level_->ground.domain().closing() && e.bounds()) continue;  // there is a triangle behind
+    const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
+    if (begin >= 0 && begin < owned)
+      visit(std::array<std::int64_t, 2>{begin, place[static_cast<std::size_t>(e.end)]}, e);
   }
 }
 
