@@ -3507,8 +3507,8 @@ contains
   ! ------------------------------------------------------------ placement: files --------------
 
   !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
-  !> .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2, .node, .ele, .face, .csv, .peridigm, .lammps, .hdf5,
-  !> .mpas, .graph
+  !> .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2, .node, .ele, .face, .gr3, .2dm, .ugrid, .csv,
+  !> .peridigm, .lammps, .hdf5, .mpas, .graph
   !> (see pnpbs_placement_write in pnpbs.h). A file appears under its name only when it is complete;
   !> after an error, an existing file is unchanged. The folder and path must be the same for all ranks. The monitor, if
   !> there is one, is called from time to time. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors:

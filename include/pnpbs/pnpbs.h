@@ -1476,6 +1476,16 @@ PNPBS_API pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t 
  *           a second file of the same name, .ele, and in space the triangles in a third, .face
  *    .ele   Triangle's triangles or TetGen's tetrahedra alone
  *    .face  TetGen's triangles of boundary and inner surfaces alone, in space
+ *    .gr3   in the plane and on spheres, SCHISM's hgrid.gr3, the layout of ADCIRC's fort.14: nodes
+ *           with x and y, on a sphere longitude and latitude in degrees, and the depth, an output
+ *           field "depth" with one component or 0; triangles; and the boundary, counter-clockwise
+ *           around the domain and clockwise around islands, in open segments, of tags whose name
+ *           begins with "open", and segments of land (0) and islands (1). A loop all open, or all
+ *           of land around the domain, is two segments. On a sphere an island is less than half
+ *           of it
+ *    .2dm   in the plane and on spheres, the 2DM file of Aquaveo's SMS: the same triangles with the
+ *           tag of their region or 1 as material, nodes with minus the depth as z, and the boundary
+ *           as node strings, each of one tag, which is its number
  *    .csv   id,x,y,tag,spacing, in space id,x,y,z,tag,spacing
  *    .peridigm  in space, the text of Peridigm, x y z block volume, without elements; the block is
  *           the tag of the node's region, or 1. Needs an output field "volume" with one component
@@ -1485,6 +1495,10 @@ PNPBS_API pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t 
  *    .hdf5  initial conditions of SWIFT and Gadget by HDF5, of gas at rest: PartType0 has
  *           coordinates, masses, densities and smoothing lengths of 1.2348 times the square or
  *           cube root of the volume. Needs the same fields
+ *    .ugrid in the plane and on spheres, a mesh by the conventions of UGRID 1.0 as NetCDF (64-bit
+ *           data format): nodes by x and y, on a sphere by longitude and latitude, triangles with
+ *           their quality and region, edges that bound the domain with their tags, tags and d of
+ *           nodes, and fields
  *    .mpas  on a sphere, a grid of MPAS in NetCDF's 64-bit data format: the Voronoi cells of all
  *           nodes but those of the boundary, their vertices and edges, how these are joined, and
  *           the weights that give velocities along edges (Thuburn and others 2009). Lengths are in

@@ -16,17 +16,21 @@ namespace pnpbs::io {
 // grid: in the file, and the facets in one beside it.
 enum class Elements { never, regions, on_request, grid, beside, always };
 
+// Of what a format has files: anything, bodies, triangles of the plane and of spheres, or the cells
+// of spheres.
+enum class Of { anything, bodies, triangles, spheres };
+
 struct Format {
   const char* name;  // also the extension, without its dot
   const char* help;
   bool binary;  // not for terminals
   Elements elements;
-  bool bodies_only;  // none of the plane
-  bool by_hdf5;      // in part at least: a file of its own, no stream
+  Of of;
+  bool by_hdf5;  // in part at least: a file of its own, no stream
   // Collective. nullptr: in pieces, which is not one file's business, or of cells.
   void (*write)(const NodeSource& nodes, SharedFile& file);
   std::span<const std::string_view> fields{};  // of the caller's, that it cannot do without
-  // Of the cells of a sphere, not of its nodes and triangles. Collective.
+  // Instead, of spheres. Collective.
   void (*write_cells)(const SphereGrid& grid, SharedFile& file) = nullptr;
 
   bool in_pieces() const { return !write && !write_cells; }
@@ -53,6 +57,9 @@ void write_ele(const NodeSource& nodes, SharedFile& file);
 void write_face(const NodeSource& nodes, SharedFile& file);
 void write_msh(const NodeSource& nodes, SharedFile& file);
 void write_msh2(const NodeSource& nodes, SharedFile& file);
+void write_gr3(const NodeSource& nodes, SharedFile& file);
+void write_2dm(const NodeSource& nodes, SharedFile& file);
+void write_ugrid(const NodeSource& nodes, SharedFile& file);
 void write_csv(const NodeSource& nodes, SharedFile& file);
 void write_peridigm(const NodeSource& nodes, SharedFile& file);
 void write_lammps(const NodeSource& nodes, SharedFile& file);

@@ -10,9 +10,11 @@ namespace pnpbs::io {
 namespace {
 
 constexpr std::int32_t kDimensions = 10, kVariables = 11, kAttributes = 12;  // tags of lists
-constexpr std::int32_t kChar = 2, kInt = 4, kDouble = 6;                     // types
+constexpr std::int32_t kChar = 2, kInt = 4, kFloat = 5, kDouble = 6;         // types
 
-std::int32_t type_of(NumberType type) { return type == NumberType::int32 ? kInt : kDouble; }
+std::int32_t type_of(NumberType type) {
+  return type == NumberType::int32 ? kInt : type == NumberType::real32 ? kFloat : kDouble;
+}
 
 template <class Value>
 void turn_over(std::vector<Value>& values) {
@@ -118,5 +120,6 @@ std::string netcdf_head(const NetcdfContents& contents) {
 
 void make_big_endian(std::vector<std::int32_t>& values) { turn_over(values); }
 void make_big_endian(std::vector<double>& values) { turn_over(values); }
+void make_big_endian(std::vector<float>& values) { turn_over(values); }
 
 }  // namespace pnpbs::io

@@ -25,7 +25,7 @@ struct NetcdfAttribute {
 
 struct NetcdfVariable {
   std::string name;
-  NumberType type;                      // int32 or real
+  NumberType type;                      // int32, real or real32
   std::vector<std::size_t> dimensions;  // their places in the list of all
   std::vector<NetcdfAttribute> attributes;
 };
@@ -41,5 +41,6 @@ std::string netcdf_head(const NetcdfContents& contents);
 // Turns them over where the processor is little-endian.
 void make_big_endian(std::vector<std::int32_t>& values);
 void make_big_endian(std::vector<double>& values);
+void make_big_endian(std::vector<float>& values);
 
 }  // namespace pnpbs::io

@@ -58,13 +58,13 @@ void write_point(const NodeRows& rows, std::size_t i, Sink& sink) {
   }
 }
 
-std::int32_t largest_block(const NodeSource& nodes, const std::string& format) {
+std::int32_t largest_block(const NodeSource& nodes, const std::string& format,
+                           const std::string& called) {
   std::int32_t largest = 1;
   for (const TagGroup& region : nodes.region_groups()) {
     if (region.tag < 0)
-      throw Error(ErrorKind::argument, "a ." + format +
-                                           " file numbers blocks and types from 1 on, and the tag "
-                                           "of a region is " +
+      throw Error(ErrorKind::argument, "a ." + format + " file numbers " + called +
+                                           " from 1 on, and the tag of a region is " +
                                            std::to_string(region.tag));
     largest = std::max(largest, region.tag);
   }

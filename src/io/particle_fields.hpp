@@ -34,15 +34,17 @@ struct ParticleExtent {
 ParticleExtent extent_of_particles(const NodeSource& nodes, const std::vector<double>& volumes,
                                    const Communicator& comm);
 
-// The block or type of a node: the tag of its region, or 1.
+// The block, type or material with this tag of a region, or with none.
+inline std::int32_t block_of_tag(std::int32_t tag) { return tag != 0 ? tag : 1; }
+
 inline std::int32_t block_of(const NodeRows& rows, std::size_t i) {
-  const std::int32_t tag = rows.regions.empty() ? 0 : rows.regions[i];
-  return tag != 0 ? tag : 1;
+  return block_of_tag(rows.regions.empty() ? 0 : rows.regions[i]);
 }
 
 // Of all nodes. Throws Error(ErrorKind::argument) for a tag below 1, which such a file cannot have.
 // Collective.
-std::int32_t largest_block(const NodeSource& nodes, const std::string& format);
+std::int32_t largest_block(const NodeSource& nodes, const std::string& format,
+                           const std::string& called = "blocks and types");
 
 // x, y and z of node i of a body, each before a space.
 void write_point(const NodeRows& rows, std::size_t i, Sink& sink);

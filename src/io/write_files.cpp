@@ -53,9 +53,12 @@ void add_heavy_data(const FileWish& of, std::vector<FileWish>& wishes) {
 }
 
 void require_possible(const std::string& path, const Format& format, bool elements, int dimension) {
-  if (format.bodies_only && dimension == 2)
+  if (format.of == Of::bodies && dimension == 2)
     refuse(std::string("a .") + format.name + " file is of bodies, none of the plane: '" + path +
            "'");
+  if (format.of == Of::triangles && dimension == 3)
+    refuse(std::string("a .") + format.name + " file is of triangles of the plane or a sphere, " +
+           "none of bodies: '" + path + "'");
   if (format.in_pieces() && path == "-")
     refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
   if (format.by_hdf5) require_places(path, format);
@@ -213,9 +216,9 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
   require_possible(path, format, elements, of.dimension);
-  if (format.write_cells && !of.on_sphere)
+  if (format.of == Of::spheres && !of.on_sphere)
     refuse(std::string("a .") + format.name + " file is of the cells of a sphere: '" + path + "'");
-  if (of.surfaces_alone && format.bodies_only && !format.fields.empty())
+  if (of.surfaces_alone && format.of == Of::bodies && !format.fields.empty())
     refuse(std::string("a .") + format.name + " file is of bodies, none of surfaces alone: '" +
            path + "'");
   const bool holds_elements =

@@ -173,8 +173,8 @@ void add_groups(CLI::App& app, Arguments& arguments, Texts& texts) {
   app.get_option("--inner")->type_name("NAME|TAG")->group("What to fill");
   add_repeatable(
       app, "--name", texts.names,
-      "name of a tag of the boundary, for files with named groups\n(.msh, .msh2); may be "
-      "given several times");
+      "name of a tag of the boundary, for files with named groups\n(.msh, .msh2) or open "
+      "boundaries (.gr3); may be given several\ntimes");
   app.get_option("--name")->type_name("TAG=NAME")->group("What to fill");
   add_repeatable(app, "--region", texts.regions,
                  "tag of the elements in the region around this point, up to the\n"

@@ -372,10 +372,11 @@ end
 
 Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file. The
 extension selects the format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2,
-.node, .ele, .face, .csv, .peridigm, .lammps, .hdf5, .mpas, .graph. The file appears when it is complete. The
+.node, .ele, .face, .gr3, .2dm, .ugrid, .csv, .peridigm, .lammps, .hdf5, .mpas, .graph. The file
+appears when it is complete. The
 outcome is `:ok`, or `:stopped` by the monitor, which keeps the old file. Files of
 [`Particles`](@ref) have their `volume` as well, in the formats that have fields, and no elements;
-.pvtu, .ele and .face are a `:error_argument`. Collective.
+.pvtu, .ele, .face, .gr3 and .2dm are a `:error_argument`. Collective.
 """
 write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
     check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The 2DM file of Aquaveo's SMS (https://www.xmswiki.com/wiki/SMS:2D_Mesh_Files_*.2dm), a card a
+// line: triangles "E3T number corner corner corner material", nodes "ND number x y z", and node
+// strings "NS node node ... -node number", of the boundary, each of one tag. Numbers from 1.
+#include "io/boundary_loops.hpp"
+#include "io/map_places.hpp"
+
+namespace pnpbs::io {
+
+namespace {
+
+constexpr std::size_t kNodesOfLine = 10;  // as SMS writes them
+
+void append_triangles(const NodeSource& nodes, SharedFile& file) {
+  const Contents& all = nodes.contents();
+  nodes.for_elements([&](const ElementRows& rows) {
+    file.append([&](Sink& sink) {
+      std::int64_t number = rows.first;
+      for (std::size_t e = 0; e < rows.quality.size(); ++e) {
+        sink.text("E3T ");
+        sink.number(++number);
+        write_corners(rows.corners, e, all.element_corners(), sink);
+        sink.text(" ");
+        sink.number(all.with_regions ? block_of_tag(rows.regions[e]) : 1);
+        sink.text("\n");
+      }
+    });
+  });
+}
+
+// The last node with a minus, and behind it the tag as the string's number.
+void write_string(const BoundaryChain& chain, Sink& sink) {
+  const std::size_t n = chain.nodes.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k % kNodesOfLine == 0) sink.text(k == 0 ? "NS" : "\nNS");
+    sink.text(k + 1 < n ? " " : " -");
+    sink.number(chain.nodes[k] + 1);
+  }
+  sink.text(" ");
+  sink.number(chain.kind);
+  sink.text("\n");
+}
+
+// Each rank has all of them.
+void append_strings(const NodeSource& nodes, SharedFile& file) {
+  const std::vector<BoundaryChain> chains =
+      chains_of(boundary_loops(nodes, file.ranks()), [](std::int32_t tag) { return tag; });
+  file.append([&](Sink& sink) {
+    if (!file.is_first()) return;
+    for (const BoundaryChain& chain : chains) write_string(chain, sink);
+  });
+}
+
+}  // namespace
+
+void write_2dm(const NodeSource& nodes, SharedFile& file) {
+  largest_block(nodes, "2dm", "materials");  // refuses tags below 1
+  file.append_text("MESH2D\nMESHNAME \"pnpbs\"\nNUM_MATERIALS_PER_ELEM 1\n");
+  append_triangles(nodes, file);
+  // z points up.
+  append_map_places(nodes, file,
+                    [](std::int64_t number, const Point<2>& x, double depth, Sink& sink) {
+                      sink.text("ND ");
+                      sink.number(number);
+                      for (const double value : {x[0], x[1], 0 - depth}) {
+                        sink.text(" ");
+                        sink.number(value);
+                      }
+                      sink.text("\n");
+                    });
+  append_strings(nodes, file);
+}
+
+}  // namespace pnpbs::io
