@@ -14,6 +14,7 @@
 #include "sphere/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/formula_text.hpp"
+#include "tool/grid_slope.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/names.hpp"
 #include "tool/numbers.hpp"
@@ -238,8 +239,9 @@ struct Expression::Parser {
     }
   }
   void require_used_fields() const {
+    const auto& used = parser.GetUsedVar();
     for (const FieldInFormula& each : fields)
-      if (!parser.GetUsedVar().contains(each.field.name))
+      if (!used.contains(each.field.name) && !used.contains(slope_name(each.field.name)))
         throw BadInput("--spacing-grid: the formula of --spacing does not use '" + each.field.name +
                        "'");
   }
@@ -365,7 +367,8 @@ std::string expression_help() {
          list +
          "; in --spacing also dist, the distance to the boundary, dist(TAG) and dist(NAME), to "
          "what has "
-         "the tag or the group's name, the names of --spacing-grid, "
+         "the tag or the group's name, the names of --spacing-grid and, with _slope after it, how "
+         "steep a grid is, "
          "seglen, the length of the input's edges, curvature(N), the d for N nodes per turn, and "
          "gap(N), the d for N nodes across, which grow by 0.15 per unit of distance";
 }

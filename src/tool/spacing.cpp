@@ -5,6 +5,7 @@
 #include <array>
 
 #include "spacing/beside_domain.hpp"
+#include "tool/grid_slope.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -57,6 +58,11 @@ Spacing::Spacing(const Arguments& arguments, int dimension)
     fields.push_back({grid->name(), [grid](std::int64_t n, const double* x, double* values) {
                         grid->evaluate(n, x, values, nullptr);
                       }});
+    if (asks_for_slope(arguments.spacing, grid->name()))
+      fields.push_back(
+          {slope_name(grid->name()), [this, grid](std::int64_t n, const double* x, double* values) {
+             evaluate_slope(*grid, dimension_, sphere_, n, x, values);
+           }});
   }
   const bool alone = arguments.spacing.empty();
   if (!sphere_ && alone && grids_.size() == 1 && grids_[0]->text_grid()) return;

@@ -109,6 +109,43 @@ class Formulas(GridsTest):
         dist = np.hypot(np.maximum(abs(x - 0.5) - 0.1, 0), np.maximum(abs(y - 0.5) - 0.1, 0))
         np.testing.assert_allclose(table["spacing"], np.minimum(h, 0.06 + 0.1 * dist), rtol=0.03)
 
+    def test_slopes(self):
+        """Of 3 x - 4 y, and of squares, linear between the middles of cells."""
+        x, y = np.meshgrid(np.arange(-0.05, 1.06, 0.1), np.arange(1.05, -0.06, -0.1))
+        self.write_values("plane.asc", 3 * x - 4 * y)
+        self.write_values("squares.asc", x**2)
+        table, *_ = self.on_square("--spacing-grid", "h=plane.asc", "--spacing", "h_slope * 0.01")
+        np.testing.assert_allclose(table["spacing"], 0.05, rtol=1e-6)
+        table, *_ = self.on_square("--spacing-grid", "h=squares.asc", "--spacing-grid", "k=plane.asc", "--spacing",
+                                   "0.05 + 0.02*h_slope + 0*k + 0*k_slope", "--set", "growth_limit=0")
+        middle = 0.1 * np.floor((table["x"] + 0.05) / 0.1)  # between the middles of two cells
+        inside = abs(table["x"] - middle) < 0.04
+        np.testing.assert_allclose(table["spacing"][inside], 0.05 + 0.04 * middle[inside], rtol=1e-6)
+        message = self.refuse("--domain", self.square, "-o", "a.csv", "--spacing-grid", "h=plane.asc", "--spacing",
+                              "h_slopes + h")
+        self.assertIn("unknown name 'h_slopes'", message)
+
+    def write_values(self, name, values, west=-0.1, south=-0.1, step=0.1):
+        rows = "\n".join(" ".join(repr(float(value)) for value in row) for row in values)
+        (self.folder / name).write_text(f"ncols {values.shape[1]}\nnrows {values.shape[0]}\nxllcorner {west}\n"
+                                        f"yllcorner {south}\ncellsize {step}\n{rows}\n")
+
+    def test_slopes_along_a_sphere(self):
+        lon, lat = np.meshgrid(np.arange(-179, 180, 2.0), np.arange(89, -90, -2.0))
+        self.write_values("north.asc", 5 * lat, -179, -89, 2)
+        self.write_values("east.asc", np.abs(lon), -179, -89, 2)
+        degree = 10 * np.pi / 180  # its length
+        ask = ("--sphere", "10,20,-30", "--set", "growth_limit=0", "--spacing-grid")
+        table, *_ = self.table(*ask, "a=north.asc", "--spacing", "abs(lat) > 88 ? 1 : 0.035*a_slope")
+        inside = abs(table["z"]) < 10 * np.sin(np.radians(87))
+        np.testing.assert_allclose(table["spacing"][inside], 0.035 * 5 / degree, rtol=1e-6)
+        table, *_ = self.table(*ask, "b=east.asc", "--spacing",
+                               "abs(lat) > 60 ? 0.9 : max(0.9, 0.17*b_slope*cos(pi*lat/180))")
+        lat, lon = np.degrees(np.arcsin(table["z"] / 10)), np.degrees(np.arctan2(table["y"], table["x"]))
+        inside = (abs(lat) < 59) & (abs(lon) > 2) & (abs(lon) < 178)
+        self.assertGreater(inside.sum(), 100)
+        np.testing.assert_allclose(table["spacing"][inside], 0.17 / degree, rtol=1e-6)
+
     def test_warns_of_a_part(self):
         (self.folder / "part.asc").write_text(grid(-0.7, -0.1))
         _, report, err = self.on_square("--spacing-grid", "h=part.asc", "--spacing", "h + 0")
