@@ -333,8 +333,12 @@ void append_lines(const std::vector<std::int32_t>& rows, int columns, SharedFile
   });
 }
 
-// Those in the file have 32 bits.
+// There is a cell (NetCDF takes 0 for no limit), and numbers in the file have 32 bits.
 void require_numbers(const SphereGrid& grid) {
+  if (grid.cells == 0)
+    throw Error(
+        ErrorKind::argument,
+        "a grid of cells would have none: all nodes are on the boundary, so d is too large");
   constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
   if (grid.edges > kMost)
     throw Error(ErrorKind::argument, "an MPAS grid can have " + std::to_string(kMost) +

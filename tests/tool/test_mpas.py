@@ -218,6 +218,15 @@ class MpasGrids(CommandTest):
             self.assertIn("cells of a sphere", self.refuse("--domain", self.square, "--spacing", "0.1", "--output", name))
 
     @unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
+    def test_a_sea_without_a_node_inside(self):
+        pond = self.folder / "pond.geojson"
+        pond.write_text(json.dumps({"type": "Polygon", "coordinates": [[[0, 0], [5, 0], [0, 5], [0, 0]]]}))
+        for name in ("grid.mpas", "grid.graph"):
+            message = self.refuse("--domain", pond, "--sphere", f"{RADIUS},0,-90", "--spacing", "500e3", "--quiet",
+                                  "--output", name)
+            self.assertIn("would have none: all nodes are on the boundary", message)
+
+    @unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
     def test_a_sea_is_a_culled_grid(self):
         ring = [[40 * np.cos(t), 30 * np.sin(t)] for t in np.radians(range(0, 360, 15))]
         coast = self.folder / "island.geojson"
