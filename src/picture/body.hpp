@@ -15,7 +15,6 @@ struct Body {
   std::vector<double> spacing;                          // d at the nodes
   std::vector<std::array<std::int64_t, 4>> tetrahedra;  // corners
   std::vector<std::array<std::int64_t, 3>> boundary;    // triangles, by their corners
-  double sphere_radius = 0;  // of triangles on a sphere about the origin, which hides its far side
 
   // Nothing is inside: its boundary is all there is.
   bool surfaces_alone() const { return tetrahedra.empty(); }

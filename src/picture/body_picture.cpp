@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
 #include "picture/body_view.hpp"
 #include "picture/cairo_surface.hpp"
 #include "picture/colour_bar.hpp"
+#include "picture/face_edge.hpp"
 #include "picture/legend.hpp"
 #include "picture/lettering.hpp"
 #include "picture/picture.hpp"
@@ -22,17 +22,11 @@ namespace {
 constexpr PictureSize body_picture_size{18, 1400, 2400};
 
 constexpr Colour skin = colour(0xb9cadb);   // the boundary
-constexpr Colour bare = colour(0xe9e4d8);   // a sphere where it has no triangles
 constexpr Colour flesh = colour(0xf0dcae);  // tetrahedra that have no colour of their own
 
 // How much darker it is where no light falls.
 constexpr double shade_of_skin = 0.6;
 constexpr double shade_of_cut = 0.4;
-
-// Edges: darkest where faces are large, so that small ones do not become a dark mist.
-constexpr double edge_strength = 0.72;
-constexpr double full_edge = 14;  // pixels of the face's longest side
-constexpr double no_edge = 2.5;
 
 // Circumcentres that are nearer to each other along the line of sight, as a part of the body's
 // depth, are one but for rounding.
@@ -45,11 +39,6 @@ struct PaintedFace {
   double nearness;  // of the tetrahedron
   double depth;     // of the face
 };
-
-Colour between(const Colour& a, const Colour& b, double part) {
-  const Colour both[2] = {a, b};
-  return mixed(both, part);
-}
 
 Colour shaded(const Colour& colour, double shade, double light) {
   const double bright = 1 - shade * (1 - light);
@@ -66,8 +55,6 @@ class BodyPainter {
     std::vector<double> shown;
     for (const PaintedFace& face : faces_)
       for (std::size_t k = 0; k < 3; ++k) shown.insert(shown.end(), {face.x[k], face.y[k]});
-    const double radius = body.sphere_radius;
-    if (radius > 0) shown.insert(shown.end(), {-radius, -radius, radius, radius});
     frame_ = frame_around(bounds_of({shown}), body.spacing, body_picture_size);
   }
 
@@ -107,10 +94,7 @@ void BodyPainter::add(const VisibleFace& face) {
   PaintedFace painted{};
   painted.tetrahedron = face.tetrahedron;
   Point<3> normal = unit_vector(cross(difference(b, a), difference(c, a)));
-  if (body_.sphere_radius > 0) {
-    if (dot(normal, a) < 0) normal = opposite(normal);
-    if (!view_.shows(normal)) return;
-  } else if (body_.surfaces_alone()) {
+  if (body_.surfaces_alone()) {
     if (!view_.shows(normal)) normal = opposite(normal);  // of an open one both sides are seen
   } else {
     const TetrahedronCorners corners = body_.corners(face.tetrahedron);
@@ -176,20 +160,11 @@ void BodyPainter::paint(cairo_t* cairo, const PaintedFace& face) const {
   set_colour(cairo, face.colour);
   cairo_fill_preserve(cairo);
   // The edge also covers the seam that softened fills leave between two faces.
-  const double strength =
-      edge_strength *
-      std::clamp((frame_.pixels(longest) - no_edge) / (full_edge - no_edge), 0.0, 1.0);
-  set_colour(cairo, between(face.colour, ink, strength));
+  set_colour(cairo, edge_colour(face.colour, frame_.pixels(longest)));
   cairo_stroke(cairo);
 }
 
 void BodyPainter::paint_faces(cairo_t* cairo) const {
-  if (body_.sphere_radius > 0) {
-    cairo_arc(cairo, frame_.x(0), frame_.y(0), frame_.pixels(body_.sphere_radius), 0,
-              2 * std::numbers::pi);
-    set_colour(cairo, bare);
-    cairo_fill(cairo);
-  }
   cairo_set_line_width(cairo, 0.6 * frame_.line_width);
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   for (const PaintedFace& face : faces_) paint(cairo, face);
@@ -233,7 +208,6 @@ void BodyPainter::legend(cairo_t* cairo) const {
 }
 
 std::string BodyPainter::description() const {
-  if (body_.sphere_radius > 0) return "Triangles on a sphere";
   if (body_.surfaces_alone()) return "Surfaces";
   const std::string cut = "Body cut at " + plane_.name;
   if (!values_) return cut;

@@ -7,6 +7,7 @@
 #include "picture/drawing.hpp"
 #include "picture/element_colour.hpp"
 #include "picture/node_set.hpp"
+#include "picture/sphere_view.hpp"
 
 namespace pnpbs::picture {
 
@@ -17,6 +18,9 @@ struct PictureStyle {
 
 // What is drawn must outlive its drawing.
 Drawing drawing_of(const NodeSet& nodes, const PictureStyle& style);
+
+// The triangles of a sphere, which are the body's boundary.
+Drawing drawing_of(const Body& triangles, const SphereView& view, ElementColour colour);
 
 // A body cut open: what lies before the plane is taken away by whole tetrahedra, and those behind
 // it are coloured.

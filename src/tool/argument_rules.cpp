@@ -36,7 +36,10 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
 }
 
 void require_what_spheres_have(const Arguments& arguments) {
-  if (!arguments.sphere) return;
+  if (!arguments.sphere) {
+    if (arguments.view) refuse("--view is how pictures show a sphere: give --sphere as well");
+    return;
+  }
   const auto refuse_if = [](bool is_set, const std::string& option) {
     if (is_set) refuse("--sphere and " + option + " exclude each other");
   };
@@ -44,7 +47,6 @@ void require_what_spheres_have(const Arguments& arguments) {
   refuse_if(!arguments.unit.empty(), "--unit");
   refuse_if(arguments.surfaces_only, "--surfaces-only");
   refuse_if(arguments.at_centres, "--nodes-at");
-  refuse_if(arguments.volumes, "--volumes");
   refuse_if(arguments.repair || arguments.repair_if_needed, "--repair");
   refuse_if(arguments.feature_angle.has_value(), "--feature-angle");
   refuse_if(!arguments.inner.empty(), "--inner");

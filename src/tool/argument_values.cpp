@@ -32,6 +32,17 @@ void take_sphere(const std::string& text, Arguments& arguments) {
   if (numbers->size() == 3) arguments.sphere->outside = {(*numbers)[1], (*numbers)[2]};
 }
 
+void take_view(const std::string& text, Arguments& arguments) {
+  if (text == "map") {
+    arguments.view = ViewWish{true, {}};
+    return;
+  }
+  const auto numbers = numbers_between_commas(text);
+  if (!numbers || numbers->size() != 2 || !(std::fabs((*numbers)[1]) <= 90))
+    refuse("--view: expected LON,LAT in degrees, or map, found '" + text + "'");
+  arguments.view = ViewWish{false, {(*numbers)[0], (*numbers)[1]}};
+}
+
 void take_simplify(const std::string& text, Arguments& arguments) {
   const auto numbers = numbers_between_commas(text);
   const auto is_bad = [](double number) { return !(number >= 0); };

@@ -17,6 +17,7 @@ void take_bound(const std::string& option, const std::string& text, std::optiona
 
 void take_simplify(const std::string& text, Arguments& arguments);
 void take_sphere(const std::string& text, Arguments& arguments);
+void take_view(const std::string& text, Arguments& arguments);
 void take_nodes(const std::string& text, Arguments& arguments);
 void take_places(const std::string& text, Arguments& arguments);
 void take_wall_layers(const std::string& text, Arguments& arguments);

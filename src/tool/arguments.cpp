@@ -237,6 +237,13 @@ void add_output(CLI::App& app, Arguments& arguments) {
          "tetrahedra, with quality as default")
       ->type_name("BY")
       ->group(group);
+  app.add_option_function<std::string>(
+         "--view", [&arguments](const std::string& text) { take_view(text, arguments); },
+         "how pictures show a sphere: LON,LAT, from above this longitude and\n"
+         "latitude, or map, all of it with longitude and latitude as axes\n"
+         "(plate carree); default: from opposite to the point of --sphere")
+      ->type_name("LON,LAT|map")
+      ->group(group);
   app.add_option("--cut", arguments.cut,
                  "the plane where pictures cut a body open: x=NUMBER, y=NUMBER,\n"
                  "z=NUMBER, or A,B,C,D for A x + B y + C z = D; default: through the\n"

@@ -30,6 +30,11 @@ struct SphereWish {
   Point<2> outside;  // longitude and latitude of a point that is not in the domain
 };
 
+struct ViewWish {
+  bool as_map;
+  Point<2> from;  // longitude and latitude
+};
+
 struct Arguments {
   std::string domain;                              // a file, "-", or a body in words
   std::string spacing;                             // a formula; may be empty with a grid
@@ -51,6 +56,7 @@ struct Arguments {
   std::vector<std::pair<std::int32_t, std::string>> names;  // of tags
   std::vector<Region> regions;
   std::optional<picture::ElementColour> colour;  // of elements in pictures
+  std::optional<ViewWish> view;                  // of a sphere, in pictures
   std::string cut;               // where pictures cut a body open; empty: through its middle
   std::optional<double> repair;  // its resolution, 0 for the default
   bool repair_if_needed = false;

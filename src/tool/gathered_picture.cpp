@@ -15,24 +15,31 @@ std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
   return outline;
 }
 
+// From above the middle of what is around the point opposite to the one that is projected from:
+// there the domain is.
+picture::SphereView view_of(const Arguments& arguments) {
+  const SphereWish& sphere = *arguments.sphere;
+  if (!arguments.view) return {sphere.radius, false, {sphere.outside[0] + 180, -sphere.outside[1]}};
+  return {sphere.radius, arguments.view->as_map, arguments.view->from};
+}
+
 }  // namespace
 
 PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain domain,
                     pnpbs_context context) {
   using picture::ElementColour;
-  if (dimension == 2)
-    return {arguments.bubbles, arguments.colour.value_or(ElementColour::none), std::nullopt, 0};
+  if (dimension == 2) return {arguments.bubbles, arguments.colour.value_or(ElementColour::none)};
+  if (arguments.sphere)
+    return {false, arguments.colour.value_or(ElementColour::none), {}, view_of(arguments)};
   return {false, arguments.colour.value_or(ElementColour::quality),
-          cut_plane_for(arguments.cut, domain, context),
-          arguments.sphere ? arguments.sphere->radius : 0};
+          cut_plane_for(arguments.cut, domain, context)};
 }
 
 GatheredPicture::GatheredPicture(pnpbs_placement placement, pnpbs_domain domain,
                                  pnpbs_context context, const Ranks& ranks, const PictureLook& look)
     : look_(look) {
-  if (look.cut) {
+  if (look.cut || look.sphere) {
     body_ = gathered_body(placement, context, ranks);
-    body_.sphere_radius = look.sphere_radius;
     return;
   }
   nodes_ = gathered_nodes(placement, context, ranks);
@@ -42,6 +49,7 @@ GatheredPicture::GatheredPicture(pnpbs_placement placement, pnpbs_domain domain,
 }
 
 picture::Drawing GatheredPicture::drawing() const {
+  if (look_.sphere) return picture::drawing_of(body_, *look_.sphere, look_.colour);
   if (look_.cut) return picture::drawing_of(body_, *look_.cut, look_.colour);
   return picture::drawing_of(nodes_, {look_.bubbles, look_.colour});
 }

@@ -14,8 +14,9 @@ namespace pnpbs::tool {
 struct PictureLook {
   bool bubbles = false;
   picture::ElementColour colour = picture::ElementColour::none;
-  std::optional<picture::CutPlane> cut;  // of a body; nothing: the domain is in the plane
-  double sphere_radius = 0;              // of a domain on a sphere
+  // One of them of what is in space; neither: the domain is in the plane.
+  std::optional<picture::CutPlane> cut{};
+  std::optional<picture::SphereView> sphere{};
 };
 
 // What the user wants. Local. Throws BadInput.

@@ -40,8 +40,8 @@ Matter::Matter(const Arguments& arguments, const std::optional<Density>& density
     make_particles(density, centred_nodes(dimension), placement, body, context, ranks);
     figures->of_wall = arguments.in_walls;
   } else if (arguments.volumes || density) {
-    volumes =
-        add_volumes(placement, arguments.surfaces_only ? 2 : dimension, density, context, ranks);
+    const bool of_areas = arguments.surfaces_only || arguments.sphere;
+    volumes = add_volumes(placement, of_areas ? 2 : dimension, density, context, ranks);
   }
 }
 

@@ -68,6 +68,42 @@ class WholeSphere(CommandTest):
         seen = len(re.findall(r"<path[^>]*Z", (self.folder / "sphere.svg").read_text()))
         self.assertTrue(0.4 * len(corners) < seen < 0.6 * len(corners), f"{seen} of {len(corners)}")
 
+    def triangles_in_picture(self, *arguments, spacing="600"):
+        """Their places, each a row of x and y, and the size of the picture."""
+        self.placed("--output", "sphere.svg", *arguments, spacing=spacing)
+        picture = (self.folder / "sphere.svg").read_text()
+        size = [float(value) for value in re.findall(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', picture)[0]]
+        paths = [[float(number) for number in re.findall(r"-?[\d.]+", path)]
+                 for path in re.findall(r'<path[^>]*fill-rule[^>]* d="([^"]*Z)', picture)]
+        return [np.reshape(path, (-1, 2)) for path in paths if len(path) in (6, 8)], size
+
+    def test_views(self):
+        """Seen from a place, the triangles there are the largest; a map shows all, and twice what is at its ends."""
+        for view in ("0,0", "120,50", "-70,-90"):
+            triangles, size = self.triangles_in_picture("--view", view)
+            areas = np.array([abs(np.linalg.det(x[1:3] - x[0])) / 2 for x in triangles])
+            middles = np.array([x[:3].mean(axis=0) for x in triangles])
+            off = np.linalg.norm(middles - [size[0] / 2, middles.mean(axis=0)[1]], axis=1) / (size[0] / 2)
+            self.assertGreater(areas[off < 0.3].mean(), 2 * areas[off > 0.8].mean())
+        for view in ("0,0", "map"):  # east is to the right, north is up, where fewer are
+            for k, spacing in enumerate(("600 + 0.05*y", "600 + 0.05*z")):
+                triangles, size = self.triangles_in_picture("--view", view, spacing=spacing)
+                middle = np.array([x[:3].mean(axis=0)[k] for x in triangles])
+                half = size[0] / 2 if k == 0 else (middle.min() + middle.max()) / 2
+                share = np.mean(middle > half)
+                self.assertTrue(share < 0.42 if k == 0 else share > 0.55, f"{view}, {k}: {share}")
+        shown, _ = self.triangles_in_picture("--view", "map")
+        all_of_them = 2 * (self.placed(spacing="600")[1]["nodes"] - 2)
+        self.assertTrue(all_of_them < len(shown) < 1.2 * all_of_them, f"{len(shown)} of {all_of_them}")
+        for view in ("0", "0,91", "maps"):
+            self.assertIn("--view: expected LON,LAT", self.refuse("--sphere", "1", "--spacing", "1", "--view", view))
+        self.assertIn("give --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
+
+    def test_volumes(self):
+        report = self.placed("--volumes")[1]
+        self.assertAlmostEqual(report["volumes"]["total"] / (4 * np.pi * RADIUS**2), 1, 12)
+        self.assertAlmostEqual(report["volumes"]["ratio"]["mean"], np.sqrt(3) / 2, 1)
+
     def test_as_many_nodes_as_are_wanted(self):
         nodes = self.placed("--nodes", "20000", spacing="100 + 2*abs(lat)")[1]["nodes"]
         self.assertLess(abs(nodes / 20000 - 1), 0.02)
