@@ -10,6 +10,7 @@
 
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
+#include "domain/plane/plane_domain.hpp"
 #include "geometry/plane/incident_sectors.hpp"
 #include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
@@ -28,6 +29,7 @@ struct StarInput {
   const AdjacencyList<2>& lists;
   const NearEdges& near_edges;
   const KnownRegion<2>& known;
+  const PlaneDomain& domain;  // tells where the patch of a whole sphere is
 };
 
 // Laid out like the lists: in blocks of kLanes nodes, the k-th neighbours of a block side by side.
@@ -92,7 +94,8 @@ class DelaunayStars {
       visit(static_cast<std::int64_t>(star.at(k).value()), star.at(k).flag());
   }
 
-  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
+  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known; in
+  // the patch of a whole sphere, all that a SphereCap of this length around it holds.
   double needs(std::int64_t i) const {
     return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
   }

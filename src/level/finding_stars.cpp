@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/nodes_worked_for.hpp"
 #include "delaunay/plane/lawson_flips.hpp"
@@ -10,6 +11,7 @@
 #include "level/node_digest.hpp"
 #include "level/volume/surface_stars.hpp"
 #include "neighbors/rings.hpp"
+#include "sphere/sphere_cap.hpp"
 
 namespace pnpbs {
 
@@ -23,7 +25,8 @@ StarInput star_input(const Level<2>& level, const KnownRegion<2>& known) {
           neighbourhood.buckets(),
           neighbourhood.lists(),
           neighbourhood.near_boundary().edges(),
-          known};
+          known,
+          level.ground.domain()};
 }
 
 }  // namespace
@@ -139,13 +142,19 @@ void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known, bool taken_ho
   level.stars.build(star_input(level, known));
 }
 
-// What must be known for stars that could not be found: one box for the nodes of each leaf.
+// What must be known for stars that could not be found: one box for the nodes of each leaf and, in
+// the patch of a whole sphere, those of the leaves that are not known.
 template <int Dim>
 class UnknownBoxes {
  public:
-  explicit UnknownBoxes(const Level<Dim>& level) : level_(level) {}
+  UnknownBoxes(const Level<Dim>& level, const KnownRegion<Dim>& known)
+      : level_(level), known_(known) {}
 
-  void ask_around(std::int64_t i) { ask_around(i, level_.stars.needs(i)); }
+  void ask_around(std::int64_t i) {
+    if constexpr (Dim == 2)
+      if (level_.ground.domain().is_in_patch(level_.nodes.position(i))) return ask_in_cap(i);
+    ask_around(i, level_.stars.needs(i));
+  }
   void ask_around(std::int64_t i, double reach) {
     if (reach == 0) return;
     const Box<Dim> box = box_around<Dim>(level_.nodes.position(i), reach);
@@ -154,12 +163,25 @@ class UnknownBoxes {
   std::vector<Box<Dim>> boxes() const {
     std::vector<Box<Dim>> boxes;
     for (const auto& [leaf, box] : box_of_) boxes.push_back(box);
+    const BackgroundTree<Dim>& tree = level_.tree->tree();
+    for (const std::int32_t leaf : leaves_) boxes.push_back(tree.cell_box(tree.leaf_cell(leaf)));
     return boxes;
   }
 
  private:
+  void ask_in_cap(std::int64_t i) {
+    const double length = level_.stars.needs(i);
+    if (length == 0) return;
+    const SphereCap cap(*level_.ground.domain().chart(), level_.nodes.position(i), length);
+    known_.for_unknown_leaves(
+        level_.tree->tree(), [&](const Box<2>& box) { return cap.meets(box); },
+        [&](std::int32_t leaf) { leaves_.insert(leaf); });
+  }
+
   const Level<Dim>& level_;
+  const KnownRegion<Dim>& known_;
   std::map<std::int32_t, Box<Dim>> box_of_;
+  std::set<std::int32_t> leaves_;
 };
 
 // Owned nodes beside a ghost, by the lists or the stars.
@@ -180,7 +202,7 @@ template <int Dim>
 std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings,
                                      bool taken_hold) {
   build_stars(level, known, taken_hold);
-  UnknownBoxes<Dim> unknown(level);
+  UnknownBoxes<Dim> unknown(level, known);
   if (known.is_everywhere()) return unknown.boxes();
   const Nodes<Dim>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i)
@@ -274,7 +296,7 @@ std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& kno
                                       const std::vector<std::int64_t>& at_border,
                                       const StarZone& zone, bool taken_hold) {
   begin_stars(level, known, taken_hold);
-  UnknownBoxes<3> unknown(level);
+  UnknownBoxes<3> unknown(level, known);
   find_stars_of(level, known, at_border, unknown);
   find_ghost_stars(level, known, at_border, zone.rings, unknown);
   if (zone.reach > 0) ask_for_pairs(level, known, zone.reach, unknown);
@@ -287,7 +309,7 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
   const Nodes<3>& nodes = level.nodes;
   const std::vector<char> wanted = owned_without_star(level);
   find_owned_stars(level, known, wanted);
-  UnknownBoxes<3> unknown(level);
+  UnknownBoxes<3> unknown(level, known);
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (wanted[static_cast<std::size_t>(i)]) unknown.ask_around(i);
   find_ghost_stars(level, known, nodes_at_border(nodes, level.stars), rings, unknown);

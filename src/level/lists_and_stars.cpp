@@ -1,31 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/lists_and_stars.hpp"
 
+#include <set>
+
 #include "delaunay/volume/agreed_triangles.hpp"
 #include "level/exchange.hpp"
 #include "level/finding_stars.hpp"
 #include "level/ghost_lists.hpp"
 #include "level/known_after_exchange.hpp"
+#include "level/plane/closed_sphere.hpp"
 #include "level/reach.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-// Calls visit(leaf, owned nodes there, box that their lists look into) for the leaves with any.
+// Calls visit(leaf, owned nodes there) for the leaves with any.
 template <int Dim, class Visit>
-void for_leaves_with_own(const Level<Dim>& level, double radius, const Visit& visit) {
-  const BackgroundTree<Dim>& tree = level.tree->tree();
+void for_leaves_with_own(const Level<Dim>& level, const Visit& visit) {
   const Buckets<Dim>& buckets = level.neighbourhood.buckets();
-  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+  for (std::int32_t leaf = 0; leaf < level.tree->tree().leaf_count(); ++leaf) {
     const std::int32_t begin = buckets.begin(leaf), end = buckets.end(leaf);
     std::int64_t owned = 0;
     for (std::int32_t i = begin; i < end; ++i) owned += level.nodes.owned(i);
-    if (owned > 0)
-      visit(leaf, owned,
-            widened(tree.cell_box(tree.leaf_cell(leaf)),
-                    radius * level.map().leaf_max_spacing(leaf)));
+    if (owned > 0) visit(leaf, owned);
   }
+}
+
+template <int Dim>
+Box<Dim> box_of_lists(const Level<Dim>& level, double radius, std::int32_t leaf) {
+  const BackgroundTree<Dim>& tree = level.tree->tree();
+  return widened(tree.cell_box(tree.leaf_cell(leaf)), radius * level.map().leaf_max_spacing(leaf));
+}
+
+// Of a whole sphere, in the chart of which that box may be all there is: the leaves that lists look
+// into, which are linked as far as they reach along the sphere.
+template <int Dim, class Visit>
+void for_unknown_linked(const Level<Dim>& level, const KnownRegion<Dim>& known, std::int32_t leaf,
+                        const Visit& visit) {
+  level.neighbourhood.buckets().for_neighbours(leaf, [&](std::int32_t other) {
+    if (known.unknown_in(level.tree->tree().leaf_cell(other))) visit(other);
+  });
 }
 
 // Where d is very steep, lists may look farther than the exchange has brought nodes.
@@ -34,10 +49,26 @@ std::vector<Box<Dim>> unknown_to_lists(const Level<Dim>& level, const KnownRegio
                                        double radius) {
   std::vector<Box<Dim>> unknown;
   if (!level.distributed()) return unknown;
-  for_leaves_with_own(level, radius, [&](std::int32_t, std::int64_t, const Box<Dim>& reached) {
-    if (!known.covers(level.tree->tree(), reached)) unknown.push_back(reached);
+  const BackgroundTree<Dim>& tree = level.tree->tree();
+  std::set<std::int32_t> leaves;
+  for_leaves_with_own(level, [&](std::int32_t leaf, std::int64_t) {
+    if (is_closed_sphere(level))
+      return for_unknown_linked(level, known, leaf, [&](std::int32_t l) { leaves.insert(l); });
+    const Box<Dim> reached = box_of_lists(level, radius, leaf);
+    if (!known.covers(tree, reached)) unknown.push_back(reached);
   });
+  for (const std::int32_t leaf : leaves) unknown.push_back(tree.cell_box(tree.leaf_cell(leaf)));
   return unknown;
+}
+
+template <int Dim>
+bool lists_know_all(const Level<Dim>& level, const KnownRegion<Dim>& known, double radius,
+                    std::int32_t leaf) {
+  if (!is_closed_sphere(level))
+    return known.covers(level.tree->tree(), box_of_lists(level, radius, leaf));
+  bool all = true;
+  for_unknown_linked(level, known, leaf, [&](std::int32_t) { all = false; });
+  return all;
 }
 
 // Owned nodes whose lists could miss a node, as their leaf is nobody's: there are none, or results
@@ -47,12 +78,10 @@ std::int64_t lists_beyond_known(const Level<Dim>& level, const KnownRegion<Dim>&
                                 double radius) {
   if (!level.distributed()) return 0;
   std::int64_t found = 0;
-  for_leaves_with_own(level, radius,
-                      [&](std::int32_t leaf, std::int64_t owned, const Box<Dim>& reached) {
-                        if (level.tree->distribution().holder(leaf) < 0 ||
-                            !known.covers(level.tree->tree(), reached))
-                          found += owned;
-                      });
+  for_leaves_with_own(level, [&](std::int32_t leaf, std::int64_t owned) {
+    if (level.tree->distribution().holder(leaf) < 0 || !lists_know_all(level, known, radius, leaf))
+      found += owned;
+  });
   return found;
 }
 
@@ -64,7 +93,7 @@ void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double ra
     const PhaseTimer timer(level.timers, Phase::exchange);
     level.ghosts.fetch(*level.comm, *level.tree, boxes, level.nodes, level.neighbourhood.buckets());
   }
-  for (const Box<Dim>& box : boxes) known.add(box);
+  for (const Box<Dim>& box : boxes) known.add(level.tree->tree(), box);
   agreed(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
 }
 

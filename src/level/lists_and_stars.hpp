@@ -30,7 +30,8 @@ template <int Dim>
 void take_stars(Level<Dim>& level);
 
 // Afterwards a rank knows all nodes within radius times the largest d of each leaf in which it owns
-// any: all those near its own nodes, whatever lies between. Lists are there. Collective.
+// any: all those near its own nodes, whatever lies between. (Of a whole sphere, which has no
+// particles, only what lists may hold.) Lists are there. Collective.
 template <int Dim>
 void make_known_around(Level<Dim>& level, double radius);
 

@@ -23,7 +23,26 @@ class KnownRegion {
   bool unknown_in(std::int32_t cell) const {
     return !is_everywhere() && unknown_in_[static_cast<std::size_t>(cell)] != 0;
   }
-  void add(const Box<Dim>& box) { boxes_.push_back(box); }
+  // All nodes in this box are known, too, and so are those of the leaves that lie in it.
+  void add(const BackgroundTree<Dim>& tree, const Box<Dim>& box) {
+    boxes_.push_back(box);
+    if (is_everywhere()) return;
+    tree.for_leaves_in(box, [&](std::int32_t leaf) {
+      const std::int32_t cell = tree.leaf_cell(leaf);
+      if (contains(box, tree.cell_box(cell))) unknown_in_[static_cast<std::size_t>(cell)] = 0;
+    });
+  }
+
+  // Calls visit(leaf) for the leaves that are not known and for which meets(box) holds, as it does
+  // for the boxes of all cells around them.
+  template <class Meets, class Visit>
+  void for_unknown_leaves(const BackgroundTree<Dim>& tree, const Meets& meets,
+                          const Visit& visit) const {
+    const auto look = [&](std::int32_t cell) {
+      return unknown_in(cell) && meets(tree.cell_box_with_room(cell));
+    };
+    if (!is_everywhere()) tree.for_leaves_in(tree.cell_box(0), look, visit);
+  }
 
   // Is all of the box known?
   bool covers(const BackgroundTree<Dim>& tree, const Box<Dim>& box) const {
@@ -51,7 +70,9 @@ class KnownRegion {
     return true;
   }
 
-  std::vector<char> unknown_in_;  // of each cell of the tree, is any leaf; empty: all are known
+  // Of each cell of the tree, is any leaf (or was one before boxes were added)? Empty: all are
+  // known.
+  std::vector<char> unknown_in_;
   std::vector<Box<Dim>> boxes_;
 };
 

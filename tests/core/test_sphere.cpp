@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chart of a sphere against angles and lengths in space, great circles, areas of caps, and d
-// along the sphere: its growth, and the limit of that.
+// The chart of a sphere against angles and lengths in space, great circles, caps and their areas,
+// and d along the sphere: its growth, and the limit of that.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -13,9 +13,10 @@
 #include "spacing/growth_source.hpp"
 #include "spacing/sphere_spacing.hpp"
 #include "sphere/great_circle.hpp"
+#include "sphere/sphere_cap.hpp"
 #include "sphere/stereographic_chart.hpp"
 
-using pnpbs::Point, pnpbs::StereographicChart;
+using pnpbs::Point, pnpbs::SphereCap, pnpbs::StereographicChart;
 
 namespace {
 
@@ -151,6 +152,90 @@ START_TEST(areas_of_caps) {
 }
 END_TEST
 
+// At all distances from the point that the chart lacks, so that some go around it.
+START_TEST(caps_hold_what_is_near) {
+  Random random(7);
+  int around = 0;
+  for (const StereographicChart& chart : charts()) {
+    const double radius = chart.radius();
+    for (int k = 0; k < 300; ++k) {
+      const Point<3> near_point = pnpbs::unit_vector(
+          pnpbs::shifted(times(1 / radius, chart.projected_from()),
+                         std::pow(10.0, random.between(-3, 0.5)), on_unit_sphere(random)));
+      const Point<2> centre = chart.in_chart(near_point);
+      const Point<3> at = chart.on_sphere(centre);
+      const double length = radius * std::pow(10.0, random.between(-3, 0.25));
+      const SphereCap cap(chart, centre, length);
+      quick_assert(!cap.is_whole_sphere());
+      around += gap(at, chart.projected_from()) < length;
+      for (int l = 0; l < 50; ++l) {
+        const Point<2> u = chart.in_chart(
+            pnpbs::shifted(at, length * random.between(0, 3), on_unit_sphere(random)));
+        const double far = gap(chart.on_sphere(u), at) / length;
+        quick_assert(cap.holds(u) || far > 1 - 1e-6);
+        quick_assert(!cap.holds(u) || far < 1 + 1e-6);
+        // A box is met if a point of it is held, and not if all of it is clearly farther away.
+        const double half = std::pow(10.0, random.between(-1, 0.5)) * length *
+                            std::min(chart.stretch(u), chart.stretch(centre));
+        const pnpbs::Box<2> box{{u[0] - half * random.between(0, 1), u[1] - half},
+                                {u[0] + half, u[1] + half * random.between(0, 1)}};
+        quick_assert(!cap.holds(u) || cap.meets(box));
+        bool held = false;
+        for (int s = 0; s <= 40 * 41; ++s) {
+          const double a = 0.025 * (s / 41), b = 0.025 * (s % 41);
+          held = held || SphereCap(chart, centre, std::min(1.3 * length, 1.79 * radius))
+                             .holds({box.low[0] + a * (box.high[0] - box.low[0]),
+                                     box.low[1] + b * (box.high[1] - box.low[1])});
+        }
+        quick_assert(held || !cap.meets(box));
+      }
+    }
+    quick_assert(SphereCap(chart, {0, 0}, 1.81 * radius).is_whole_sphere());
+  }
+  ck_assert_int_gt(around, 100);
+}
+END_TEST
+
+// A circle in the chart is held if nothing inside of it is farther away, also where the smaller
+// part of the sphere is outside of it.
+START_TEST(caps_hold_circles) {
+  Random random(8);
+  int some = 0, large = 0;
+  for (const StereographicChart& chart : charts())
+    for (int k = 0; k < 2000; ++k) {
+      const double radius = chart.radius(), reach = std::pow(10.0, random.between(-2, 0.5));
+      Point<2> corner[3];
+      const Point<3> middle = on_unit_sphere(random);
+      for (Point<2>& u : corner)
+        u = chart.in_chart(pnpbs::shifted(middle, reach, on_unit_sphere(random)));
+      const auto turn = [&] {
+        return (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+               (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
+      };
+      if (turn() < 0) std::swap(corner[1], corner[2]);
+      const Point<3> x = chart.on_sphere(corner[0]), a = chart.on_sphere(corner[1]),
+                     b = chart.on_sphere(corner[2]);
+      const Point<3> normal =
+          pnpbs::unit_vector(pnpbs::cross(pnpbs::difference(a, x), pnpbs::difference(b, x)));
+      // Behind the plane of the circle, seen from the middle of the sphere, or all but that.
+      const double plane = pnpbs::dot(normal, x);
+      const double across = 2 * std::sqrt(std::max(0.0, radius * radius - plane * plane));
+      if (std::fabs(plane) < 0.01 * radius || across > 1.7 * radius) continue;
+      const bool is_small = plane > 0;
+      quick_assert(SphereCap(chart, corner[0], 1.001 * across).holds_circle(corner[1], corner[2]) ==
+                   is_small);
+      quick_assert(!SphereCap(chart, corner[0], 0.999 * across).holds_circle(corner[1], corner[2]));
+      quick_assert(SphereCap(chart, corner[0], 1.9 * radius).holds_circle(corner[1], corner[2]));
+      // The point projected from is never inside.
+      quick_assert(pnpbs::dot(normal, chart.projected_from()) <= plane);
+      some += is_small;
+      large += !is_small;
+    }
+  ck_assert_int_gt(some, 1000);
+  ck_assert_int_gt(large, 50);
+}
+END_TEST
+
 // A constant along the sphere does not grow there, whatever it does in the chart.
 START_TEST(growth_is_along_the_sphere) {
   Random random(6);
@@ -173,7 +258,8 @@ START_TEST(growth_is_along_the_sphere) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("sphere",
-                          {there_and_back, it_keeps_angles, distances_are_along_the_sphere,
-                           ways_follow_great_circles, areas_of_caps, growth_is_along_the_sphere});
+  return run_kernel_suite(
+      "sphere",
+      {there_and_back, it_keeps_angles, distances_are_along_the_sphere, ways_follow_great_circles,
+       areas_of_caps, caps_hold_what_is_near, caps_hold_circles, growth_is_along_the_sphere});
 }

@@ -195,7 +195,7 @@ START_TEST(what_is_not_known_is_asked_for) {
           quick_assert(stars.size(i) == 0 && !stars.closed(i));
           if (x[1] > middle - 0.2) continue;
           boxes.push_back(pnpbs::box_around<3>(x, stars.needs(i)));
-          known.add(boxes.back());
+          known.add(all.tree, boxes.back());
           asks = true;
         } else {
           quick_assert(star_by_ids(part.nodes, stars, i) == expected.at(part.nodes.id(i)));

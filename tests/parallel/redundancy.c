@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Work that ranks do for nodes of others: none on one rank, and little in steps where ghosts follow
- * each of them, or where parts have short borders. The nodes are the same. */
+ * each of them, or where parts have short borders, on whole spheres as well. The nodes are the
+ * same. */
 #include <math.h>
 #include <string.h>
 
@@ -86,6 +87,22 @@ static void check_borders_of_two_parts(void) {
   pnpbs_domain_destroy(&domain);
 }
 
+/* In the chart of a whole sphere what is near the point projected from is as far away as all the
+ * rest: who owns that asks for no more nodes than others. */
+static void check_whole_sphere(void) {
+  const double point[] = {1, 2, -3};
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+  expect(pnpbs_domain_create_sphere(context, 1, point, &domain) == PNPBS_OK, "sphere");
+  expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
+  pnpbs_placement_set_spacing_constant(placement, 0.012);
+  expect(pnpbs_placement_run(placement) >= 0, "run");
+  expect(real(placement, "redundancy.stars") < (size == 2 ? 1.25 : 1.5), "stars of a sphere");
+  expect(pnpbs_placement_check(placement) == PNPBS_OK, "check of a sphere");
+  pnpbs_placement_destroy(&placement);
+  pnpbs_domain_destroy(&domain);
+}
+
 static void check_on_one_rank(int32_t dim) {
   pnpbs_placement alone = placed(dim, "4");
   expect(real(alone, "redundancy.lists") == 1, "lists");
@@ -102,6 +119,7 @@ int main(int argc, char** argv) {
   check_on_ranks(3);
   check_change_of_interval();
   if (size == 2) check_borders_of_two_parts();
+  check_whole_sphere();
   all = context;
   expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
   if (rank == 0) check_on_one_rank(2), check_on_one_rank(3);

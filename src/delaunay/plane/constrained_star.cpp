@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "delaunay/plane/hull_star.hpp"
 #include "predicates/plane.hpp"
+#include "sphere/sphere_cap.hpp"
 
 namespace pnpbs {
 
@@ -29,6 +31,13 @@ class GiftWrap {
     gather_all();
   }
 
+  // From all nodes of a cap of the sphere around it.
+  GiftWrap(const StarInput& input, std::int64_t i, const SphereCap& cap)
+      : GiftWrap(input, i, kInfinity, cap.is_whole_sphere(), {}) {
+    cap_ = cap;
+    gather_cap();
+  }
+
   // Many boundary nodes, no inner one, and none that makes a circle within reach with an edge of
   // this node: those that matter are most likely farther away, and it would take long to find out.
   bool looks_too_near() const {
@@ -45,7 +54,7 @@ class GiftWrap {
 
   // False if nodes beyond the reach may matter. Where all are within reach, none can.
   bool wrap(std::vector<Entry>& star) {
-    if (!listed_) find_edges();
+    if (!listed_ && !cap_) find_edges();
     if (boundary_ >= 0 && in_.sectors.begin(boundary_) != in_.sectors.end(boundary_))
       return wrap_sectors(star);
     const int first = nearest_visible();
@@ -93,9 +102,34 @@ class GiftWrap {
     sees_centre_.assign(around_.size(), -1);
   }
 
+  // The cap may go around a hole in the chart. Edges in the hole that separate two of the nodes are
+  // not found then, and too much counts as visible. No proven triangle comes of that: the ways
+  // between its corners lie inside its circle, all of which the cap holds.
+  void gather_cap() {
+    const BackgroundTree<2>& tree = in_.map.tree();
+    const auto meets_cap = [&](std::int32_t cell) {
+      return cap_->meets(tree.cell_box_with_room(cell));
+    };
+    tree.for_leaves_in(tree.cell_box(0), meets_cap, [&](std::int32_t leaf) {
+      for (std::int32_t j = in_.buckets.begin(leaf); j < in_.buckets.end(leaf); ++j) {
+        const Point<2> x = in_.nodes.position(j);
+        if (x != centre_.position && cap_->holds(x)) around_.push_back(node(j));
+      }
+      const auto facets = in_.map.facets_of_leaf(leaf);
+      found_edges_.insert(found_edges_.end(), facets.begin(), facets.end());
+    });
+    put_inner_first();
+    sees_centre_.assign(around_.size(), -1);
+    keep_found_edges();
+  }
+
   void find_edges() {
     in_.map.for_facets_near(centre_.position, reach_,
                             [&](std::int32_t e) { found_edges_.push_back(e); });
+    keep_found_edges();
+  }
+
+  void keep_found_edges() {
     std::sort(found_edges_.begin(), found_edges_.end());
     found_edges_.erase(std::unique(found_edges_.begin(), found_edges_.end()), found_edges_.end());
     edges_ = found_edges_;
@@ -171,9 +205,12 @@ class GiftWrap {
     return best;
   }
 
-  double reach_needed_for(const StarPoint& a, const StarPoint& b) const {
+  // Are all nodes that could spoil the triangle among those around?
+  bool is_proven(const StarPoint& a, const StarPoint& b) const {
+    if (everything_) return true;
+    if (cap_) return cap_->holds_circle(a.position, b.position);
     return needed_reach(centre_.position, a.position, b.position,
-                        {is_edge(centre_, a), is_edge(centre_, b), is_edge(a, b)});
+                        {is_edge(centre_, a), is_edge(centre_, b), is_edge(a, b)}) <= reach_;
   }
 
   // Wraps from neighbour `first` on until node `last` has come; appends all but the last.
@@ -183,7 +220,7 @@ class GiftWrap {
       const int k = next_after(a);
       if (k < 0) return false;
       const StarPoint b = around_[index(k)];
-      if (!everything_ && reach_needed_for(a, b) > reach_) return false;
+      if (!is_proven(a, b)) return false;
       star.push_back({a.node, true});
       if (b.node == last) return true;
       a = b;
@@ -218,8 +255,9 @@ class GiftWrap {
   StarPoint centre_;
   std::int32_t boundary_;
   double reach_;
-  bool everything_;      // is every node within reach?
-  bool listed_ = false;  // are the nodes around from the list?
+  bool everything_;               // is every node within reach?
+  bool listed_ = false;           // are the nodes around from the list?
+  std::optional<SphereCap> cap_;  // if that is where they are from
   std::vector<StarPoint> around_;
   std::size_t inner_ = 0;                // of them, the first ones
   std::span<const std::int32_t> edges_;  // all that can lie between any of the nodes
@@ -227,10 +265,40 @@ class GiftWrap {
   std::vector<signed char> sees_centre_;  // -1 not asked yet
 };
 
+// Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
+void leave_gap(std::vector<Entry>& star, std::size_t before) {
+  if (star.size() > before) star.back() = {star.back().value(), false};
+}
+
+// In the patch of a whole sphere. There bubbles grow in the chart towards the point projected from,
+// and what is near along the sphere is as far away as all the rest: no list holds all nodes within
+// such a length of the chart, and it would take all nodes to look so far. Circles of the chart are
+// those of the sphere, so the star is the one that would be found from all nodes.
+double star_in_patch(const StarInput& input, std::int64_t i, std::vector<Entry>& star) {
+  constexpr double kFirst = 2, kNext = 1.5;  // in a lattice circles are 1.15 d wide
+  const std::size_t before = star.size();
+  const StereographicChart& chart = *input.domain.chart();
+  const Point<2> at = input.nodes.position(i);
+  for (double length = kFirst * input.nodes.d(i) / chart.stretch(at);; length *= kNext) {
+    const SphereCap cap(chart, at, length);
+    bool known = true;
+    input.known.for_unknown_leaves(
+        input.map.tree(), [&](const Box<2>& box) { return cap.meets(box); },
+        [&](std::int32_t) { known = false; });
+    star.resize(before);
+    if (!known) return length;
+    if (GiftWrap(input, i, cap).wrap(star)) return 0;
+    if (cap.is_whole_sphere()) break;
+  }
+  leave_gap(star, before);
+  return 0;
+}
+
 }  // namespace
 
 double constrained_star(const StarInput& input, std::int64_t i, double listed_reach,
                         double first_reach, std::vector<Entry>& star) {
+  if (input.domain.is_in_patch(input.nodes.position(i))) return star_in_patch(input, i, star);
   const std::size_t before = star.size();
   constexpr double kFar = 16;  // in a channel of boundary nodes alone there is nothing to wait for
   const auto found = [&](GiftWrap&& wrap, double reach) {
@@ -245,8 +313,7 @@ double constrained_star(const StarInput& input, std::int64_t i, double listed_re
     if (found(GiftWrap(input, i, reach, everything), reach)) return 0;
     if (everything) break;
   }
-  // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
-  if (star.size() > before) star.back() = {star.back().value(), false};
+  leave_gap(star, before);
   return 0;
 }
 

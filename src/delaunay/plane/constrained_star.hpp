@@ -13,7 +13,8 @@
 namespace pnpbs {
 
 // Appends the star of node i to `star`, looking as far as needed, and returns 0. Where it would
-// have to look farther than this rank knows the nodes, it appends nothing and returns how far.
+// have to look farther than this rank knows the nodes, it appends nothing and returns how far (see
+// DelaunayStars::needs).
 // The list of the node holds all that it sees within listed_reach (0 if that is not sure), and is
 // tried first.
 double constrained_star(const StarInput& input, std::int64_t i, double listed_reach,

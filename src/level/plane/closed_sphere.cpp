@@ -11,7 +11,7 @@ namespace pnpbs {
 // Nothing else bounds the sphere: what keeps a star from being all triangles is the way around the
 // domain.
 void close_sphere(Level<2>& level) {
-  if (!level.ground.domain().closing()) return;
+  if (!is_closed_sphere(level)) return;
   using Entry = DelaunayStars::Entry;
   std::vector<char> open(static_cast<std::size_t>(level.nodes.count), 0);
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
@@ -27,7 +27,7 @@ void close_sphere(Level<2>& level) {
 
 // Seen from outside all triangles turn left, and so they do in the chart but for this one.
 bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& corners) {
-  if (!level.ground.domain().closing()) return false;
+  if (!is_closed_sphere(level)) return false;
   std::array<Point<2>, 3> x;
   for (std::size_t k = 0; k < 3; ++k) x[k] = level.nodes.position(corners[k]);
   const auto is_on_rim = [&](std::int64_t i) {

@@ -10,6 +10,13 @@
 
 namespace pnpbs {
 
+// Is that triangle there? Then what is near another place in the chart need not be near on the
+// sphere, and far less has to be known than lies within a length of the chart.
+inline bool is_closed_sphere(const Level<2>& level) {
+  return level.ground.domain().closing() != nullptr;
+}
+inline bool is_closed_sphere(const Level<3>&) { return false; }
+
 // Adds it to the stars of its corners, as far as they are here. No other part of the domain does
 // anything.
 void close_sphere(Level<2>& level);
