@@ -76,15 +76,20 @@ namespace {
 
 // By which d grows in the chart of a sphere where it does not along the sphere: bubbles of the
 // sphere are bubbles of the chart, and such growth is none to them. Any growth, in leaves across
-// which the chart grows too much for their samples to tell.
+// which the chart grows too much for their samples to tell, and in those of the patch of a whole
+// sphere, which is not filled.
 double growth_of_chart(const Level<2>& level, std::int32_t leaf, double d) {
   constexpr double kTooMuch = 0.5;  // over a leaf
   const StereographicChart* chart = level.ground.domain().chart();
   if (!chart) return 0;
   const BackgroundTree<2>& tree = level.map().tree();
   const std::int32_t cell = tree.leaf_cell(leaf);
-  const double growth = chart->relative_growth(tree.cell_centre(cell));
-  if (growth * tree.cell_side(cell) > kTooMuch) return std::numeric_limits<double>::infinity();
+  const Point<2> centre = tree.cell_centre(cell);
+  const double growth = chart->relative_growth(centre), side = tree.cell_side(cell);
+  const Point<2> outermost{centre[0] + std::copysign(side / 2, centre[0]),
+                           centre[1] + std::copysign(side / 2, centre[1])};
+  if (growth * side > kTooMuch || level.ground.domain().is_in_patch(outermost))
+    return std::numeric_limits<double>::infinity();
   return d * growth;
 }
 double growth_of_chart(const Level<3>&, std::int32_t, double) { return 0; }

@@ -184,6 +184,13 @@ void leave_out_those_that_stick_out(const StereographicChart& chart, const Spaci
   patch.nodes.resize(kept);
 }
 
+// How far the patch reaches from the point, in radians, where d is so many.
+double last_of_patch(double d) { return std::min(kRadius * d, kMostOfSphere); }
+
+double edge_in_chart(const StereographicChart& chart, double angle) {
+  return 2 * chart.radius() / std::tan(angle / 2);
+}
+
 ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& spacing) {
   const double radius = chart.radius();
   const StereographicChart other = opposite_of(chart);
@@ -200,10 +207,9 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
   const std::vector<Point<3>> nodes = turned_to_point(
       chart, nodes_around(other, around, std::min(kRadiusOfDisc * d, kMostOfSphereForDisc)));
   std::copy_n(nodes.begin(), 3, patch.rim.begin());
-  const double last = std::min(kRadius * d, kMostOfSphere);  // radians from the point
-  const auto in_chart = [&](double angle) { return 2 * radius / std::tan(angle / 2); };
-  patch.edge = in_chart(last);
-  patch.beyond = in_chart(last - kSeam * d);
+  const double last = last_of_patch(d);
+  patch.edge = edge_in_chart(chart, last);
+  patch.beyond = edge_in_chart(chart, last - kSeam * d);
   for (std::size_t n = 3; n < nodes.size(); ++n) {
     const Point<2> u = chart.in_chart(nodes[n]);
     if (dot(u, u) >= patch.edge * patch.edge) patch.nodes.push_back(u);
@@ -255,6 +261,14 @@ std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const Volum
                                                const Spacing<3>&) {
   return domain;
 }
+
+bool can_be_closed(const PlaneDomain& domain, const Spacing<2>& spacing) {
+  if (!domain.is_whole_sphere()) return true;
+  const StereographicChart& chart = *domain.chart();
+  const double d = spacing_at_point(spacing, chart, opposite_of(chart)) / chart.radius();
+  return d <= kMostAtPoint && domain.leaves_room_beyond(edge_in_chart(chart, last_of_patch(d)));
+}
+bool can_be_closed(const VolumeDomain&, const Spacing<3>&) { return true; }
 
 double factor_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing) {
   if (!domain.closing()) return 1;

@@ -19,6 +19,10 @@ std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneD
 std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const VolumeDomain>& domain,
                                                const Spacing<3>& spacing);
 
+// Can it be closed for this spacing, with what the user gives inside? Other domains need not be.
+bool can_be_closed(const PlaneDomain& domain, const Spacing<2>& spacing);
+bool can_be_closed(const VolumeDomain& domain, const Spacing<3>& spacing);
+
 // The same before the spacing is multiplied for so many nodes, if any number is wanted: as if it
 // were even then. Collective.
 std::shared_ptr<const PlaneDomain> closed_before_sizing(

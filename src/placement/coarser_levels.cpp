@@ -6,11 +6,18 @@
 #include "initial/initial_fill.hpp"
 #include "level/expected_nodes.hpp"
 #include "method/constants.hpp"
+#include "placement/closing_patch.hpp"
 #include "spacing/multiplied_spacing.hpp"
 
 namespace pnpbs {
 
 namespace {
+
+// Those of the patch of a whole sphere do not count: each level has its own, at rest from the
+// start.
+double boundary_nodes(const PlaneDomain& domain, std::size_t all) {
+  return static_cast<double>(static_cast<std::int64_t>(all) - domain.patch_nodes());
+}
 
 double coarser_by(int level) { return std::ldexp(1.0, level); }
 
@@ -28,20 +35,14 @@ bool boundary_leaves_room(const Level<Dim>& finest, const Domain<Dim>& domain,
       const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
         evaluate_spacing<2>(coarser, measure_of(domain), n, x, d);
       };
-      laid = static_cast<double>(discretize_boundary(domain, checked).nodes.size());
+      laid = boundary_nodes(domain, discretize_boundary(domain, checked).nodes.size());
     });
-    return laid - static_cast<double>(finest.ground.boundary_nodes()) / factor <=
+    const Ground<2>& ground = finest.ground;
+    return laid - boundary_nodes(ground.domain(), ground.boundary().nodes.size()) / factor <=
            method::kMaxForced * (nodes / std::pow(factor, 2));
   }
   return true;
 }
-
-// Every level of a whole sphere has a patch of its own.
-bool can_be_closed(const PlaneDomain& domain, double factor) {
-  return !domain.closing() ||
-         domain.closing()->d * factor <= kMostAtPoint * domain.chart()->radius();
-}
-bool can_be_closed(const VolumeDomain&, double) { return true; }
 
 }  // namespace
 
@@ -70,12 +71,14 @@ int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
   const SpacingVariation d = spacing_variation(finest);
   const double nodes = expected_nodes(finest);
   int levels = 0;
-  while (levels < finest.settings.levels && d.max > method::kPatchVariation * d.min &&
-         nodes >= method::kMinNodesOfCoarsest * std::pow(coarser_by(levels + 1), Dim) &&
-         d.steepest * coarser_by(levels + 1) <= method::kSteepestOnCoarsest &&
-         can_be_closed(domain, coarser_by(levels + 1)) &&
-         boundary_leaves_room(finest, domain, *spacing_of_level(spacing, levels + 1),
-                              coarser_by(levels + 1), nodes))
+  const auto pays = [&](const Spacing<Dim>& coarser, double factor) {
+    return d.max > method::kPatchVariation * d.min &&
+           nodes >= method::kMinNodesOfCoarsest * std::pow(factor, Dim) &&
+           d.steepest * factor <= method::kSteepestOnCoarsest && can_be_closed(domain, coarser) &&
+           boundary_leaves_room(finest, domain, coarser, factor, nodes);
+  };
+  while (levels < finest.settings.levels &&
+         pays(*spacing_of_level(spacing, levels + 1), coarser_by(levels + 1)))
     ++levels;
   return levels;
 }

@@ -574,6 +574,36 @@ START_TEST(whole_spheres_have_curves_and_fixed_nodes_inside) {
 }
 END_TEST
 
+/* What is laid first is wider on coarser levels: there are none that reach a curve. */
+START_TEST(whole_spheres_have_curves_beside_what_is_laid_first) {
+  job it = globe_job(0, -90);
+  results r;
+  add_parallel(it.domain, 90, -58, 30, PNPBS_INNER); /* 14.2 d from the point */
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 250));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  r = results_of(it.placement);
+  check_is_closed(&r);
+  ck_assert_int_eq(integer_of(it.placement, "levels"), 0);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+/* Neither the number of fixed nodes that are laid first nor how d grows there in the projection
+ * keeps a sphere from having as many as there are nodes for. */
+START_TEST(whole_spheres_have_coarser_levels) {
+  job it = globe_job(20, -30);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 200));
+  MUST(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(integer_of(it.placement, "levels"), 2);
+  ck_assert_double_gt(real_of(it.placement, "quality.one_percent"), 0.935);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(what_whole_spheres_refuse) {
   job it = globe_job(0, -90);
   const double degrees[2] = {10, -85};
@@ -648,6 +678,8 @@ int main(void) {
   tcase_add_test(tests, whole_spheres_are_closed_where_the_spacing_grows);
   tcase_add_test(tests, whole_spheres_have_as_many_nodes_as_are_wanted);
   tcase_add_test(tests, whole_spheres_have_curves_and_fixed_nodes_inside);
+  tcase_add_test(tests, whole_spheres_have_curves_beside_what_is_laid_first);
+  tcase_add_test(tests, whole_spheres_have_coarser_levels);
   tcase_add_test(tests, what_whole_spheres_refuse);
   tcase_add_test(tests, bad_input);
   tcase_set_timeout(tests, 0);

@@ -272,6 +272,15 @@ bool PlaneDomain::has_boundary_curve() const {
 
 bool PlaneDomain::is_whole_sphere() const { return chart_ && (closing_ || !has_boundary_curve()); }
 
+// What closes the sphere comes behind what was given.
+template <class Visit>
+void PlaneDomain::for_given_points(const Visit& visit) const {
+  const std::size_t sources = closing_ ? open_sources_ : sources_.size(),
+                    nodes = closing_ ? open_nodes_ : given_nodes_.size();
+  for (std::size_t s = 0; s < sources; ++s) std::ranges::for_each(sources_[s].points, visit);
+  for (std::size_t f = 0; f < nodes; ++f) visit(given_nodes_[f].position);
+}
+
 void PlaneDomain::reject_what_is_in(const ClosingPatch& patch) const {
   const auto require_outside = [&](const Point<2>& u) {
     if (dot(u, u) < patch.edge * patch.edge) return;
@@ -280,14 +289,20 @@ void PlaneDomain::reject_what_is_in(const ClosingPatch& patch) const {
         "of the domain, up to 12 spacings from it, and a curve or a fixed node is there, at " +
         point_text(u) + ": name another point");
   };
-  for (const CurveSource& source : sources_) std::ranges::for_each(source.points, require_outside);
-  for (const FixedNode<2>& node : given_nodes_) require_outside(node.position);
+  for_given_points(require_outside);
+}
+
+bool PlaneDomain::leaves_room_beyond(double edge) const {
+  bool leaves = true;
+  for_given_points([&](const Point<2>& u) { leaves = leaves && dot(u, u) < edge * edge; });
+  return leaves;
 }
 
 void PlaneDomain::close(const ClosingPatch& patch) {
   if (closing_) {
     sources_.resize(open_sources_);
     given_nodes_.resize(open_nodes_);
+    closing_.reset();
   }
   open_sources_ = sources_.size();
   open_nodes_ = given_nodes_.size();

@@ -89,6 +89,12 @@ class PlaneDomain : public DomainBase<2> {
     double edge, beyond, d;  // of ClosingPatch
   };
   const Closing* closing() const { return closing_ ? &*closing_ : nullptr; }
+  // Of its nodes, those of the patch; 0 if it is not closed.
+  std::int64_t patch_nodes() const {
+    return closing_ ? std::ssize(given_nodes_) - static_cast<std::int64_t>(open_nodes_) + 3 : 0;
+  }
+  // Has what the user gives of a whole sphere no point so far out in the chart?
+  bool leaves_room_beyond(double edge) const;
   // Is a boundary node or a fixed one at that place of the patch?
   bool is_in_patch(const Point<2>& u) const {
     return closing_ && dot(u, u) >= closing_->edge * closing_->edge;
@@ -146,6 +152,8 @@ class PlaneDomain : public DomainBase<2> {
   void check_open_sphere();
   void follow_patch();
   void reject_what_is_in(const ClosingPatch& patch) const;
+  template <class Visit>
+  void for_given_points(const Visit& visit) const;
   bool has_boundary_curve() const;
 
   std::optional<StereographicChart> chart_;
