@@ -75,6 +75,20 @@ bool BoundaryVisibility::sees(std::int32_t b, std::int32_t c) const {
   return seen;
 }
 
+// In the chart the last bubbles beside the point of a whole sphere are so large that all others are
+// within their radius. Which of them their leaves are linked with changes as nodes move from leaf
+// to leaf, and what is listed must not depend on when that is found out: none of them is. The next
+// shells of nodes are within twice the radius, and such bubbles are several times as far away from
+// all that move.
+bool VisibilityPastEdges::far_along_sphere(std::int64_t i, std::int64_t j) const {
+  const StereographicChart& chart = *map.boundary().chart;
+  const Point<2> x = near_edges.place_of(i), y = near_edges.place_of(j);
+  const double stretch_x = chart.stretch(x), stretch_y = chart.stretch(y);
+  const double along = std::max(nodes.d(i) / stretch_x, nodes.d(j) / stretch_y);
+  const double far = 2 * near_edges.radius() * along;
+  return squared_distance<2>(x, y) > far * far * stretch_x * stretch_y;
+}
+
 bool VisibilityPastEdges::sees_past_edges(std::int64_t wide, std::int64_t other) const {
   const std::int32_t b = nodes.boundary_node(wide), c = nodes.boundary_node(other);
   if (b >= 0 && c >= 0) return boundary_visibility.sees(b, c);

@@ -44,8 +44,10 @@ struct VisibilityPastEdges {
 
   bool may_occlude(std::int64_t i) const { return near_edges.any(i); }
 
-  // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2.
+  // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2. Nor
+  // may they be far apart along a sphere.
   bool visible(std::int64_t i, std::int64_t j) const {
+    if (map.boundary().chart && far_along_sphere(i, j)) return false;
     // Whatever lies between the two is within their distance of either, and that is at most
     // radius times the larger spacing.
     const bool i_wide = nodes.d(i) >= nodes.d(j);
@@ -56,6 +58,7 @@ struct VisibilityPastEdges {
   }
 
   bool sees_past_edges(std::int64_t wide, std::int64_t other) const;
+  bool far_along_sphere(std::int64_t i, std::int64_t j) const;
 };
 
 }  // namespace pnpbs

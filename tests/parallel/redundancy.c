@@ -87,20 +87,38 @@ static void check_borders_of_two_parts(void) {
   pnpbs_domain_destroy(&domain);
 }
 
-/* In the chart of a whole sphere what is near the point projected from is as far away as all the
- * rest: who owns that asks for no more nodes than others. */
-static void check_whole_sphere(void) {
-  const double point[] = {1, 2, -3};
+static pnpbs_placement placed_on_whole_sphere(void) {
+  const double degrees[] = {20, -30};
+  double point[3];
   pnpbs_domain domain;
   pnpbs_placement placement;
-  expect(pnpbs_domain_create_sphere(context, 1, point, &domain) == PNPBS_OK, "sphere");
+  expect(pnpbs_sphere_points(1, 1, degrees, point) == PNPBS_OK, "point");
+  expect(pnpbs_domain_create_sphere(context, 6371.22, point, &domain) == PNPBS_OK, "sphere");
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
-  pnpbs_placement_set_spacing_constant(placement, 0.012);
+  pnpbs_placement_set_spacing_constant(placement, 127.42);
   expect(pnpbs_placement_run(placement) >= 0, "run");
-  expect(real(placement, "redundancy.stars") < (size == 2 ? 1.25 : 1.5), "stars of a sphere");
-  expect(pnpbs_placement_check(placement) == PNPBS_OK, "check of a sphere");
-  pnpbs_placement_destroy(&placement);
   pnpbs_domain_destroy(&domain);
+  return placement;
+}
+
+/* In the chart of a whole sphere what is near the point projected from is as far away as all the
+ * rest: who owns that asks for no more nodes than others, and lists hold what is near along the
+ * sphere, whenever they are made. */
+static void check_whole_sphere(pnpbs_context serial) {
+  pnpbs_placement placement = placed_on_whole_sphere(), alone;
+  const pnpbs_context all = context;
+  char hash[32], other[32];
+  expect(real(placement, "redundancy.stars") < (size == 2 ? 1.5 : 2.2), "stars of a sphere");
+  expect(pnpbs_placement_check(placement) == PNPBS_OK, "check of a sphere");
+  hash_of_nodes(placement, hash);
+  pnpbs_placement_destroy(&placement);
+  if (rank > 0) return;
+  context = serial;
+  alone = placed_on_whole_sphere();
+  hash_of_nodes(alone, other);
+  expect(strcmp(hash, other) == 0, "the nodes of a sphere are those of one rank");
+  pnpbs_placement_destroy(&alone);
+  context = all;
 }
 
 static void check_on_one_rank(int32_t dim) {
@@ -113,17 +131,18 @@ static void check_on_one_rank(int32_t dim) {
 }
 
 int main(int argc, char** argv) {
-  pnpbs_context all;
+  pnpbs_context all, serial;
   begin_ranks(&argc, &argv);
   check_on_ranks(2);
   check_on_ranks(3);
   check_change_of_interval();
   if (size == 2) check_borders_of_two_parts();
-  check_whole_sphere();
   all = context;
   expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
   if (rank == 0) check_on_one_rank(2), check_on_one_rank(3);
-  pnpbs_context_destroy(&context);
+  serial = context;
   context = all;
+  check_whole_sphere(serial);
+  pnpbs_context_destroy(&serial);
   return end_ranks();
 }
