@@ -233,6 +233,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "quality.min_angle_elsewhere",
           [](P p) { return p.results().element_quality().simplex.min_angle_elsewhere; },
           "the same of all other elements")),
+      computed(integer(
+          "quality.obtuse", [](P p) { return p.results().element_quality().simplex.obtuse; },
+          "triangles with an angle of more than 90 degrees: their circumcentres, corners of "
+          "Voronoi cells, lie outside of them")),
       computed(real(
           "quality.irregular", [](P p) { return p.results().element_quality().irregular; },
           "share of the inner nodes that do not have six neighbours in their stars, in space 14")),
@@ -242,6 +246,17 @@ const std::vector<StatisticRow>& statistic_table() {
       computed(real(
           "edge.deviation", [](P p) { return p.results().element_quality().edge.deviation; },
           "length of the elements' edges over d: standard deviation")),
+      computed(integer(
+          "edge.uncrossed", [](P p) { return p.results().element_quality().cell.uncrossed; },
+          "in the plane and on spheres: edges between two triangles that the Voronoi edge between "
+          "their circumcentres does not cross")),
+      computed(real(
+          "cell.mean_offset", [](P p) { return p.results().element_quality().cell.mean_offset; },
+          "in the plane and on spheres: distance over d of inner nodes from the centroids of their "
+          "Voronoi cells for the density d^-4 (option centroidal_sweeps): mean")),
+      computed(real(
+          "cell.max_offset", [](P p) { return p.results().element_quality().cell.max_offset; },
+          "the same: maximum")),
       real(
           "speed.largest", [](P p) { return p.results().speeds().max; },
           "largest scaled speed, spacings per unit of time"),

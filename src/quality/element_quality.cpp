@@ -191,34 +191,34 @@ double quality_of(const PlaneTriangle& x) { return triangle_quality(x[0], x[1], 
 double quality_of(const TetrahedronCorners& x) { return tetrahedron_quality(x); }
 double quality_of(const SpaceTriangle& x) { return triangle_quality(x[0], x[1], x[2]); }
 
-// Of the angle at a.
-template <std::size_t Dim>
-double cosine(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
-              const std::array<double, Dim>& c) {
-  double product = 0;
-  for (std::size_t k = 0; k < Dim; ++k) product += (b[k] - a[k]) * (c[k] - a[k]);
-  return product / (distance<static_cast<int>(Dim)>(a, b) * distance<static_cast<int>(Dim)>(a, c));
-}
+// Of the least angle of a triangle, or between faces of a tetrahedron.
+struct Angles {
+  double max_cosine;
+  bool obtuse;
+};
 
-// Of the least angle of a triangle; of the least angle between faces of a tetrahedron.
 template <std::size_t Dim>
-double max_cosine(const std::array<std::array<double, Dim>, 3>& x) {
-  return std::max({cosine(x[0], x[1], x[2]), cosine(x[1], x[2], x[0]), cosine(x[2], x[0], x[1])});
+Angles angles_of(const std::array<std::array<double, Dim>, 3>& x) {
+  const auto [min, max] =
+      std::minmax({angle_cosine(x[0], x[1], x[2]), angle_cosine(x[1], x[2], x[0]),
+                   angle_cosine(x[2], x[0], x[1])});
+  return {max, is_obtuse(min)};
 }
-double max_cosine(const TetrahedronCorners& x) {
-  return std::cos(min_dihedral_angle(x) / kDegrees);
+Angles angles_of(const TetrahedronCorners& x) {
+  return {std::cos(min_dihedral_angle(x) / kDegrees), false};
 }
 
 struct QualitySums {
   explicit QualitySums(double cosine) : max_cosine(cosine) {}
 
-  std::int64_t elements = 0;
+  std::int64_t elements = 0, obtuse = 0;
   FixedPointSum quality;
   double min = 1;
   double max_cosine;  // at the smallest angle
 
   void add(const QualitySums& other) {
     elements += other.elements;
+    obtuse += other.obtuse;
     quality.add(other.quality);
     min = std::min(min, other.min);
     max_cosine = std::max(max_cosine, other.max_cosine);
@@ -252,7 +252,9 @@ QualitySums local_quality_sums(const MeasuredNodes<Dim>& measured, const Stars<D
           ++sum.elements;
           sum.quality.add(quality);
           sum.min = std::min(sum.min, quality);
-          sum.max_cosine = std::max(sum.max_cosine, max_cosine(corners));
+          const Angles angles = angles_of(corners);
+          sum.obtuse += angles.obtuse;
+          sum.max_cosine = std::max(sum.max_cosine, angles.max_cosine);
         });
       });
   histogram.assign(steps.data(), steps.data() + kQualitySteps);
@@ -270,6 +272,8 @@ SimplexQuality measure_simplices(const Communicator& comm, const MeasuredNodes<D
   const double quality = comm.allreduce_sum(own.quality).value();
   comm.allreduce_sum(histogram);
   if (found.elements == 0) return found;
+  found.obtuse =
+      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(own.obtuse)));
   found.mean = quality / static_cast<double>(found.elements);
   found.one_percent = one_percent_of(histogram, found.elements);
   found.min = -comm.allreduce_max(-own.min);
@@ -344,6 +348,7 @@ ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Di
       edge_sums<Dim>(comm, measured, stars, bands, [](std::int64_t, std::int64_t) { return true; });
   ElementQuality found;
   found.simplex = measure_simplices(comm, measured, stars);
+  if constexpr (Dim == 2) found.cell = measure_cells(comm, measured, stars);
   found.edge = ratio_of(edges.all());
   found.bands = bands_with_edges(bands, edges);
   found.irregular = irregular_share<Dim>(comm, measured.nodes, stars, regular_neighbours(stars));

@@ -10,6 +10,7 @@
 #include "comm/communicator.hpp"
 #include "delaunay/stars.hpp"
 #include "quality/measured_nodes.hpp"
+#include "quality/plane/cell_quality.hpp"
 
 namespace pnpbs {
 
@@ -32,6 +33,7 @@ struct SimplexQuality {
   double mean = 0, min = 0;  // 2 r_in / R, 3 r_in / R
   double one_percent = 0;    // 99 % lie above; in steps of 2^-16, downwards
   double min_angle = 0;      // degrees; of tetrahedra, between faces
+  std::int64_t obtuse = 0;   // triangles: their circumcentres lie outside of them
   // The same of the elements at edges where the body itself is sharp, and of all others; 180 if
   // there are none. In the plane and on surfaces all are others.
   double min_angle_at_sharp_edges = 180, min_angle_elsewhere = 0;
@@ -39,7 +41,8 @@ struct SimplexQuality {
 
 struct ElementQuality {
   SimplexQuality simplex;
-  EdgeRatio edge;  // of all edges
+  CellQuality cell;  // in the plane or on a sphere
+  EdgeRatio edge;    // of all edges
   std::vector<EdgeBand> bands;
   double irregular = 0;  // share of the inner nodes without six (14) neighbours
 };

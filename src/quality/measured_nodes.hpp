@@ -20,9 +20,12 @@ struct MeasuredNodes {
   }
 
   double distance_between(std::int64_t i, std::int64_t j) const {
+    return distance_to(i, nodes.position(j));
+  }
+  double distance_to(std::int64_t i, const Point<Dim>& x) const {
     if constexpr (Dim == 2)
-      if (chart) return chart->distance(nodes.position(i), nodes.position(j));
-    return distance<Dim>(nodes.position(i), nodes.position(j));
+      if (chart) return chart->distance(nodes.position(i), x);
+    return distance<Dim>(nodes.position(i), x);
   }
 
   // As a corner of an element: in space those of the plane's nodes, which are in a chart.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/space_vectors.hpp"
@@ -24,6 +26,18 @@ inline double triangle_quality(const Point<3>& a, const Point<3>& b, const Point
   const double product = ab * bc * ca * (ab + bc + ca);
   return product > 0 ? 4 * dot(normal, normal) / product : 0.0;
 }
+
+// Of the angle at a.
+template <std::size_t Dim>
+double angle_cosine(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
+                    const std::array<double, Dim>& c) {
+  double product = 0;
+  for (std::size_t k = 0; k < Dim; ++k) product += (b[k] - a[k]) * (c[k] - a[k]);
+  return product / (distance<static_cast<int>(Dim)>(a, b) * distance<static_cast<int>(Dim)>(a, c));
+}
+
+// Is an angle larger than 90 degrees, and not by rounding?
+inline bool is_obtuse(double cosine) { return cosine < -1e-10; }
 
 // A bound on quality that many triangles are held against, without square roots.
 class QualityBound {

@@ -21,13 +21,18 @@ static void append(char* word, double value) { sprintf(word + strlen(word), "%a/
 static void describe_elements(pnpbs_placement placement, char* word) {
   const char* keys[] = {"quality.mean",      "quality.one_percent", "quality.min",
                         "quality.min_angle", "quality.irregular",   "edge.mean",
-                        "edge.deviation"};
+                        "edge.deviation",    "cell.mean_offset",    "cell.max_offset"};
+  const char* counts[] = {"quality.obtuse", "edge.uncrossed"};
   double from[8], to[8], mean[8], deviation[8], value;
-  int64_t edges[8], bands, b;
+  int64_t edges[8], bands, b, count;
   size_t k;
   for (k = 0; k < sizeof keys / sizeof keys[0]; ++k) {
     check(pnpbs_placement_get_double(placement, keys[k], &value), keys[k]);
     append(word, value);
+  }
+  for (k = 0; k < sizeof counts / sizeof counts[0]; ++k) {
+    check(pnpbs_placement_get_int64(placement, counts[k], &count), counts[k]);
+    append(word, (double)count);
   }
   check(pnpbs_placement_get_edge_bands(placement, 8, &bands, from, to, edges, mean, deviation),
         "bands");

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/plane/cell_centroids.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/space_vectors.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// A point of the plane, or of the unit sphere, and d there.
+template <std::size_t N>
+struct Corner {
+  std::array<double, N> x;
+  double d;
+};
+
+template <std::size_t N>
+std::array<double, N> combined(double a, const std::array<double, N>& x, double b,
+                               const std::array<double, N>& y) {
+  std::array<double, N> sum;
+  for (std::size_t k = 0; k < N; ++k) sum[k] = a * x[k] + b * y[k];
+  return sum;
+}
+
+template <std::size_t N>
+std::array<double, N> way(const std::array<double, N>& from, const std::array<double, N>& to) {
+  return combined(1, to, -1, from);
+}
+
+// A point of a flat triangle with its corners there, as one of the plane or the sphere.
+Point<2> raised(const Point<2>& x) { return x; }
+Point<3> raised(const Point<3>& x) { return unit_vector(x); }
+
+template <std::size_t N>
+Corner<N> middle(const Corner<N>& a, const Corner<N>& b) {
+  return {raised(combined(0.5, a.x, 0.5, b.x)), 0.5 * (a.d + b.d)};
+}
+
+// The circumcentre of a flat triangle has the barycentric coordinates a^2 (b^2 + c^2 - a^2), a
+// being the side opposite. Taken along its ray it is the one on the sphere. d is linear there, too,
+// but not far beyond an obtuse triangle, where it might be negative.
+template <std::size_t N>
+Corner<N> circumcentre(const Corner<N>& o, const Corner<N>& a, const Corner<N>& b) {
+  const auto oa = way(o.x, a.x), ob = way(o.x, b.x), ab = way(a.x, b.x);
+  const double aa = dot(oa, oa), bb = dot(ob, ob), cc = dot(ab, ab);
+  const double of_a = bb * (cc + aa - bb), of_b = aa * (bb + cc - aa), of_o = cc * (aa + bb - cc);
+  const double share = 1 / (of_o + of_a + of_b);
+  const auto [min, max] = std::minmax({o.d, a.d, b.d});
+  const double d = share * (of_o * o.d + of_a * a.d + of_b * b.d);
+  const auto from_o = combined(share * of_a, oa, share * of_b, ob);
+  return {raised(combined(1, o.x, 1, from_o)), std::clamp(d, 0.5 * min, 2 * max)};
+}
+
+// The point of the edge from a to b that is as far from o as from a.
+template <std::size_t N>
+Corner<N> crossing(const Corner<N>& o, const Corner<N>& a, const Corner<N>& b) {
+  const auto ao = way(a.x, o.x), ab = way(a.x, b.x);
+  const double share = 0.5 * dot(ao, ao) / dot(ao, ab);
+  return {raised(combined(1, a.x, share, ab)), a.d + share * (b.d - a.d)};
+}
+
+// Twice the area of a flat triangle as it counts at a point of it that is to be taken along its ray
+// to the sphere, without the factor of that point; in the plane that area.
+double twice_area(const Point<2>&, const Point<2>& a, const Point<2>& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+double twice_area(const Point<3>& o, const Point<3>& a, const Point<3>& b) {
+  return dot(o, cross(a, b));
+}
+
+// Such a point once it is taken there, and that factor.
+template <std::size_t N>
+struct Raised {
+  std::array<double, N> x;
+  double area;
+};
+Raised<2> raised_with_area(const Point<2>& x) { return {x, 1}; }
+Raised<3> raised_with_area(const Point<3>& x) {
+  const double scale = 1 / length(x);
+  return {{scale * x[0], scale * x[1], scale * x[2]}, scale * scale * scale};
+}
+
+// Mass and first moment about the node of the parts of its cell.
+template <std::size_t N>
+class CellMoments {
+ public:
+  explicit CellMoments(const Corner<N>& node) : node_(node) {}
+
+  // The triangle of the node and these two, negative if they turn right: by the middles of its
+  // edges, which is exact for polynomials of degree 2 (A. Stroud, Approximate calculation of
+  // multiple integrals, 1971, formula T2: 2-1).
+  void add(const Corner<N>& a, const Corner<N>& b) {
+    const double part = twice_area(node_.x, way(node_.x, a.x), way(node_.x, b.x));
+    add_point(part, node_, a);
+    add_point(part, a, b);
+    add_point(part, b, node_);
+  }
+
+  Point<N> centroid() const { return raised(combined(1, node_.x, 1 / mass_, first_)); }
+
+ private:
+  void add_point(double part, const Corner<N>& a, const Corner<N>& b) {
+    const Raised<N> at = raised_with_area(combined(0.5, a.x, 0.5, b.x));
+    const double ratio = node_.d / (0.5 * (a.d + b.d)), square = ratio * ratio;
+    const double mass = part * at.area * square * square;
+    mass_ += mass;
+    first_ = combined(1, first_, mass, way(node_.x, at.x));
+  }
+
+  const Corner<N> node_;
+  double mass_ = 0;
+  std::array<double, N> first_{};
+};
+
+// Adds what of a cell belongs to a triangle with its node. Where the triangle is obtuse that
+// reaches beyond it or is less than nothing, and what others add makes up for it.
+template <std::size_t N>
+void add_part(const Corner<N>& o, const Corner<N>& a, const Corner<N>& b, bool edge_stays,
+              CellMoments<N>& cell) {
+  const Corner<N> towards_a = middle(o, a), towards_b = middle(o, b);
+  if (edge_stays && dot(way(o.x, a.x), way(o.x, b.x)) < 0) {
+    const Corner<N> first = crossing(o, a, b), last = crossing(o, b, a);
+    cell.add(towards_a, first);
+    cell.add(first, last);
+    cell.add(last, towards_b);
+    return;
+  }
+  const Corner<N> centre = circumcentre(o, a, b);
+  cell.add(towards_a, centre);
+  cell.add(centre, towards_b);
+}
+
+// Of a closed star. corner_of(j) is node j as a corner.
+template <std::size_t N, class CornerOf>
+Point<N> centroid(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
+                  const CornerOf& corner_of) {
+  struct Neighbour {
+    Corner<N> corner;
+    bool moves;
+  };
+  const Corner<N> node = corner_of(i);
+  CellMoments<N> cell(node);
+  std::optional<Neighbour> first, last;
+  const auto go_on = [&](const Neighbour& next) {
+    if (last)
+      add_part<N>(node, last->corner, next.corner, !last->moves && !next.moves, cell);
+    else
+      first = next;
+    last = next;
+  };
+  stars.for_neighbours(i, [&](std::int64_t j) { go_on({corner_of(j), nodes.moves(j)}); });
+  go_on(*first);
+  return cell.centroid();
+}
+
+}  // namespace
+
+Point<2> CellCentroids::of(std::int64_t i) const {
+  if (!chart_) {
+    const Point<2> origin = nodes_.position(i);  // so that little cancels
+    const Point<2> from_there = centroid<2>(nodes_, stars_, i, [&](std::int64_t j) {
+      return Corner<2>{way(origin, nodes_.position(j)), nodes_.d(j)};
+    });
+    return combined(1, origin, 1, from_there);
+  }
+  return chart_->in_chart(centroid<3>(nodes_, stars_, i, [&](std::int64_t j) {
+    const Point<2> u = nodes_.position(j);
+    return Corner<3>{unit_vector(chart_->on_sphere(u)), nodes_.d(j) / chart_->stretch(u)};
+  }));
+}
+
+}  // namespace pnpbs
