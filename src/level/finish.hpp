@@ -22,6 +22,15 @@ struct FinishResults {
 FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps);
 FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps);
 
+// For finite volumes, in the plane and on spheres alone. From fresh stars, which stay, so many
+// sweeps to the centroids of Voronoi cells; returns the bands of then, with d from before.
+// Collective.
+std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps);
+inline std::vector<EdgeBand> sweep_to_centroids(Level<3>&, std::int64_t) { return {}; }
+// In at most so many rounds. Collective.
+void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds);
+inline void repair_obtuse_triangles(Level<3>&, std::int64_t) {}
+
 // Lists for that, of the present positions. Collective.
 template <int Dim>
 void prepare_finish(Level<Dim>& level);

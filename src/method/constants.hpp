@@ -187,6 +187,14 @@ inline constexpr double kSweepMaxMove = 0.1;
 inline constexpr double kSweepGuardsBelow = 0.75;
 // Sweeps during which stars stay as they are. [sweeps] Chosen.
 inline constexpr int kSweepsOnStars = 5;
+// Triangles below this are not to get worse by a sweep to centroids, which flips edges as it needs.
+// [quality] Chosen below all that a Delaunay triangulation of such nodes has.
+inline constexpr double kCentroidalSweepGuardsBelow = 0.3;
+// Triangles with a larger angle are repaired by obtuse_rounds. [degrees] Chosen below 90.
+inline constexpr double kObtuseRepairAngle = 89.5;
+// A smallest angle that is as bad for that repair as a right one. [degrees] Chosen: the smallest
+// angles are 36 to 41 degrees where d grows by less than 0.1.
+inline constexpr double kObtuseRepairMinAngle = 35;
 // Nodes with so few neighbours may be surplus. [neighbours] docs/method.md.
 inline constexpr int kFewNeighbours = 4;
 // A surplus node goes if the least quality around it rises by this. [quality] docs/method.md.

@@ -56,6 +56,7 @@ class Simulation {
   bool stops_in_finish(double fraction);
   void lay_first_row();
   Outcome smooth(double fraction);
+  Outcome centre_cells(double fraction);
   PopulationCounts counted(PopulationCounts change);
   double nodes() const;
 

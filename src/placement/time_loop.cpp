@@ -191,6 +191,7 @@ Outcome Simulation<Dim>::finish(double fraction) {
   remove_crowded();
   if (stops_in_finish(fraction)) return Outcome::stopped;
   if (smooth(fraction) == Outcome::stopped) return Outcome::stopped;
+  if (centre_cells(fraction) == Outcome::stopped) return Outcome::stopped;
   refresh_spacing(level_);
   return Outcome::converged;
 }
@@ -215,6 +216,23 @@ Outcome Simulation<Dim>::smooth(double fraction) {
     if (!refine()) break;
     sweeps = 0;
   }
+  return Outcome::converged;
+}
+
+// Sweeps in blocks, for each of which stars are found and d is asked again; then the few triangles
+// that are obtuse.
+template <int Dim>
+Outcome Simulation<Dim>::centre_cells(double fraction) {
+  constexpr std::int64_t kBlock = method::kSweepsOnStars;
+  const std::int64_t sweeps = Dim == 2 ? level_.settings.centroidal_sweeps : 0;
+  for (std::int64_t done = 0; done < sweeps; done += kBlock) {
+    const double share = static_cast<double>(done) / static_cast<double>(sweeps);
+    if (stops_in_finish(fraction + share * (1 - fraction))) return Outcome::stopped;
+    refresh_spacing(level_);
+    run_.edge_bands = sweep_to_centroids(level_, std::min(kBlock, sweeps - done));
+  }
+  const std::int64_t rounds = level_.settings.obtuse_rounds;
+  if (rounds > 0) repair_obtuse_triangles(level_, rounds);
   return Outcome::converged;
 }
 

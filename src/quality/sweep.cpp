@@ -33,26 +33,35 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
     const std::int64_t i = first + lane;
     const std::int32_t n = block.sizes[lane].value();
     const bool may = nodes.moves(i) && n >= 3 && block.sizes[lane].flag();
-    std::array<double, 2> move{rule.weight * (sum_x[lane] / n - x[0][i]),
-                               rule.weight * (sum_y[lane] / n - x[1][i])};
-    clamp_move<2>(move, rule.max_move * nodes.d(i));
-    proposed[0](i) = may ? x[0][i] + move[0] : x[0][i];
-    proposed[1](i) = may ? x[1][i] + move[1] : x[1][i];
-    if (!may || !near_edges.any(i)) continue;
-    const ClearPosition<2> kept = clear_position(map, near_edges.edges_of(i), nodes.position(i),
-                                                 point_at<2>(proposed, i), nodes.d(i));
-    for (int k = 0; k < 2; ++k) proposed[k](i) = kept.clear ? kept.position[k] : x[k][i];
+    const Point<2> move{rule.weight * (sum_x[lane] / n - x[0][i]),
+                        rule.weight * (sum_y[lane] / n - x[1][i])};
+    if (may)
+      propose_move(nodes, near_edges, map, rule, i, move, proposed);
+    else
+      propose_to_stay(nodes, i, proposed);
   }
 }
 
 }  // namespace
 
-void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-           const DomainMap<2>& map, const SweepRule& rule, Field<2>& proposed,
-           View<char>& allowed) {
+void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const DomainMap<2>& map,
+                  const SweepRule& rule, std::int64_t i, Point<2> move, Field<2>& proposed) {
+  const Point<2> x = nodes.position(i);
+  clamp_move<2>(move, rule.max_move * nodes.d(i));
+  for (int k = 0; k < 2; ++k) proposed[k](i) = x[k] + move[k];
+  if (!near_edges.any(i)) return;
+  const ClearPosition<2> kept =
+      clear_position(map, near_edges.edges_of(i), x, point_at<2>(proposed, i), nodes.d(i));
+  for (int k = 0; k < 2; ++k) proposed[k](i) = kept.clear ? kept.position[k] : x[k];
+}
+
+void propose_to_stay(const Nodes<2>& nodes, std::int64_t i, Field<2>& proposed) {
+  for (int k = 0; k < 2; ++k) proposed[k](i) = nodes.x[k](i);
+}
+
+void go_where_allowed(Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
+                      const Field<2>& proposed, View<char>& allowed) {
   const QualityBound bound(rule.bad_below);
-  for_each("pnpbs::sweep::propose", stars.block_count(),
-           [&](std::int64_t b) { propose(nodes, stars, near_edges, map, rule, proposed, b); });
   for_each("pnpbs::sweep::guard", stars.block_count(), [&](std::int64_t b) {
     guard_block(nodes, stars, rule.bad_below, bound, proposed, allowed, b);
   });
@@ -60,6 +69,14 @@ void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_ed
     if (allowed(i)) nodes.set_position(i, point_at<2>(proposed, i));
   });
   nodes.moved();
+}
+
+void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+           const DomainMap<2>& map, const SweepRule& rule, Field<2>& proposed,
+           View<char>& allowed) {
+  for_each("pnpbs::sweep::propose", stars.block_count(),
+           [&](std::int64_t b) { propose(nodes, stars, near_edges, map, rule, proposed, b); });
+  go_where_allowed(nodes, stars, rule, proposed, allowed);
 }
 
 }  // namespace pnpbs

@@ -131,6 +131,12 @@ const std::vector<OptionRow>& option_table() {
       {"sliver_angle", T::real, "33", nullptr, "38", 0, 40, nullptr,
        "tetrahedra with a dihedral angle below this, in degrees, are slivers and repaired; only "
        "in space"},
+      {"centroidal_sweeps", T::integer, "0", nullptr, nullptr, 0, 10000, nullptr,
+       "only in the plane and on spheres, for finite volumes: sweeps after the repairs that move "
+       "inner nodes to the centroids of their Voronoi cells for the density d^-4"},
+      {"obtuse_rounds", T::integer, "0", nullptr, nullptr, 0, 10000, nullptr,
+       "only in the plane and on spheres, for finite volumes: maximum rounds at the end that "
+       "repair triangles with an angle above 89.5 degrees"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
       {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 4, nullptr,

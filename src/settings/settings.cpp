@@ -22,6 +22,8 @@ Settings::Settings(const Options& o)
       tolerance_max(o.real("tolerance_max")),
       first_row(o.integer("first_row") != 0),
       sweeps(o.integer("sweeps")),
+      centroidal_sweeps(o.integer("centroidal_sweeps")),
+      obtuse_rounds(o.integer("obtuse_rounds")),
       sliver_angle(o.real("sliver_angle")),
       list_radius(o.real("list_radius")),
       adjacency_radius(o.real("adjacency_radius")),

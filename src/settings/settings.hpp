@@ -40,6 +40,8 @@ struct Settings {
   std::int64_t sweeps;
   SweepRule sweep;
   RepairRule repair;
+  std::int64_t centroidal_sweeps;
+  std::int64_t obtuse_rounds;
   double sliver_angle;  // degrees
   DefectRule defects;
   double list_radius, adjacency_radius;

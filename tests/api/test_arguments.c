@@ -161,6 +161,10 @@ START_TEST(options) {
   REFUSE(KEY, "\"dampin\"", "\"damping\"", pnpbs_placement_set_double(p, "dampin", 1));
   REFUSE(ARGUMENT, "sweeps", "\"-1\"", pnpbs_placement_set(p, "sweeps", "-1"));
   REFUSE(ARGUMENT, "sweeps", "-7", pnpbs_placement_set_int64(p, "sweeps", -7));
+  REFUSE(ARGUMENT, "centroidal_sweeps", "-1", pnpbs_placement_set(p, "centroidal_sweeps", "-1"));
+  REFUSE(ARGUMENT, "obtuse_rounds", "-1", pnpbs_placement_set(p, "obtuse_rounds", "-1"));
+  REFUSE(ARGUMENT, "centroidal_sweeps", "10001",
+         pnpbs_placement_set_int64(p, "centroidal_sweeps", 10001));
   REFUSE(ARGUMENT, "rest_length", "9.5", pnpbs_placement_set_double(p, "rest_length", 9.5));
   REFUSE(STATE, "threads", "context", pnpbs_placement_set(p, "threads", "2"));
   REFUSE(STATE, "threads", "context", pnpbs_placement_set_int64(p, "threads", 2));

@@ -48,6 +48,35 @@ static void check_triangles(pnpbs_placement placement, const result* it) {
   free(qualities);
 }
 
+/* On which side of the edge from a to b is the circumcentre of (a, b, c)? That of c: > 0. Half of
+ * the cotangent of the angle at c. */
+static double side_of_circumcentre(const double* a, const double* b, const double* c) {
+  const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+  const double bb = bx * bx + by * by, cc = cx * cx + cy * cy, twice = 2 * (bx * cy - by * cx);
+  const double x = (cy * bb - by * cc) / twice, y = (bx * cc - cx * bb) / twice;
+  return (bx * y - by * x) / bb;
+}
+
+static void check_circumcentres(pnpbs_placement placement, const result* it, int64_t least) {
+  int64_t t, obtuse = 0, uncrossed = 0, told;
+  int k;
+  for (t = 0; t < it->triangles; ++t) {
+    for (k = 0; k < 3; ++k) {
+      const int64_t i = it->corners[3 * t + k], j = it->corners[3 * t + (k + 1) % 3],
+                    apex = it->corners[3 * t + (k + 2) % 3];
+      if (side_of_circumcentre(it->xy + 2 * i, it->xy + 2 * j, it->xy + 2 * apex) >= -1e-11)
+        continue;
+      ++obtuse;
+      uncrossed += edge_between(it, i, j) == 0;
+    }
+  }
+  MUST(pnpbs_placement_get_int64(placement, "quality.obtuse", &told));
+  ck_assert_int_eq(told, obtuse);
+  MUST(pnpbs_placement_get_int64(placement, "edge.uncrossed", &told));
+  ck_assert_int_eq(told, uncrossed);
+  ck_assert_int_ge(uncrossed, least);
+}
+
 static void check_irregular(pnpbs_placement placement, const result* it) {
   int64_t i, inner = 0, irregular = 0;
   for (i = 0; i < it->n; ++i) {
@@ -132,8 +161,37 @@ START_TEST(as_by_brute_force) {
   check_triangles(it.placement, &found);
   check_irregular(it.placement, &found);
   check_edges(it.placement, &found);
+  check_circumcentres(it.placement, &found, 0);
   result_free(&found);
   job_end(&it);
+}
+END_TEST
+
+/* Centroidal sweeps bring nodes to the centroids of their cells, and leave the topology good. */
+START_TEST(centroidal_sweeps) {
+  const char* sweeps[3] = {"0", "10", "40"};
+  double mean[3], max[3];
+  int k;
+  for (k = 0; k < 3; ++k) {
+    cone d = {0.012, 0.03, 0, 0};
+    job it = graded_job(&d);
+    result found;
+    MUST(pnpbs_placement_set(it.placement, "centroidal_sweeps", sweeps[k]));
+    MUST(pnpbs_placement_set(it.placement, "obtuse_rounds", k == 2 ? "20" : "0"));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    mean[k] = real_of(it.placement, "cell.mean_offset");
+    max[k] = real_of(it.placement, "cell.max_offset");
+    found = result_of(it.placement);
+    check_triangles(it.placement, &found);
+    check_circumcentres(it.placement, &found, 0);
+    ck_assert_double_ge(real_of(it.placement, "quality.mean"), 0.98);
+    result_free(&found);
+    job_end(&it);
+  }
+  ck_assert_double_gt(mean[0], 0.005);
+  ck_assert_double_lt(mean[1], 0.25 * mean[0]);
+  ck_assert_double_lt(mean[2], 0.7 * mean[1]);
+  for (k = 0; k < 3; ++k) ck_assert_double_gt(max[k], mean[k]);
 }
 END_TEST
 
@@ -177,6 +235,7 @@ START_TEST(before_a_run) {
   found = result_of(it.placement);
   check_triangles(it.placement, &found);
   check_edges(it.placement, &found);
+  check_circumcentres(it.placement, &found, 10);
   result_free(&found);
   MUST_COMPUTE(pnpbs_placement_step(it.placement, 1)); /* what was found is found anew */
   found = result_of(it.placement);
@@ -317,6 +376,7 @@ int main(void) {
   Suite* suite = suite_create("quality");
   TCase* tests = tcase_create("quality");
   tcase_add_test(tests, as_by_brute_force);
+  tcase_add_test(tests, centroidal_sweeps);
   tcase_add_test(tests, bands_share_out_d);
   tcase_add_test(tests, before_a_run);
   tcase_add_test(tests, arrays_too_small);

@@ -169,7 +169,7 @@ START_TEST(bad_triangles_get_better) {
     const Places before = places_by_id(*run.level);
     pnpbs::BadTriangleRepair repair(run.level->nodes, run.level->stars,
                                     run.level->neighbourhood.near_boundary().edges(),
-                                    run.level->map(), bad);
+                                    run.level->map(), pnpbs::measure_by_shape(bad));
     std::int64_t moved = 0;
     for (int round = 0; round < 10; ++round) moved += repair.round();
     const Places after = places_by_id(*run.level);
@@ -198,7 +198,7 @@ START_TEST(repair_leaves_the_rest_alone) {
       if (shape_of(t, before) < bad + 1e-9) of_bad.insert(t.begin(), t.end());
     pnpbs::BadTriangleRepair repair(run.level->nodes, run.level->stars,
                                     run.level->neighbourhood.near_boundary().edges(),
-                                    run.level->map(), bad);
+                                    run.level->map(), pnpbs::measure_by_shape(bad));
     ck_assert_int_gt(repair.round(), 0);
     const pnpbs::Nodes<2>& nodes = run.level->nodes;
     for (std::int64_t i = 0; i < nodes.count; ++i) {

@@ -106,6 +106,16 @@ compare 5 2 1 2
 compare 8 1 5 1
 compare 16 1 2 1
 require_at_least 20 deleted "no surplus node had to go"
+# Sweeps to the centroids of cells in blocks, and nodes far from rest with many obtuse triangles.
+begin graded-square 8 centroidal_sweeps=12
+compare 2 1 4 1
+compare 3 2 1 2
+compare 5 1 5 1
+compare 16 1 2 1
+begin "$data/great_lakes.poly" 8 steps=0 levels=0 centroidal_sweeps=7 obtuse_rounds=20
+compare 2 1 4 1
+compare 5 2 1 2
+compare 8 1 5 1
 # Many defects, far from rest, so that repairs have much to try and often bar each other.
 begin graded-square 8 steps=0 levels=0 topology_repairs=6 sweeps=0 smoothing_rounds=0
 compare 2 1 4 1

@@ -115,6 +115,15 @@ class WholeSphere(CommandTest):
             self.assertEqual(self.placed(ranks=ranks)[0], nodes)
 
     @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    def test_ranks_place_the_same_nodes_for_finite_volumes(self):
+        wishes = ("--set", "centroidal_sweeps=8", "--set", "obtuse_rounds=20")
+        nodes, report = self.placed(*wishes)
+        self.assertEqual(report["quality"]["obtuse"], 0)
+        self.assertLess(report["cell"]["mean_offset"], 0.3 * self.placed()[1]["cell"]["mean_offset"])
+        for ranks in (2, 3, 5):
+            self.assertEqual(self.placed(*wishes, ranks=ranks)[0], nodes)
+
+    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
     def test_ranks_go_on_from_one_file(self):
         self.placed("--checkpoint", "half.h5", "--set", "steps=20", code=3)
         goes_on = ("--restart", "half.h5", "--set", "steps=20")

@@ -9,6 +9,8 @@
 #include "level/reach.hpp"
 #include "method/constants.hpp"
 #include "quality/plane/bad_triangles.hpp"
+#include "quality/plane/centroidal_sweep.hpp"
+#include "quality/plane/obtuse_triangles.hpp"
 #include "quality/plane/surplus_nodes.hpp"
 #include "quality/sweep.hpp"
 
@@ -16,7 +18,9 @@ namespace pnpbs {
 
 namespace {
 
-void sweep_over_stars(Level<2>& level, std::int64_t times) {
+// Calls sweep_once(scratch for places, scratch for flags) so many times.
+template <class Sweep>
+void sweep_over_stars(Level<2>& level, std::int64_t times, const Sweep& sweep_once) {
   View<char> allowed;
   agreed(*level.comm, [&] {
     allowed = make_view<char>("pnpbs::allowed", level.nodes.count);
@@ -24,20 +28,26 @@ void sweep_over_stars(Level<2>& level, std::int64_t times) {
   });
   for (std::int64_t s = 0; s < times; ++s) {
     update_ghosts(level);
-    sweep(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(), level.map(),
-          level.settings.sweep, level.time_integration.scratch(level.nodes), allowed);
+    sweep_once(level.time_integration.scratch(level.nodes), allowed);
     level.timers.add(Phase::sweeps, level.neighbourhood.nodes_listed());
   }
 }
 
-void repair_triangles_below(Level<2>& level, double shape) {
+void sweep_to_means(Level<2>& level, std::int64_t times) {
+  sweep_over_stars(level, times, [&](Field<2>& proposed, View<char>& allowed) {
+    sweep(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(), level.map(),
+          level.settings.sweep, proposed, allowed);
+  });
+}
+
+void repair_triangles(Level<2>& level, const TriangleMeasure& measure, std::int64_t rounds) {
   update_ghosts(level);
   std::optional<BadTriangleRepair> repair;
   agreed(*level.comm, [&] {
     repair.emplace(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(),
-                   level.map(), shape);
+                   level.map(), measure);
   });
-  for (std::int64_t round = 0; round < level.settings.repair.rounds; ++round) {
+  for (std::int64_t round = 0; round < rounds; ++round) {
     update_ghosts(level);
     std::int64_t moved = 0;
     agreed(*level.comm, [&] { moved = repair->round(); });
@@ -48,8 +58,10 @@ void repair_triangles_below(Level<2>& level, double shape) {
 // The worst first: what bars a triangle from getting better may itself be only just good enough.
 void repair_bad_triangles(Level<2>& level) {
   const RepairRule& rule = level.settings.repair;
-  repair_triangles_below(level, std::min(rule.worst_below, rule.bad_below));
-  if (rule.worst_below < rule.bad_below) repair_triangles_below(level, rule.bad_below);
+  repair_triangles(level, measure_by_shape(std::min(rule.worst_below, rule.bad_below)),
+                   rule.rounds);
+  if (rule.worst_below < rule.bad_below)
+    repair_triangles(level, measure_by_shape(rule.bad_below), rule.rounds);
 }
 
 // Whether the nodes follow d is asked after every run, so it must cost next to nothing: the stars
@@ -84,7 +96,7 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps) {
     agreed(*level.comm, [&] {
       if (done == 0 && repairs) surplus = take_out_surplus_nodes(level.nodes, level.stars);
     });
-    sweep_over_stars(level, std::min(kBlock, sweeps - done));
+    sweep_to_means(level, std::min(kBlock, sweeps - done));
     const bool last = done + kBlock >= sweeps;
     if (last && repairs) repair_bad_triangles(level);
     if (last) results.edge_bands = edge_bands(level);  // while there are stars
@@ -97,6 +109,23 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps) {
     results.edge_bands = edge_bands(level);
   }
   return results;
+}
+
+std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps) {
+  make_finish_stars(level, {1});  // the guard of a node asks where its neighbours want to go
+  const PhaseTimer timer(level.timers, Phase::sweeps);
+  const SweepRule rule{1, method::kSweepMaxMove, method::kCentroidalSweepGuardsBelow};
+  sweep_over_stars(level, sweeps, [&](Field<2>& proposed, View<char>& allowed) {
+    centroidal_sweep(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(),
+                     level.map(), level.ground.domain().chart(), rule, proposed, allowed);
+  });
+  return edge_bands(level);
+}
+
+void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds) {
+  make_finish_stars(level, {1});  // of neighbours only one moves
+  const PhaseTimer timer(level.timers, Phase::sweeps);
+  repair_triangles(level, measure_of_obtuse_triangles(level.ground.domain().chart()), rounds);
 }
 
 }  // namespace pnpbs

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "method/constants.hpp"
 #include "neighbors/rings.hpp"
@@ -44,21 +45,29 @@ double triangle_shape(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   return std::min(quality, method::kAngleWeight * sine);
 }
 
+TriangleMeasure measure_by_shape(double bad_below) {
+  return {triangle_shape, bad_below, quality_that_suffices(bad_below)};
+}
+
 BadTriangleRepair::BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars,
                                      const NearEdges& near_edges, const DomainMap<2>& map,
-                                     double bad_below)
-    : nodes_(nodes), stars_(stars), near_edges_(near_edges), map_(map), bad_below_(bad_below) {
+                                     TriangleMeasure measure)
+    : nodes_(nodes),
+      stars_(stars),
+      near_edges_(near_edges),
+      map_(map),
+      measure_(std::move(measure)) {
   for (const std::int32_t i :
-       nodes_with_doubtful_triangles(nodes, stars, quality_that_suffices(bad_below)))
+       nodes_with_doubtful_triangles(nodes, stars, measure_.sufficient_quality))
     if (nodes.moves(i) && stars.closed(i)) candidates_.push_back({i});
 }
 
 // Of the triangles around node i if it were at x.
-void BadTriangleRepair::find_shapes(std::int64_t i, const Point<2>& x,
-                                    std::vector<double>& shapes) const {
-  shapes.clear();
+void BadTriangleRepair::find_values(std::int64_t i, const Point<2>& x,
+                                    std::vector<double>& values) const {
+  values.clear();
   stars_.for_simplices(i, [&](const DelaunayStars::Corners& others) {
-    shapes.push_back(triangle_shape(x, nodes_.position(others[0]), nodes_.position(others[1])));
+    values.push_back(measure_.value_of(x, nodes_.position(others[0]), nodes_.position(others[1])));
   });
 }
 
@@ -66,7 +75,7 @@ void BadTriangleRepair::find_shapes(std::int64_t i, const Point<2>& x,
 bool BadTriangleRepair::spoils(const std::vector<double>& before,
                                const std::vector<double>& after) const {
   for (std::size_t t = 0; t < after.size(); ++t)
-    if (after[t] < std::min(before[t], bad_below_)) return true;
+    if (after[t] < std::min(before[t], measure_.bad_below)) return true;
   return false;
 }
 
@@ -81,17 +90,17 @@ void BadTriangleRepair::look_around(Candidate& candidate) const {
   const std::int64_t i = candidate.node;
   const Point<2> x = nodes_.position(i);
   std::vector<double> before, after;
-  find_shapes(i, x, before);
+  find_values(i, x, before);
   candidate.worst = *std::min_element(before.begin(), before.end());
   candidate.wants = false;
-  if (candidate.worst >= bad_below_) return;
+  if (candidate.worst >= measure_.bad_below) return;
   double best = candidate.worst;
   for (double way = method::kRepairFirstWay; way >= method::kRepairLastWay; way *= 0.5)
     for (const Point<2>& direction : kDirections) {
       const double d = nodes_.d(i);
       const Point<2> place =
           allowed_place(i, {x[0] + way * d * direction[0], x[1] + way * d * direction[1]});
-      find_shapes(i, place, after);
+      find_values(i, place, after);
       const double worst = *std::min_element(after.begin(), after.end());
       if (worst <= best || spoils(before, after)) continue;
       best = worst;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "delaunay/delaunay_stars.hpp"
@@ -25,12 +26,21 @@ struct RepairRule {
 // is less: 38.5 degrees count as much as a quality of 0.85.
 double triangle_shape(const Point<2>& a, const Point<2>& b, const Point<2>& c);
 
+// Which triangles are bad: those with a value below the bound; in the plane, or the chart of a
+// sphere, none of at least that quality is.
+struct TriangleMeasure {
+  std::function<double(const Point<2>&, const Point<2>&, const Point<2>&)> value_of;
+  double bad_below;
+  double sufficient_quality;
+};
+TriangleMeasure measure_by_shape(double bad_below);
+
 // The stars must stay as they are in between.
 class BadTriangleRepair {
  public:
   // Finds the nodes of bad triangles.
   BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-                    const DomainMap<2>& map, double bad_below);
+                    const DomainMap<2>& map, TriangleMeasure measure);
 
   // Moves the nodes of bad triangles, of neighbours only the one with the worst. Returns how many
   // of this rank's. Ghosts must be exact.
@@ -41,11 +51,11 @@ class BadTriangleRepair {
   struct Candidate {
     std::int32_t node;
     bool wants = false;
-    double worst = 0;  // shape around it
+    double worst = 0;  // value around it
     Point<2> goal{};
   };
 
-  void find_shapes(std::int64_t i, const Point<2>& x, std::vector<double>& shapes) const;
+  void find_values(std::int64_t i, const Point<2>& x, std::vector<double>& values) const;
   bool spoils(const std::vector<double>& before, const std::vector<double>& after) const;
   Point<2> allowed_place(std::int64_t i, const Point<2>& x) const;
   void look_around(Candidate& candidate) const;
@@ -56,7 +66,7 @@ class BadTriangleRepair {
   const DelaunayStars& stars_;
   const NearEdges& near_edges_;
   const DomainMap<2>& map_;
-  double bad_below_;
+  const TriangleMeasure measure_;
   std::vector<Candidate> candidates_;  // in the order of memory
 };
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/plane/centroidal_sweep.hpp"
+
+namespace pnpbs {
+
+void centroidal_sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+                      const DomainMap<2>& map, const StereographicChart* chart,
+                      const SweepRule& rule, Field<2>& proposed, View<char>& allowed) {
+  const CellCentroids centroids(nodes, stars, chart);
+  for_each("pnpbs::centroidal_sweep", nodes.count, [&](std::int64_t i) {
+    if (!centroids.has(i)) return propose_to_stay(nodes, i, proposed);
+    const Point<2> x = nodes.position(i), to = centroids.of(i);
+    const Point<2> move{rule.weight * (to[0] - x[0]), rule.weight * (to[1] - x[1])};
+    propose_move(nodes, near_edges, map, rule, i, move, proposed);
+  });
+  go_where_allowed(nodes, stars, rule, proposed, allowed);
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/plane/obtuse_triangles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "method/constants.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kRadians = 3.14159265358979323846 / 180;
+
+// The cosine of the largest angle; or, if that is less, the sine of the smallest one over that of
+// the angle that is as bad as a right one, less 1. From the squares of the edges.
+double value_of(double aa, double bb, double cc) {
+  const auto cosine = [](double opposite, double b, double c) {
+    return (b + c - opposite) / (2 * std::sqrt(b * c));
+  };
+  const double at_a = cosine(aa, bb, cc), at_b = cosine(bb, cc, aa), at_c = cosine(cc, aa, bb);
+  const double smallest = std::max({at_a, at_b, at_c}), largest = std::min({at_a, at_b, at_c});
+  const double sine = std::sqrt(std::max(0.0, 1 - smallest * smallest));
+  return std::min(largest, sine / std::sin(kRadians * method::kObtuseRepairMinAngle) - 1);
+}
+
+template <int N>
+double value_of(const Point<N>& a, const Point<N>& b, const Point<N>& c) {
+  return value_of(squared_distance<N>(b, c), squared_distance<N>(c, a), squared_distance<N>(a, b));
+}
+
+}  // namespace
+
+TriangleMeasure measure_of_obtuse_triangles(const StereographicChart* chart) {
+  constexpr double kTurnedOver = -2;
+  // Above what triangles have with such an angle: isosceles ones have the largest quality. And by a
+  // margin, since angles of wide triangles are a little other in a chart.
+  constexpr double kSufficientQuality = 0.9;
+  const auto value = [chart](const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+    const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    if (twice_area <= 0) return kTurnedOver;
+    if (!chart) return value_of<2>(a, b, c);
+    return value_of<3>(chart->on_sphere(a), chart->on_sphere(b), chart->on_sphere(c));
+  };
+  return {value, std::cos(kRadians * method::kObtuseRepairAngle), kSufficientQuality};
+}
+
+}  // namespace pnpbs
