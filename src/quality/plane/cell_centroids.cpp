@@ -13,7 +13,7 @@ namespace {
 
 // A point of the plane, or of the unit sphere, and d there.
 template <std::size_t N>
-struct Corner {
+struct CellCorner {
   std::array<double, N> x;
   double d;
 };
@@ -36,7 +36,7 @@ Point<2> raised(const Point<2>& x) { return x; }
 Point<3> raised(const Point<3>& x) { return unit_vector(x); }
 
 template <std::size_t N>
-Corner<N> middle(const Corner<N>& a, const Corner<N>& b) {
+CellCorner<N> middle(const CellCorner<N>& a, const CellCorner<N>& b) {
   return {raised(combined(0.5, a.x, 0.5, b.x)), 0.5 * (a.d + b.d)};
 }
 
@@ -44,7 +44,7 @@ Corner<N> middle(const Corner<N>& a, const Corner<N>& b) {
 // being the side opposite. Taken along its ray it is the one on the sphere. d is linear there, too,
 // but not far beyond an obtuse triangle, where it might be negative.
 template <std::size_t N>
-Corner<N> circumcentre(const Corner<N>& o, const Corner<N>& a, const Corner<N>& b) {
+CellCorner<N> circumcentre(const CellCorner<N>& o, const CellCorner<N>& a, const CellCorner<N>& b) {
   const auto oa = way(o.x, a.x), ob = way(o.x, b.x), ab = way(a.x, b.x);
   const double aa = dot(oa, oa), bb = dot(ob, ob), cc = dot(ab, ab);
   const double of_a = bb * (cc + aa - bb), of_b = aa * (bb + cc - aa), of_o = cc * (aa + bb - cc);
@@ -57,7 +57,7 @@ Corner<N> circumcentre(const Corner<N>& o, const Corner<N>& a, const Corner<N>& 
 
 // The point of the edge from a to b that is as far from o as from a.
 template <std::size_t N>
-Corner<N> crossing(const Corner<N>& o, const Corner<N>& a, const Corner<N>& b) {
+CellCorner<N> crossing(const CellCorner<N>& o, const CellCorner<N>& a, const CellCorner<N>& b) {
   const auto ao = way(a.x, o.x), ab = way(a.x, b.x);
   const double share = 0.5 * dot(ao, ao) / dot(ao, ab);
   return {raised(combined(1, a.x, share, ab)), a.d + share * (b.d - a.d)};
@@ -88,12 +88,12 @@ Raised<3> raised_with_area(const Point<3>& x) {
 template <std::size_t N>
 class CellMoments {
  public:
-  explicit CellMoments(const Corner<N>& node) : node_(node) {}
+  explicit CellMoments(const CellCorner<N>& node) : node_(node) {}
 
   // The triangle of the node and these two, negative if they turn right: by the middles of its
   // edges, which is exact for polynomials of degree 2 (A. Stroud, Approximate calculation of
   // multiple integrals, 1971, formula T2: 2-1).
-  void add(const Corner<N>& a, const Corner<N>& b) {
+  void add(const CellCorner<N>& a, const CellCorner<N>& b) {
     const double part = twice_area(node_.x, way(node_.x, a.x), way(node_.x, b.x));
     add_point(part, node_, a);
     add_point(part, a, b);
@@ -103,7 +103,7 @@ class CellMoments {
   Point<N> centroid() const { return raised(combined(1, node_.x, 1 / mass_, first_)); }
 
  private:
-  void add_point(double part, const Corner<N>& a, const Corner<N>& b) {
+  void add_point(double part, const CellCorner<N>& a, const CellCorner<N>& b) {
     const Raised<N> at = raised_with_area(combined(0.5, a.x, 0.5, b.x));
     const double ratio = node_.d / (0.5 * (a.d + b.d)), square = ratio * ratio;
     const double mass = part * at.area * square * square;
@@ -111,7 +111,7 @@ class CellMoments {
     first_ = combined(1, first_, mass, way(node_.x, at.x));
   }
 
-  const Corner<N> node_;
+  const CellCorner<N> node_;
   double mass_ = 0;
   std::array<double, N> first_{};
 };
@@ -119,17 +119,17 @@ class CellMoments {
 // Adds what of a cell belongs to a triangle with its node. Where the triangle is obtuse that
 // reaches beyond it or is less than nothing, and what others add makes up for it.
 template <std::size_t N>
-void add_part(const Corner<N>& o, const Corner<N>& a, const Corner<N>& b, bool edge_stays,
-              CellMoments<N>& cell) {
-  const Corner<N> towards_a = middle(o, a), towards_b = middle(o, b);
+void add_part(const CellCorner<N>& o, const CellCorner<N>& a, const CellCorner<N>& b,
+              bool edge_stays, CellMoments<N>& cell) {
+  const CellCorner<N> towards_a = middle(o, a), towards_b = middle(o, b);
   if (edge_stays && dot(way(o.x, a.x), way(o.x, b.x)) < 0) {
-    const Corner<N> first = crossing(o, a, b), last = crossing(o, b, a);
+    const CellCorner<N> first = crossing(o, a, b), last = crossing(o, b, a);
     cell.add(towards_a, first);
     cell.add(first, last);
     cell.add(last, towards_b);
     return;
   }
-  const Corner<N> centre = circumcentre(o, a, b);
+  const CellCorner<N> centre = circumcentre(o, a, b);
   cell.add(towards_a, centre);
   cell.add(centre, towards_b);
 }
@@ -139,10 +139,10 @@ template <std::size_t N, class CornerOf>
 Point<N> centroid(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
                   const CornerOf& corner_of) {
   struct Neighbour {
-    Corner<N> corner;
+    CellCorner<N> corner;
     bool moves;
   };
-  const Corner<N> node = corner_of(i);
+  const CellCorner<N> node = corner_of(i);
   CellMoments<N> cell(node);
   std::optional<Neighbour> first, last;
   const auto go_on = [&](const Neighbour& next) {
@@ -163,13 +163,13 @@ Point<2> CellCentroids::of(std::int64_t i) const {
   if (!chart_) {
     const Point<2> origin = nodes_.position(i);  // so that little cancels
     const Point<2> from_there = centroid<2>(nodes_, stars_, i, [&](std::int64_t j) {
-      return Corner<2>{way(origin, nodes_.position(j)), nodes_.d(j)};
+      return CellCorner<2>{way(origin, nodes_.position(j)), nodes_.d(j)};
     });
     return combined(1, origin, 1, from_there);
   }
   return chart_->in_chart(centroid<3>(nodes_, stars_, i, [&](std::int64_t j) {
     const Point<2> u = nodes_.position(j);
-    return Corner<3>{unit_vector(chart_->on_sphere(u)), nodes_.d(j) / chart_->stretch(u)};
+    return CellCorner<3>{unit_vector(chart_->on_sphere(u)), nodes_.d(j) / chart_->stretch(u)};
   }));
 }
 
