@@ -114,6 +114,7 @@ Projection::Projection(const ReferenceSystem& data, const std::vector<Point<2>>&
     backward_.emplace(target_, data_);
   }
   wraps_ = forward_ && data_.is_geographic() && data_.has_degrees();
+  if (wraps_) find_poles();
   if (!target_ || OSRIsLocal(target_.get())) return;
   const ReferenceSystem degrees = data_.geographic();
   degrees_.emplace(target_, degrees);
@@ -173,6 +174,22 @@ void Projection::take_unit(const std::string& unit) {
   target_ = unit == "km" ? target_.in_unit("kilometre", 1000) : target_.in_unit("metre", 1);
 }
 
+void Projection::find_poles() {
+  poles_ = {{0, -90}, {0, 90}};
+  forward_->apply(poles_);
+  for (Point<2>& pole : poles_)
+    if (!std::isfinite(pole[0] + pole[1])) pole = {NAN, NAN};  // at which there is no place
+}
+
+// PROJ's way back has half of the digits near a pole, and fails at some: it takes the arc sine of
+// what rounding may leave above 1.
+void Projection::restore_poles(const std::vector<Point<2>>& projected,
+                               std::vector<Point<2>>& degrees) const {
+  for (std::size_t i = 0; i < projected.size(); ++i)
+    for (std::size_t k = 0; k < poles_.size(); ++k)
+      if (projected[i] == poles_[k]) degrees[i] = {0, k == 0 ? -90.0 : 90.0};
+}
+
 double Projection::sphere_radius() const {
   return on_sphere_ ? OSRGetSemiMajor(target_.get(), nullptr) : 0;
 }
@@ -200,6 +217,7 @@ std::optional<Projection::Fault> Projection::project(std::vector<Point<2>>& poin
   std::vector<Point<2>>& given = back;
   std::vector<Point<2>> returned = points;
   backward_->apply(returned);
+  restore_poles(points, returned);
   if (!wraps_) return std::nullopt;
   // Far from where a projection is meant for it may give some place, which is another point's.
   for (std::size_t i = 0; i < given.size(); ++i) {
@@ -252,7 +270,9 @@ Projection::Scale Projection::scale_at(const std::vector<Point<2>>& points) cons
 void Projection::to_degrees(std::vector<Point<2>>& points) const {
   if (!degrees_)
     throw Error(ErrorKind::state, "the file does not say where on the Earth its coordinates are");
+  const std::vector<Point<2>> projected = points;
   degrees_->apply(points);
+  restore_poles(projected, points);
 }
 
 void Projection::from_degrees(std::vector<Point<2>>& points) const {

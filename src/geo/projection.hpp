@@ -48,12 +48,15 @@ class Projection {
  private:
   void choose_target(const std::vector<Point<2>>& points, const std::string& wish);
   void take_unit(const std::string& unit);
+  void find_poles();
+  void restore_poles(const std::vector<Point<2>>& projected, std::vector<Point<2>>& degrees) const;
 
   ReferenceSystem data_, target_;
   bool on_sphere_ = false;
   bool wraps_ = false;  // the data are degrees on an ellipsoid, to be projected
   std::optional<Transformation> forward_, backward_;    // none: the same coordinates
   std::optional<Transformation> degrees_, of_degrees_;  // from and to the target
+  std::vector<Point<2>> poles_;                         // south and north, projected
 };
 
 }  // namespace pnpbs::geo

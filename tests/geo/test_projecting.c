@@ -196,6 +196,21 @@ START_TEST(around_a_pole) {
 }
 END_TEST
 
+/* PROJ finds no way back to it from some of these. */
+START_TEST(corner_at_a_pole) {
+  static const char* const seen_from[] = {"sphere(0,0)", "sphere(0,-15)", "sphere(-135,-7.5)",
+                                          "sphere(-180,-22.5)"};
+  const char* path =
+      write_geojson("corner.geojson", FEATURE("Polygon", "[[[0,-90],[100,-75],[10,-75]]]"));
+  size_t k;
+  for (k = 0; k < sizeof seen_from / sizeof seen_from[0]; ++k) {
+    pnpbs_geo_shapes shapes = NULL;
+    GEO_MUST(pnpbs_geo_read(path, NULL, seen_from[k], NULL, NULL, &shapes));
+    GEO_MUST(pnpbs_geo_destroy(&shapes));
+  }
+}
+END_TEST
+
 START_TEST(as_they_are) {
   geo_case it = geo_begin(write_geojson("bay.geojson", BAY), "none", NULL, NULL);
   expect_points(it.domain, 4, bay, 1);
@@ -312,6 +327,7 @@ int main(void) {
   tcase_add_test(cases, too_wide_for_a_zone);
   tcase_add_test(cases, across_180_degrees);
   tcase_add_test(cases, around_a_pole);
+  tcase_add_test(cases, corner_at_a_pole);
   tcase_add_test(cases, as_they_are);
   tcase_add_test(cases, to_degrees_and_back);
   tcase_add_test(cases, written_beside_results);
