@@ -207,6 +207,19 @@ Point<2> Projection::canonical(const Point<2>& point) const {
   return {longitude, latitude};
 }
 
+// Maps that are cut open at 180 degrees go the long way around: the middle tells.
+Legs Projection::legs_of(const Point<2>& a, const Point<2>& b) const {
+  const Legs straight = Legs::straight(a, b);
+  if (!wraps_) return straight;
+  const Legs shortest = Legs::shortest(a, b);
+  if (shortest == straight || on_sphere_) return shortest;
+  std::vector<Point<2>> points{a, b, straight.middle(), shortest.middle()};
+  forward_->apply(points);
+  const Point<2> middle = middle_of<2>(points[0], points[1]);
+  const bool is_straight = distance<2>(middle, points[2]) <= distance<2>(middle, points[3]);
+  return is_straight ? straight : shortest;
+}
+
 std::optional<Projection::Fault> Projection::project(std::vector<Point<2>>& points) const {
   if (!forward_) return std::nullopt;
   std::vector<Point<2>> back = points;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "geo/legs.hpp"
 #include "geo/reference_system.hpp"
 
 namespace pnpbs::geo {
@@ -28,6 +29,9 @@ class Projection {
   // Which of two ways to write the same place on the ellipsoid is used for points that are to be
   // projected.
   Point<2> canonical(const Point<2>& point) const;
+  // The straight way between two canonical points once they are projected, or on a sphere the
+  // shortest one, where it is among the coordinates of the data.
+  Legs legs_of(const Point<2>& a, const Point<2>& b) const;
   // From canonical points of the data. Where one cannot be projected, its index, and why.
   struct Fault {
     std::size_t index;

@@ -90,7 +90,7 @@ void Shapes::project() {
   std::vector<std::int64_t> spots;
   for (const Spot& spot : layer_.spots) spots.push_back(number_of(spot.point, spot.feature));
 
-  if (const auto miss = split_where_touched(routes, given.points()))
+  if (const auto miss = split_where_touched(routes, given.points(), projection_))
     layer_.notes.push_back("features " + std::to_string(miss->feature) + " and " +
                            std::to_string(miss->other) + " all but touch at " +
                            point_text(given.points()[miss->place]) +

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace pnpbs::geo {
@@ -13,6 +14,9 @@ using Place = std::int64_t;
 // Over the extent of the layer. Of 10 degrees the first is a millimetre, what rounding leaves; the
 // second a metre, by which vertices are off that were given to few digits or drawn by hand.
 constexpr double on_it = 1e-9, nearly_on_it = 1e-6;
+
+// Over its length, how wide what an outline goes around may be if it is none.
+constexpr double spike = 1e-3;
 
 // Places in cells of a grid.
 class PlaceGrid {
@@ -96,8 +100,13 @@ std::pair<double, double> foot_of(const Point<2>& p, const Point<2>& a, const Po
 
 class Splitter {
  public:
-  Splitter(std::vector<Route>& routes, const std::vector<Point<2>>& points)
-      : routes_(routes), points_(points), feature_(points.size(), -1) {
+  Splitter(std::vector<Route>& routes, const std::vector<Point<2>>& points,
+           const Projection& projection)
+      : routes_(routes),
+        points_(points),
+        projection_(projection),
+        feature_(points.size(), -1),
+        last_route_(points.size(), nullptr) {
     std::vector<char> in_routes(points.size(), 0);
     for (const Route& route : routes)
       for (const Place place : route.places) {
@@ -136,12 +145,13 @@ class Splitter {
   }
 
   std::vector<Place> split(const Route& route) {
+    for (const Place place : route.places) last_route_[place] = &route;
     std::vector<Place> places;
     for (std::size_t s = 0; s < segments_of(route); ++s) {
       const Place a = route.places[s], b = route.places[(s + 1) % route.places.size()];
       places.push_back(a);
       if (a == b || is_shared(a, b)) continue;
-      for (const Place stop : stops_on(a, b, route.feature)) places.push_back(stop);
+      for (const Place stop : stops_on(a, b, route)) places.push_back(stop);
     }
     if (route.kind == PathKind::line && !route.places.empty())
       places.push_back(route.places.back());
@@ -152,29 +162,41 @@ class Splitter {
     return distance<2>(points_[place], points_[end]) <= on_it * grid_->extent();
   }
 
-  std::vector<Place> stops_on(Place a, Place b, std::int64_t feature) {
-    std::vector<std::pair<double, Place>> stops;
+  // On a sphere an outline may go along a parallel and back along a great circle: these two are not
+  // the same way.
+  bool encloses_an_area(Place place, Place a, Place b, const Route& route) const {
+    return projection_.on_sphere() && last_route_[place] == &route &&
+           off_great_circle(points_[place], points_[a], points_[b]) > spike;
+  }
+
+  std::vector<Place> stops_on(Place a, Place b, const Route& route) {
+    std::vector<std::tuple<const Leg*, double, Place>> stops;
     const double extent = grid_->extent();
-    grid_->for_places_near(points_[a], points_[b], nearly_on_it * extent, [&](Place place) {
-      if (place == a || place == b) return;
-      const auto [t, distance] = foot_of(points_[place], points_[a], points_[b]);
-      if (!(t > 0 && t < 1) || distance > nearly_on_it * extent) return;
-      // What all but is an end of the segment would leave next to nothing of it.
-      const bool at_end = is_at(place, a) || is_at(place, b);
-      if (distance <= on_it * extent && !at_end)
-        stops.push_back({t, place});
-      else if (!near_miss_ && feature_[place] != feature)
-        near_miss_ = NearMiss{place, feature_[place], feature};
-    });
+    const Legs legs = projection_.legs_of(points_[a], points_[b]);
+    for (const Leg& leg : legs)
+      grid_->for_places_near(leg.from, leg.to, nearly_on_it * extent, [&](Place place) {
+        if (place == a || place == b) return;
+        const auto [t, distance] = foot_of(points_[place], leg.from, leg.to);
+        if (!(t > 0 && t < 1) || distance > nearly_on_it * extent) return;
+        if (encloses_an_area(place, a, b, route)) return;
+        // What all but is an end of the segment would leave next to nothing of it.
+        const bool at_end = is_at(place, a) || is_at(place, b);
+        if (distance <= on_it * extent && !at_end)
+          stops.push_back({&leg, t, place});
+        else if (!near_miss_ && feature_[place] != route.feature)
+          near_miss_ = NearMiss{place, feature_[place], route.feature};
+      });
     std::sort(stops.begin(), stops.end());
     std::vector<Place> places;
-    for (const auto& [t, place] : stops) places.push_back(place);
+    for (const auto& [leg, t, place] : stops) places.push_back(place);
     return places;
   }
 
   std::vector<Route>& routes_;
   const std::vector<Point<2>>& points_;
-  std::vector<std::int64_t> feature_;  // of each place
+  const Projection& projection_;
+  std::vector<std::int64_t> feature_;     // of each place
+  std::vector<const Route*> last_route_;  // of those begun that have the place
   std::optional<PlaceGrid> grid_;
   std::vector<std::pair<Place, Place>> pairs_;
   std::optional<NearMiss> near_miss_;
@@ -183,10 +205,11 @@ class Splitter {
 }  // namespace
 
 std::optional<NearMiss> split_where_touched(std::vector<Route>& routes,
-                                            const std::vector<Point<2>>& points) {
+                                            const std::vector<Point<2>>& points,
+                                            const Projection& projection) {
   // A single outline touches no other.
   if (routes.size() < 2 || points.empty()) return std::nullopt;
-  return Splitter(routes, points).run();
+  return Splitter(routes, points, projection).run();
 }
 
 }  // namespace pnpbs::geo

@@ -10,6 +10,7 @@
 
 #include "base/types.hpp"
 #include "geo/outlines.hpp"
+#include "geo/projection.hpp"
 
 namespace pnpbs::geo {
 
@@ -20,8 +21,9 @@ struct NearMiss {
 };
 
 // Splits segments that no other route has where places of routes lie on them. The first near miss
-// among the others, if there is one.
+// among the others, if there is one. The points are canonical ones of the projection's data.
 std::optional<NearMiss> split_where_touched(std::vector<Route>& routes,
-                                            const std::vector<Point<2>>& points);
+                                            const std::vector<Point<2>>& points,
+                                            const Projection& projection);
 
 }  // namespace pnpbs::geo

@@ -15,4 +15,10 @@ inline Point<2> degrees_of(const Point<3>& x) {
   return {std::atan2(x[1], x[0]) / kDegree, std::atan2(x[2], std::hypot(x[0], x[1])) / kDegree};
 }
 
+// Of length 1, as rounding leaves it: the poles are not exact.
+inline Point<3> direction_at(const Point<2>& degrees) {
+  const double lon = kDegree * degrees[0], lat = kDegree * degrees[1];
+  return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+}
+
 }  // namespace pnpbs

@@ -218,6 +218,16 @@ class Sphere(CommandTest):
                               "--spacing", spacing, "--report", "ranks.json", ranks=ranks)
             self.assertEqual(json.loads((self.folder / "ranks.json").read_text())["hash"], one)
 
+    # The segment across 180 degrees is the short way, not that along all others.
+    def test_a_coast_on_a_parallel(self):
+        for cut in ([], [[180, -74], [180, -90], [-180, -90], [-180, -80]]):
+            coast = self.sea(feature([[lon, -74] for lon in range(-180, 180, 5)] + cut), CONTINENT)
+            x, _, _, err = self.placed(coast=coast)
+            self.assertAlmostEqual(np.degrees(np.arcsin(x[:, 2].min() / RADIUS)), -74, delta=0.1)
+            self.assertEqual("there and back" in err, bool(cut))
+            triangles, edges = self.triangles()
+            self.assertEqual(len(x) - (3 * len(triangles) + len(edges)) // 2 + len(triangles), 2 - 2)
+
     # The far side is hidden, where there is no sea, too.
     def test_pictures(self):
         self.run_command("--domain", self.sea(), "--sphere", str(RADIUS), "--spacing", "500", "--corner-angle",
