@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geo/legs.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/space_vectors.hpp"
@@ -35,9 +36,10 @@ Point<2> Legs::middle() const {
 }
 
 double off_great_circle(const Point<2>& place, const Point<2>& a, const Point<2>& b) {
-  const Point<3> from = direction_at(a), to = direction_at(b), normal = cross(from, to);
-  const double sine = length(normal), angle = std::atan2(sine, dot(from, to));
-  return sine > 0 ? std::fabs(std::asin(dot(direction_at(place), normal) / sine)) / angle : 0;
+  const Point<3> here = direction_at(place), from = direction_at(a), to = direction_at(b);
+  const Point<3> normal = unit_vector(cross(from, to));
+  const double near = std::min(distance<3>(here, from), distance<3>(here, to));
+  return near > 0 ? std::fabs(dot(here, normal)) / near : 0;
 }
 
 }  // namespace pnpbs::geo

@@ -36,8 +36,8 @@ class Legs {
   std::size_t count_;
 };
 
-// How far a place is off the great circle through two others, over the length from one of these to
-// the other.
+// How far a place is off the great circle through two others, over how far it is from the nearer of
+// these.
 double off_great_circle(const Point<2>& place, const Point<2>& a, const Point<2>& b);
 
 }  // namespace pnpbs::geo

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -218,6 +219,20 @@ Legs Projection::legs_of(const Point<2>& a, const Point<2>& b) const {
   const Point<2> middle = middle_of<2>(points[0], points[1]);
   const bool is_straight = distance<2>(middle, points[2]) <= distance<2>(middle, points[3]);
   return is_straight ? straight : shortest;
+}
+
+double Projection::off_way(const Point<2>& point, const Point<2>& a, const Point<2>& b) const {
+  if (!forward_) return 0;
+  if (on_sphere_ && wraps_) return off_great_circle(point, a, b);
+  std::vector<Point<2>> points{point, a, b};
+  forward_->apply(points);
+  const Point<2>&here = points[0], &from = points[1], &to = points[2];
+  const Point<2> way{to[0] - from[0], to[1] - from[1]}, across{-way[1], way[0]};
+  const double near = std::min(distance<2>(here, from), distance<2>(here, to)),
+               whole = std::sqrt(dot(way, way));
+  return near > 0 && whole > 0
+             ? std::fabs(dot(across, {here[0] - from[0], here[1] - from[1]})) / whole / near
+             : 0;
 }
 
 std::optional<Projection::Fault> Projection::project(std::vector<Point<2>>& points) const {

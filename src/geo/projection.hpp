@@ -32,6 +32,9 @@ class Projection {
   // The straight way between two canonical points once they are projected, or on a sphere the
   // shortest one, where it is among the coordinates of the data.
   Legs legs_of(const Point<2>& a, const Point<2>& b) const;
+  // How far a third point is off that way, over how far it is from the nearer end: one of the
+  // straight way in the data may be far off. 0 if they are not projected.
+  double off_way(const Point<2>& point, const Point<2>& a, const Point<2>& b) const;
   // From canonical points of the data. Where one cannot be projected, its index, and why.
   struct Fault {
     std::size_t index;

@@ -15,7 +15,7 @@ using Place = std::int64_t;
 // second a metre, by which vertices are off that were given to few digits or drawn by hand.
 constexpr double on_it = 1e-9, nearly_on_it = 1e-6;
 
-// Over its length, how wide what an outline goes around may be if it is none.
+// Over its length, how wide an outline may be that encloses nothing.
 constexpr double spike = 1e-3;
 
 // Places in cells of a grid.
@@ -162,11 +162,11 @@ class Splitter {
     return distance<2>(points_[place], points_[end]) <= on_it * grid_->extent();
   }
 
-  // On a sphere an outline may go along a parallel and back along a great circle: these two are not
-  // the same way.
+  // An outline may go along a parallel, and back along what is straight once it is projected: these
+  // two are not the same way.
   bool encloses_an_area(Place place, Place a, Place b, const Route& route) const {
-    return projection_.on_sphere() && last_route_[place] == &route &&
-           off_great_circle(points_[place], points_[a], points_[b]) > spike;
+    return last_route_[place] == &route &&
+           projection_.off_way(points_[place], points_[a], points_[b]) > spike;
   }
 
   std::vector<Place> stops_on(Place a, Place b, const Route& route) {
@@ -178,12 +178,11 @@ class Splitter {
         if (place == a || place == b) return;
         const auto [t, distance] = foot_of(points_[place], leg.from, leg.to);
         if (!(t > 0 && t < 1) || distance > nearly_on_it * extent) return;
-        if (encloses_an_area(place, a, b, route)) return;
         // What all but is an end of the segment would leave next to nothing of it.
         const bool at_end = is_at(place, a) || is_at(place, b);
-        if (distance <= on_it * extent && !at_end)
-          stops.push_back({&leg, t, place});
-        else if (!near_miss_ && feature_[place] != route.feature)
+        if (distance <= on_it * extent && !at_end) {
+          if (!encloses_an_area(place, a, b, route)) stops.push_back({&leg, t, place});
+        } else if (!near_miss_ && feature_[place] != route.feature)
           near_miss_ = NearMiss{place, feature_[place], route.feature};
       });
     std::sort(stops.begin(), stops.end());
@@ -207,8 +206,7 @@ class Splitter {
 std::optional<NearMiss> split_where_touched(std::vector<Route>& routes,
                                             const std::vector<Point<2>>& points,
                                             const Projection& projection) {
-  // A single outline touches no other.
-  if (routes.size() < 2 || points.empty()) return std::nullopt;
+  if (routes.empty() || points.empty()) return std::nullopt;
   return Splitter(routes, points, projection).run();
 }
 

@@ -106,6 +106,16 @@ START_TEST(cut_to_a_pole) {
 }
 END_TEST
 
+/* A single outline touches itself all the same. */
+START_TEST(alone) {
+  const double outside[2] = {0, -80};
+  geo_case it =
+      on_sphere(polygon(ring(-74, -180, 5, 72, ",[180,-90],[-180,-90],[-180,-80]")), outside);
+  ck_assert_double_eq_tol(geo_area(&it), 720 * degree - 72 * triangle(-74, 5), 5e-4);
+  geo_end(&it);
+}
+END_TEST
+
 START_TEST(corner_at_a_pole) {
   expect_areas(polygon(ring(-60, 90, 10, 14, ",[0,-90]")), 14 * triangle(-60, 10));
   expect_areas(polygon(ring(60, -170, 10, 10, ",[180,90]")), 10 * triangle(60, 10));
@@ -156,6 +166,26 @@ START_TEST(neighbours_across_180_degrees) {
 }
 END_TEST
 
+static double part_in_a_plane(const char* others) {
+  char features[16384];
+  geo_case it;
+  double area;
+  snprintf(features, sizeof features, "%s%s", polygon(ring(-60, -60, 20, 6, "")), others);
+  it = geo_begin(write_geojson("around.geojson", features), "EPSG:3031", "km", NULL);
+  area = geo_area(&it);
+  geo_end(&it);
+  return area;
+}
+
+/* Back along the straight line of the projection. */
+START_TEST(part_in_a_plane_about_a_pole) {
+  const double part = part_in_a_plane("");
+  const double beside = part_in_a_plane("," POLYGON("[90,-80],[91,-80],[91,-81]"));
+  ck_assert_double_gt(part, 6e6);
+  ck_assert_double_eq_tol(beside / part, 1, 0.001);
+}
+END_TEST
+
 /* Lambert's projection about the pole has no 180 degrees either; Mercator's has. */
 START_TEST(in_a_plane) {
   char features[16384];
@@ -187,10 +217,12 @@ int main(void) {
   TCase* cases = tcase_create("all");
   tcase_add_test(cases, along_parallels);
   tcase_add_test(cases, cut_to_a_pole);
+  tcase_add_test(cases, alone);
   tcase_add_test(cases, corner_at_a_pole);
   tcase_add_test(cases, part_of_a_parallel);
   tcase_add_test(cases, spikes);
   tcase_add_test(cases, neighbours_across_180_degrees);
+  tcase_add_test(cases, part_in_a_plane_about_a_pole);
   tcase_add_test(cases, in_a_plane);
   suite_add_tcase(suite, cases);
   return run_suite(suite);
