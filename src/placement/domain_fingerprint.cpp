@@ -29,7 +29,7 @@ std::uint64_t fingerprint_of(const PlaneDomain& domain) {
   // How a whole sphere is closed depends on the spacing.
   const bool whole = domain.is_whole_sphere();
   for (const BoundaryCurve& curve : domain.curves()) {
-    if (whole && curve.left_inside != curve.right_inside) continue;
+    if (whole && curve.bounds()) continue;
     print.add(curve.tag);
     print.add(curve.left_inside);  // the role, and holes
     print.add(curve.right_inside);

@@ -167,7 +167,7 @@ Enclosed enclosed_by(const Boundary& boundary, const Box<2>& bounds) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   Enclosed sum;
   for (const BoundaryEdge& e : boundary.facets) {
-    if (e.left_inside == e.right_inside) continue;
+    if (!e.bounds()) continue;
     const Point<2>&a = boundary.nodes[static_cast<std::size_t>(e.begin)].position,
           &b = boundary.nodes[static_cast<std::size_t>(e.end)].position;
     const double left = (a[0] - bounds.low[0]) * (b[1] - bounds.low[1]);

@@ -258,12 +258,6 @@ LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const Sim
   return left_out;
 }
 
-namespace {
-
-bool is_boundary(const BoundaryCurve& curve) { return curve.left_inside != curve.right_inside; }
-
-}  // namespace
-
 bool PlaneDomain::has_boundary_curve() const {
   return std::ranges::any_of(sources_, [](const CurveSource& source) {
     return source.kind == CurveSource::Kind::graph || source.role == CurveRole::boundary;
@@ -332,7 +326,7 @@ void PlaneDomain::check() {
 void PlaneDomain::follow_patch() {
   resolved_.area = 0;
   for (BoundaryCurve& curve : resolved_.curves) {
-    if (!is_boundary(curve)) continue;
+    if (!curve.bounds()) continue;
     curve.tag = 0;
     for (const std::int64_t corner : {curve.corner_begin, curve.corner_end})
       resolved_.corners[static_cast<std::size_t>(corner)].tag = 0;
@@ -361,7 +355,7 @@ void PlaneDomain::check_open_sphere() {
   closed.close(patch);
   closed.check();
   resolved_ = std::move(closed.resolved_);
-  std::erase_if(resolved_.curves, [](const BoundaryCurve& curve) { return is_boundary(curve); });
+  std::erase_if(resolved_.curves, [](const BoundaryCurve& curve) { return curve.bounds(); });
   checked_ = true;
 }
 

@@ -37,6 +37,9 @@ struct BoundaryCurve {
   std::int32_t right_face = 0;
   std::int32_t left_region = 0;  // tags, 0 where there is none
   std::int32_t right_region = 0;
+
+  // Does the domain lie on one side only?
+  bool bounds() const { return left_inside != right_inside; }
 };
 
 struct Corner {

@@ -12,7 +12,7 @@ double area_on_sphere(const PlaneDomain& domain) {
   if (domain.is_whole_sphere()) return 4 * std::numbers::pi * radius * radius;
   double area = 0;
   for (const BoundaryCurve& curve : domain.curves()) {
-    if (curve.left_inside == curve.right_inside) continue;
+    if (!curve.bounds()) continue;
     double beside = 0;
     for (std::size_t p = 0; p + 1 < curve.points.size(); ++p)
       beside += area_beside(curve.points[p], curve.points[p + 1], radius);
