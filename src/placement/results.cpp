@@ -13,6 +13,7 @@
 #include "level/plane/closed_sphere.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "placement/element_angles.hpp"
+#include "quality/measured_nodes.hpp"
 
 namespace pnpbs {
 
@@ -172,10 +173,7 @@ Point<3> Results<Dim>::place_in_space(std::int64_t node) const {
 
 template <int Dim>
 double Results<Dim>::spacing_at(std::int64_t node) const {
-  const double d = level_->nodes.d(node);
-  if constexpr (Dim == 2)
-    if (chart()) return d / chart()->stretch(level_->nodes.position(node));
-  return d;
+  return MeasuredNodes<Dim>{level_->nodes, chart()}.d(node);
 }
 
 // ------------------------------------------------------------------ figures --------------------
