@@ -19,8 +19,7 @@ namespace pnpbs {
 
 namespace {
 
-constexpr int kMaxRounds = 64;     // of halving
-constexpr std::size_t kNamed = 3;  // of the worst, in warnings
+constexpr int kMaxRounds = 64;  // of halving
 
 // An edge by its place: from node `step` of the curve to the next one.
 struct EdgePlace {
@@ -202,7 +201,7 @@ class Layer {
     for (const std::int32_t edge : edges) {
       const std::string& name = track(edge).curve().name;
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-      if (names.size() == kNamed) break;
+      if (names.size() == kNamedWorst) break;
     }
     throw Error(ErrorKind::domain,
                 "curves are too close together to place nodes on them: " + list_text(names) +
@@ -222,7 +221,7 @@ class Layer {
     boundary_.warnings.push_back(
         "the spacing is larger than the feature: " + std::to_string(count) +
         " boundary edges that would have cut across others were halved, on " +
-        list_text(names, kNamed));
+        list_text(names, kNamedWorst));
   }
 
   void ask_spacing() {

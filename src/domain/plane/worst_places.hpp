@@ -13,6 +13,8 @@
 
 namespace pnpbs {
 
+inline constexpr std::size_t kNamedWorst = 3;
+
 struct Worst {
   double ratio;
   std::int32_t which;
@@ -27,17 +29,16 @@ struct Worst {
 template <class Name>
 std::string worst_text(std::vector<Worst>& all, const char* length, const StereographicChart* chart,
                        const Name& name) {
-  constexpr std::size_t kNamed = 3;
   std::sort(all.begin(), all.end());
   std::vector<std::string> names;
   for (const Worst& worst : all) {
-    if (names.size() == kNamed) break;
+    if (names.size() == kNamedWorst) break;
     const double stretch = chart ? chart->stretch(worst.at) : 1;
     names.push_back(name(worst.which) + " (" + length + " " +
                     rounded_text(worst.distance / stretch) + ", spacing " +
                     rounded_text(worst.spacing / stretch) + ")");
   }
-  return list_text(names, kNamed);
+  return list_text(names, kNamedWorst);
 }
 
 }  // namespace pnpbs
