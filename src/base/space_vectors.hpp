@@ -23,6 +23,8 @@ inline Point<3> cross(const Point<3>& a, const Point<3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+inline double length(const Point<2>& a) { return std::sqrt(dot(a, a)); }
+
 inline double length(const Point<3>& a) { return std::sqrt(dot(a, a)); }
 
 // a + t b

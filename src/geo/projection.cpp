@@ -228,8 +228,7 @@ double Projection::off_way(const Point<2>& point, const Point<2>& a, const Point
   forward_->apply(points);
   const Point<2>&here = points[0], &from = points[1], &to = points[2];
   const Point<2> way{to[0] - from[0], to[1] - from[1]}, across{-way[1], way[0]};
-  const double near = std::min(distance<2>(here, from), distance<2>(here, to)),
-               whole = std::sqrt(dot(way, way));
+  const double near = std::min(distance<2>(here, from), distance<2>(here, to)), whole = length(way);
   return near > 0 && whole > 0
              ? std::fabs(dot(across, {here[0] - from[0], here[1] - from[1]})) / whole / near
              : 0;

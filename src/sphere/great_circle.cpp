@@ -21,7 +21,7 @@ struct PlaceOnSphere {
 // circle at its ends.
 double longest_piece(double radius, const Point<2>& u) {
   constexpr double kAngle = 0.3 * kDegree, kLongest = 0.1;
-  const double away = length(Point<3>{u[0], u[1], 0}) / radius;
+  const double away = length(u) / radius;
   return std::min(kLongest, 4 * kAngle / away);
 }
 
