@@ -70,8 +70,11 @@ bool has_hdf5() {
   }
 }
 
+// Of the plane or of a body.
 bool can_write(const pnpbs::io::Format& format, int dimension) {
-  return (!format.by_hdf5 || has_hdf5()) && (!format.bodies_only || dimension == 3);
+  using pnpbs::io::Of;
+  const Of own = dimension == 3 ? Of::bodies : Of::triangles;
+  return (!format.by_hdf5 || has_hdf5()) && (format.of == Of::anything || format.of == own);
 }
 
 // Those that files of particles need.
