@@ -99,6 +99,11 @@ class WholeSphere(CommandTest):
             self.assertIn("--view: expected LON,LAT", self.refuse("--sphere", "1", "--spacing", "1", "--view", view))
         self.assertIn("give --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
 
+    def test_nodes_follow_the_spacing_beside_the_patch(self):
+        """There d changes in the chart along the way that the last sweeps move nodes: they are measured where they are.
+        With d from before this had the status of a spacing that is missed, by 85 edges."""
+        self.placed(spacing="100")
+
     def test_volumes(self):
         report = self.placed("--volumes")[1]
         self.assertAlmostEqual(report["volumes"]["total"] / (4 * np.pi * RADIUS**2), 1, 12)

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/execution.hpp"
 #include "level/exchange.hpp"
 #include "level/lists_and_stars.hpp"
+#include "level/node_spacing.hpp"
 #include "level/reach.hpp"
 #include "method/constants.hpp"
 #include "quality/plane/bad_triangles.hpp"
@@ -64,11 +66,23 @@ void repair_bad_triangles(Level<2>& level) {
     repair_triangles(level, measure_by_shape(rule.bad_below), rule.rounds);
 }
 
+// At nodes and ghosts.
+void take_spacing_here(Level<2>& level) {
+  const PhaseTimer timer(level.timers, Phase::spacing);
+  const View<double> d = spacing_at_nodes(level, level.ground.spacing());
+  for_each("pnpbs::take_spacing_here", level.nodes.count, [&](std::int64_t i) {
+    level.nodes.d(i) = level.ground.bubble_at(level.nodes, i, d(i));
+  });
+}
+
 // Whether the nodes follow d is asked after every run, so it must cost next to nothing: the stars
-// of the last sweeps will do, though a few edges have other nodes by now.
+// of the last sweeps will do, though a few edges have other nodes by now. So will d from before the
+// sweeps, but in the chart of a sphere: there it changes along the way that a node has moved, near
+// the point that is projected from by several per cent.
 std::vector<EdgeBand> edge_bands(Level<2>& level) {
   std::vector<EdgeBand> bands;
   update_ghosts(level);
+  if (level.ground.domain().chart()) take_spacing_here(level);
   agreed(*level.comm, [&] {
     bands = edge_bands_to_judge<2>(*level.comm, {level.nodes, level.ground.domain().chart()},
                                    level.stars);
