@@ -39,19 +39,15 @@ COURANT = 0.5
 
 
 def placed(args, spacing, nodes, more):
-    """A grid by the command. Its number of nodes is about the one requested, so it is requested twice."""
-    requested = nodes
+    """A grid by the command, with about so many nodes."""
+    command = [args.pnpbs.absolute(), "--sphere", RADIUS, "--spacing", spacing, "--nodes", nodes,
+               "--format", "mpas", "--output", "grid.nc", "--quiet", *shlex.split(more)]
     with tempfile.TemporaryDirectory() as folder:
-        for _ in range(2):
-            command = [args.pnpbs.absolute(), "--sphere", RADIUS, "--spacing", spacing, "--format", "mpas",
-                       "--output", "grid.nc", "--quiet", "--nodes", round(requested), *shlex.split(more)]
-            done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True,
-                                  stdin=subprocess.DEVNULL, text=True, check=False)
-            if done.returncode not in (0, 3, 4):  # 3: not yet at rest, 4: misses d somewhere
-                sys.exit(f"pnpbs: status {done.returncode}: {done.stderr.strip()}")
-            grid = CGrid.from_file(Path(folder) / "grid.nc")
-            requested *= nodes / len(grid.cell)
-    return grid
+        done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True,
+                              stdin=subprocess.DEVNULL, text=True, check=False)
+        if done.returncode not in (0, 3, 4):  # 3: not yet at rest, 4: misses d somewhere
+            sys.exit(f"pnpbs: status {done.returncode}: {done.stderr.strip()}")
+        return CGrid.from_file(Path(folder) / "grid.nc")
 
 
 def graded_density(x):
