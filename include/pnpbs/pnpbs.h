@@ -1329,9 +1329,9 @@ PNPBS_API pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
  *  are lengths there; on surfaces distances are straight, and on spheres lengths, areas and
  *  distances are along the sphere. Each element is divided among the corners of all elements that
  *  touch it, so a node sees none through a gap that has no elements. The volumes add up to that of
- *  the elements to rounding. Cells are functions of the nodes alone: any number of ranks and
- *  threads gives the same bits. The cells are a copy: nodes may move afterwards, and the placement
- *  may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes.
+ *  the elements to rounding, on spheres to that of the triangles along the sphere. Cells are
+ *  functions of the nodes alone: any number of ranks and threads gives the same bits. The cells are
+ *  a copy: nodes may move afterwards, and the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes.
  *  @param[in] placement  whose nodes have the cells
  *  @param[out] voronoi   the handle */
 PNPBS_API pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
@@ -1368,7 +1368,8 @@ PNPBS_API pnpbs_status pnpbs_voronoi_get_cells(pnpbs_voronoi voronoi, int64_t ca
  *  @param[out] numbers    [faces] of the neighbour, as by pnpbs_placement_get_numbering
  *  @param[out] areas      [faces]
  *  @param[out] distances  [faces] from the node to the neighbour
- *  @param[out] normals    [faces][dim] unit vector from the node to the neighbour */
+ *  @param[out] normals    [faces][dim] unit vector from the node to the neighbour, straight on
+ *                         spheres, too */
 PNPBS_API pnpbs_status pnpbs_voronoi_get_faces(pnpbs_voronoi voronoi, int64_t nodes, int64_t faces,
                                                int64_t *offsets, int64_t *ids, int64_t *numbers,
                                                double *areas, double *distances, double *normals);

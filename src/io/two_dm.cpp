@@ -2,6 +2,7 @@
 // The 2DM file of Aquaveo's SMS (https://www.xmswiki.com/wiki/SMS:2D_Mesh_Files_*.2dm), a card a
 // line: triangles "E3T number corner corner corner material", nodes "ND number x y z", and node
 // strings "NS node node ... -node number", of the boundary, each of one tag. Numbers from 1.
+#include "base/error.hpp"
 #include "io/boundary_loops.hpp"
 #include "io/map_places.hpp"
 
@@ -42,9 +43,18 @@ void write_string(const BoundaryChain& chain, Sink& sink) {
 }
 
 // Each rank has all of them.
-void append_strings(const NodeSource& nodes, SharedFile& file) {
-  const std::vector<BoundaryChain> chains =
-      chains_of(boundary_loops(nodes, file.ranks()), [](std::int32_t tag) { return tag; });
+std::vector<BoundaryChain> strings_of(const NodeSource& nodes, const Communicator& comm) {
+  std::vector<BoundaryChain> chains =
+      chains_of(boundary_loops(nodes, comm), [](std::int32_t tag) { return tag; });
+  for (const BoundaryChain& chain : chains)
+    if (chain.kind < 1)
+      throw Error(ErrorKind::argument,
+                  "a .2dm file numbers node strings by tags from 1 on, and the tag of a curve is " +
+                      std::to_string(chain.kind));
+  return chains;
+}
+
+void append_strings(const std::vector<BoundaryChain>& chains, SharedFile& file) {
   file.append([&](Sink& sink) {
     if (!file.is_first()) return;
     for (const BoundaryChain& chain : chains) write_string(chain, sink);
@@ -55,6 +65,7 @@ void append_strings(const NodeSource& nodes, SharedFile& file) {
 
 void write_2dm(const NodeSource& nodes, SharedFile& file) {
   largest_block(nodes, "2dm", "materials");  // refuses tags below 1
+  const std::vector<BoundaryChain> strings = strings_of(nodes, file.ranks());
   file.append_text("MESH2D\nMESHNAME \"pnpbs\"\nNUM_MATERIALS_PER_ELEM 1\n");
   append_triangles(nodes, file);
   // z points up.
@@ -68,7 +79,7 @@ void write_2dm(const NodeSource& nodes, SharedFile& file) {
                       }
                       sink.text("\n");
                     });
-  append_strings(nodes, file);
+  append_strings(strings, file);
 }
 
 }  // namespace pnpbs::io

@@ -2,7 +2,10 @@
 // A mesh of triangles by the conventions of UGRID 1.0 (ugrid-conventions.github.io) as NetCDF:
 // nodes, triangles and the edges that bound the domain, with what is known at them. Numbers count
 // from 0, and triangles turn counter-clockwise.
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "io/formats.hpp"
@@ -24,6 +27,7 @@ class UgridWriter {
       throw Error(ErrorKind::argument, "a UGRID file can have " + std::to_string(kMost) +
                                            " triangles, and this one would have " +
                                            std::to_string(all_.elements));
+    require_other_names();
     std::vector<std::int64_t> edges{0};
     for_bounding_edges([&](const FacetRows&, std::size_t) { ++edges[0]; });
     file_.ranks().allreduce_sum(edges);
@@ -33,6 +37,22 @@ class UgridWriter {
   }
 
  private:
+  // Fields have names of their own: in NetCDF there is one variable of a name.
+  void require_other_names() const {
+    constexpr std::array<std::string_view, 10> taken{
+        "mesh",          "mesh_node_x",     "mesh_node_y",         "mesh_node_lon",
+        "mesh_node_lat", "mesh_face_nodes", "mesh_boundary_nodes", "boundary_tag",
+        "region",        "quality"};
+    for (std::size_t f = 0; f < all_.field_count(); ++f) {
+      const std::string& name = (*all_.fields)[f].name;
+      if (std::ranges::find(taken, name) != taken.end() || name.starts_with('-'))
+        throw Error(
+            ErrorKind::argument,
+            "a .ugrid file cannot have an output field '" + name + "': the name " +
+                (name.starts_with('-') ? "begins with a minus" : "is that of another variable"));
+    }
+  }
+
   // Places in the list of dimensions; those of fields with several components follow.
   static constexpr std::size_t kNodes = 0, kFaces = 1, kThree = 2, kEdges = 3, kTwo = 4;
   using Attributes = std::vector<NetcdfAttribute>;

@@ -216,6 +216,8 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
   require_possible(path, format, elements, of.dimension);
+  if (format.write == write_gadget && of.on_sphere)
+    refuse("a .hdf5 file is of gas in the plane or in space, none on a sphere: '" + path + "'");
   if (format.of == Of::spheres && !of.on_sphere)
     refuse(std::string("a .") + format.name + " file is of the cells of a sphere: '" + path + "'");
   if (of.surfaces_alone && format.of == Of::bodies && !format.fields.empty())

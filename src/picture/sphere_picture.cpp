@@ -112,11 +112,27 @@ class SpherePainter {
     draw_shape(cairo, shape, colour_of(t));
   }
 
+  // A corner at a pole has the longitudes of both its neighbours.
+  Shape degrees_of_corners(std::size_t t) const {
+    constexpr double at_pole = 90 - 1e-9;
+    const std::array<Point<3>, 3> x = corners(t);
+    Shape shape;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point<2> at = degrees_of(x[k]);
+      if (std::fabs(at[1]) < at_pole) {
+        shape.push_back(at);
+      } else {
+        shape.push_back({degrees_of(x[(k + 2) % 3])[0], at[1]});
+        shape.push_back({degrees_of(x[(k + 1) % 3])[0], at[1]});
+      }
+    }
+    return shape;
+  }
+
   // Each side goes the short way around. Around a pole they come back a turn farther: then the
   // sides are those of strips up to the pole.
   void draw_on_map(cairo_t* cairo, std::size_t t) const {
-    Shape shape;
-    for (const Point<3>& corner : corners(t)) shape.push_back(degrees_of(corner));
+    Shape shape = degrees_of_corners(t);
     shape.push_back(shape.front());
     for (std::size_t k = 1; k < shape.size(); ++k)
       shape[k][0] = shape[k - 1][0] + std::remainder(shape[k][0] - shape[k - 1][0], 360);

@@ -95,7 +95,11 @@ static int is_of_bodies(const char* format) {
 }
 
 static int is_of_triangles(const char* format) {
-  return strcmp(format, "gr3") == 0 || strcmp(format, "2dm") == 0;
+  return strcmp(format, "gr3") == 0 || strcmp(format, "2dm") == 0 || strcmp(format, "ugrid") == 0;
+}
+
+static int is_of_spheres(const char* format) {
+  return strcmp(format, "mpas") == 0 || strcmp(format, "graph") == 0;
 }
 
 /* A field with the value 1 everywhere. */
@@ -129,7 +133,7 @@ END_TEST
 
 START_TEST(every_format) {
   job it = placed_square();
-  int32_t count = 0, k, elements = 0, binary = 0, of_bodies = 0;
+  int32_t count = 0, k, elements = 0, binary = 0, of_bodies = 0, of_spheres = 0;
   add_ones(it.placement, "volume", 1);
   add_ones(it.placement, "density", 1);
   MUST(pnpbs_format_count(&count));
@@ -141,13 +145,20 @@ START_TEST(every_format) {
     MUST(pnpbs_format_info(k, NULL, NULL, NULL, NULL));
     ck_assert_int_gt((int)strlen(help), 10);
     ck_assert_int_eq(binary, strcmp(name, "vtu") == 0 || strcmp(name, "vtkhdf") == 0 ||
-                                 strcmp(name, "hdf5") == 0);
+                                 strcmp(name, "hdf5") == 0 || strcmp(name, "ugrid") == 0 ||
+                                 strcmp(name, "mpas") == 0);
     if (is_by_hdf5(name) && !with_hdf5()) continue;
     snprintf(path, sizeof path, "a.%s", name);
     if (is_of_bodies(name)) {
       MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 0),
                 "bodies", path);
       ++of_bodies;
+      continue;
+    }
+    if (is_of_spheres(name)) {
+      MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 0),
+                "cells of a sphere", path);
+      ++of_spheres;
       continue;
     }
     MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
@@ -162,8 +173,9 @@ START_TEST(every_format) {
   ck_assert_int_gt(size_of("a_0.vtu"), size_of("a.pvtu"));
   if (with_hdf5()) ck_assert_int_gt(size_of("a.h5"), size_of("a.xdmf"));
   ck_assert_int_eq(of_bodies, 3);
+  ck_assert_int_eq(of_spheres, 2);
   /* a_0.vtu; a.h5; a_facets.vtu, .pvtu and _0.vtu; .vtkhdf, .xdmf and .h5 */
-  ck_assert_int_eq(empty_folder(), count - of_bodies + (with_hdf5() ? 8 : 1));
+  ck_assert_int_eq(empty_folder(), count - of_bodies - of_spheres + (with_hdf5() ? 8 : 1));
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_info(count, NULL, NULL, NULL, NULL), "index",
             "0 ..");
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_count(NULL), "count", "NULL");
@@ -226,6 +238,24 @@ START_TEST(depths_of_nodes) {
 }
 END_TEST
 
+/* Where files have one set of names. */
+START_TEST(fields_with_names_of_others) {
+  job it = placed_square();
+  const char* names[] = {"mesh", "region", "mesh_node_x", "-x"};
+  int k;
+  for (k = 0; k < 4; ++k) {
+    add_ones(it.placement, names[k], 1);
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder("a.ugrid"), 0),
+              ".ugrid file cannot have an output field", names[k]);
+    MUST(pnpbs_placement_clear_output_fields(it.placement));
+  }
+  add_ones(it.placement, "mesh_x", 3);
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.ugrid"), 0));
+  ck_assert_int_eq(empty_folder(), 1);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(triangle_s_elements_are_beside) {
   job it = placed_square();
   MUST(pnpbs_placement_write(it.placement, in_folder("a.node"), 0));
@@ -238,7 +268,7 @@ END_TEST
 
 START_TEST(every_format_in_space) {
   job it = placed_cube();
-  int32_t count = 0, k, of_triangles = 0;
+  int32_t count = 0, k, of_triangles = 0, of_spheres = 0;
   MUST(pnpbs_format_count(&count));
   add_ones(it.placement, "volume", 1);
   add_ones(it.placement, "density", 1);
@@ -254,6 +284,12 @@ START_TEST(every_format_in_space) {
       ++of_triangles;
       continue;
     }
+    if (is_of_spheres(name)) {
+      MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 1),
+                "cells of a sphere", path);
+      ++of_spheres;
+      continue;
+    }
     MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
     if (strcmp(name, "csv") == 0 || is_of_particles(name))
       MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 1),
@@ -262,8 +298,9 @@ START_TEST(every_format_in_space) {
       MUST(pnpbs_placement_write(it.placement, in_folder(path), 1));
     ck_assert_int_gt(size_of(path), 100);
   }
-  ck_assert_int_eq(of_triangles, 2);
-  ck_assert_int_eq(empty_folder(), count - of_triangles + (with_hdf5() ? 8 : 2));
+  ck_assert_int_eq(of_triangles, 3);
+  ck_assert_int_eq(of_spheres, 2);
+  ck_assert_int_eq(empty_folder(), count - of_triangles - of_spheres + (with_hdf5() ? 8 : 2));
   MUST(pnpbs_placement_write(it.placement, in_folder("b.node"), 1));
   ck_assert_int_gt(size_of("b.face"), 500);
   ck_assert_int_eq(empty_folder(), 3);
@@ -488,6 +525,7 @@ int main(void) {
   tcase_add_test(tests, every_format);
   tcase_add_test(tests, fields_that_formats_need);
   tcase_add_test(tests, depths_of_nodes);
+  tcase_add_test(tests, fields_with_names_of_others);
   tcase_add_test(tests, triangle_s_elements_are_beside);
   tcase_add_test(tests, every_format_in_space);
   tcase_add_test(tests, several_with_formats_of_their_own);

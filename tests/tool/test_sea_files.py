@@ -258,6 +258,12 @@ class SeaFiles(CommandTest):
         self.assertEqual(at, {"tag": "node", "spacing": "node", "quality": "face", "region": "face",
                               "boundary_tag": "boundary"})
 
+    def test_negative_tags_of_curves(self):
+        """A minus ends a string, so that no number behind it has one."""
+        (self.folder / "a.poly").write_text(SQUARE.replace(" 2\n", " -2\n"))
+        message = self.refuse("--domain", "a.poly", "--spacing", "0.1", "-q", "-o", "b.2dm")
+        self.assertIn("numbers node strings by tags from 1 on, and the tag of a curve is -2", message)
+
     def test_streams(self):
         self.placed(SIDES, "-o", "a.ugrid")
         for name in ("gr3", "2dm", "ugrid"):

@@ -376,7 +376,7 @@ extension selects the format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xd
 appears when it is complete. The
 outcome is `:ok`, or `:stopped` by the monitor, which keeps the old file. Files of
 [`Particles`](@ref) have their `volume` as well, in the formats that have fields, and no elements;
-.pvtu, .ele, .face, .gr3 and .2dm are a `:error_argument`. Collective.
+.pvtu, .ele, .face, .gr3, .2dm, .ugrid, .mpas and .graph are a `:error_argument`. Collective.
 """
 write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
     check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))

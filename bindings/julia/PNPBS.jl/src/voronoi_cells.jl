@@ -8,9 +8,11 @@ Makes the Voronoi cells of the current nodes: for each node the part of the elem
 placement that is closer to it than to any other, with its volume, its faces to neighbours and its
 share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces are lengths
 there; on surfaces distances are straight, and on spheres lengths, areas and distances are along the
-sphere. Each element is divided among the corners of all elements that touch it, so a node sees none through a gap that has no elements. The volumes add up to that of
-the elements to rounding. Cells are functions of the nodes alone: any number of ranks and threads
-gives the same bits. They are a copy: nodes may move afterwards, and the placement may be closed.
+sphere. Each element is divided among the corners of all elements that touch it, so a node sees none
+through a gap that has no elements. The volumes add up to that of the elements to rounding, on spheres
+to that of the triangles along the sphere. Cells are functions of the nodes alone: any number of ranks
+and threads gives the same bits. They are a copy: nodes may move afterwards, and the placement may be
+closed.
 Collective.
 
 Cells are in the order of [`nodes`](@ref).
