@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/mixed_hash.hpp"
 #include "comm/records.hpp"
+#include "domain/domain.hpp"
 #include "level/level_tree.hpp"
 #include "level/partitioning.hpp"
 #include "level/reach.hpp"
