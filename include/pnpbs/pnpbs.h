@@ -1331,7 +1331,8 @@ PNPBS_API pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char *prefix);
  *  touch it, so a node sees none through a gap that has no elements. The volumes add up to that of
  *  the elements to rounding, on spheres to that of the triangles along the sphere. Cells are
  *  functions of the nodes alone: any number of ranks and threads gives the same bits. The cells are
- *  a copy: nodes may move afterwards, and the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes.
+ *  a copy: nodes may move afterwards, and the placement may be destroyed. Collective. Errors:
+ *  PNPBS_ERROR_STATE without nodes.
  *  @param[in] placement  whose nodes have the cells
  *  @param[out] voronoi   the handle */
 PNPBS_API pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi *voronoi);
