@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/space_vectors.hpp"
+#include "sphere/degrees.hpp"
 
 namespace pnpbs {
 
@@ -41,9 +42,7 @@ inline Point<3> circumcentre(const Point<3>& a, const Point<3>& b, const Point<3
 // Of the way from a to b, where it leaves a point between them, against the east there: positive
 // towards the north. Radians, -pi .. pi.
 inline double angle_to_east(const Point<3>& at, const Point<3>& a, const Point<3>& b) {
-  const double across = std::hypot(at[0], at[1]);
-  const Point<3> east =
-      across > 0 ? Point<3>{-at[1] / across, at[0] / across, 0} : Point<3>{0, 1, 0};  // longitude 0
+  const Point<3> east = east_at(at);
   const Point<3> way = difference(b, a);
   return std::atan2(dot(way, cross(at, east)), dot(way, east));
 }

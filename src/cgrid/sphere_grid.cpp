@@ -47,7 +47,7 @@ class Builder {
   std::int64_t vertex_number(std::int32_t triangle, const std::vector<LedEntities>& first) const;
   std::int64_t edge_number(std::int32_t node, std::int32_t other,
                            const std::vector<LedEntities>& first) const;
-  // Values at the nodes of other ranks, from their owners: what `own` has of each. Collective.
+  // Adds the values at the nodes of other ranks to those of own nodes. Collective.
   template <class Value>
   void ask_for_ghosts(std::vector<Value>& values) const;
 
@@ -162,8 +162,7 @@ std::int64_t Builder::vertex_number(std::int32_t triangle,
   const std::int32_t leader = grid_.leader_of(triangle);
   if (leader < 0) return kNone;
   const StarRings& rings = grid_.rings;
-  std::int64_t at = rings.begin(leader);
-  while (rings.triangle(at) != triangle) ++at;
+  const std::int64_t at = rings.place_of_triangle(leader, triangle);
   std::int64_t number = first[index(leader)].vertices;
   for (std::int64_t k = rings.begin(leader); k < rings.end(leader); ++k)
     number += grid_.leader_of(rings.triangle(k)) == leader &&

@@ -44,6 +44,12 @@ class StarRings {
     while (this->neighbour(place) != neighbour) ++place;
     return place;
   }
+  // Of this triangle; it must be one of them.
+  std::int64_t place_of_triangle(std::int32_t node, std::int32_t triangle) const {
+    std::int64_t place = begin(node);
+    while (this->triangle(place) != triangle) ++place;
+    return place;
+  }
   // Do the triangles go all the way around the node?
   bool closed(std::int32_t node) const { return closed_[static_cast<std::size_t>(node)] != 0; }
 

@@ -15,7 +15,7 @@ inline double voronoi_edge_length(const SphereGrid& grid, std::int32_t node, std
              grid.centre(grid.rings.triangle(place)));
 }
 
-// Calls visit(number of the edge, weight) for the other edges of a cell, counter-clockwise from the
+// Calls visit(weight) for the other edges of a cell, counter-clockwise from the
 // one at this place. What the weight leaves out is the part of the cell that lies between. sign: 1
 // for the first cell at the edge, -1 for the second.
 template <class Visit>
@@ -29,8 +29,7 @@ void for_tangential_weights(const SphereGrid& grid, std::int32_t node, std::int6
        before = k, k = rings.next(node, k)) {
     between += grid.kite[static_cast<std::size_t>(before)] / area;
     const double outward = grid.leads(node, rings.neighbour(k)) ? 1 : -1;
-    visit(grid.edge[static_cast<std::size_t>(k)],
-          sign * outward * (0.5 - between) * voronoi_edge_length(grid, node, k) / across);
+    visit(sign * outward * (0.5 - between) * voronoi_edge_length(grid, node, k) / across);
   }
 }
 

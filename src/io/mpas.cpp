@@ -74,9 +74,7 @@ std::array<double, 3> angles_of(const std::array<double, 3>& lengths) {
 // The part of the corner's cell at the vertex; 0 if it has none.
 double kite_at(const SphereGrid& grid, std::int32_t corner, std::int32_t triangle) {
   if (!grid.has_cell(corner)) return 0;
-  std::int64_t k = grid.rings.begin(corner);
-  while (grid.rings.triangle(k) != triangle) ++k;
-  return grid.kite[index(k)];
+  return grid.kite[index(grid.rings.place_of_triangle(corner, triangle))];
 }
 
 // All variables, in the order of the file.
@@ -208,13 +206,12 @@ void Table::add_edges() {
   });
 }
 
-// Calls visit(number, weight) for the edges around both cells at an edge.
+// Calls visit(node, place of the edge in its ring, 1 or -1) for the cells at an edge.
 template <class Visit>
-void for_edges_around(const SphereGrid& grid, const Place& at, const Visit& visit) {
-  for_tangential_weights(grid, at.node, at.place, 1, visit);
+void for_cells_beside(const SphereGrid& grid, const Place& at, const Visit& visit) {
+  visit(at.node, at.place, 1);
   const std::int32_t other = grid.rings.neighbour(at.place);
-  if (grid.has_cell(other))
-    for_tangential_weights(grid, other, grid.rings.place_of(other, at.node), -1, visit);
+  if (grid.has_cell(other)) visit(other, grid.rings.place_of(other, at.node), -1);
 }
 
 void Table::add_weights() {
@@ -224,11 +221,16 @@ void Table::add_weights() {
   });
   integer_rows("edgesOnEdge", Entity::edge, maxEdges2, [&g = grid_](const Place& at, Integers row) {
     std::size_t k = 0;
-    for_edges_around(g, at, [&](std::int64_t e, double) { row[k++] = in_file(e); });
+    for_cells_beside(g, at, [&](std::int32_t node, std::int64_t place, double) {
+      for (std::int64_t p = g.rings.next(node, place); p != place; p = g.rings.next(node, p))
+        row[k++] = in_file(g.edge[index(p)]);
+    });
   });
   real_rows("weightsOnEdge", Entity::edge, maxEdges2, [&g = grid_](const Place& at, Reals row) {
     std::size_t k = 0;
-    for_edges_around(g, at, [&](std::int64_t, double weight) { row[k++] = weight; });
+    for_cells_beside(g, at, [&](std::int32_t node, std::int64_t place, double sign) {
+      for_tangential_weights(g, node, place, sign, [&](double weight) { row[k++] = weight; });
+    });
   });
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/types.hpp"
+#include "base/space_vectors.hpp"
 
 namespace pnpbs {
 
@@ -19,6 +19,12 @@ inline Point<2> degrees_of(const Point<3>& x) {
 inline Point<3> direction_at(const Point<2>& degrees) {
   const double lon = kDegree * degrees[0], lat = kDegree * degrees[1];
   return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+}
+
+// Along a parallel, of length 1; at the poles as on longitude 0.
+inline Point<3> east_at(const Point<3>& x) {
+  const double across = std::hypot(x[0], x[1]);
+  return across > 0 ? Point<3>{-x[1] / across, x[0] / across, 0} : Point<3>{0, 1, 0};
 }
 
 }  // namespace pnpbs

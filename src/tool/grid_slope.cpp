@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
+#include "sphere/degrees.hpp"
 
 namespace pnpbs::tool {
 
@@ -17,10 +18,9 @@ using Directions = std::array<Point<3>, 3>;
 
 Directions axes() { return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
 
-// East and north at a place; of the poles, of longitude 0.
+// East and north at a place.
 Directions along_sphere(const Point<3>& x) {
-  const double across = std::hypot(x[0], x[1]);
-  const Point<3> east = across > 0 ? Point<3>{-x[1] / across, x[0] / across, 0} : Point<3>{0, 1, 0};
+  const Point<3> east = east_at(x);
   return {{east, cross(unit_vector(x), east), {}}};
 }
 
