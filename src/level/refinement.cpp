@@ -95,11 +95,18 @@ void leave_patch(const Level<2>& level, IncomingNode<2>& node) {
 }
 void leave_patch(const Level<3>&, IncomingNode<3>&) {}
 
+// Where d stays or falls, none is too many. It is at the node that this is known: within a leaf, of
+// which d is one number when nodes are thinned, d may vary by more than it has grown.
+template <int Dim>
+void stay_unless_coarser(IncomingNode<Dim>& node, double d) {
+  if (d <= method::kThinnedAbove * node.d) node.d = 0;
+}
+
 void append_surface_midpoints(const Level<2>&, const View<double>&, IncomingNodes<2>&) {}
 
 // With one where the spacing was `before` and will be d. Cutting edges in space may bring more than
 // d asks for.
-IncomingNode<2> new_node(const Point<2>& x, double, double d) { return {x, -1, true, -1, d}; }
+IncomingNode<2> new_node(const Point<2>& x, double, double) { return {x, -1}; }
 IncomingNode<3> new_node(const Point<3>& x, double before, double d) {
   IncomingNode<3> node{x, -1};
   const double cuts = pieces_of<3>(before, d) - 1;
@@ -146,9 +153,11 @@ IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
       for_owned_in(chunk, [&](std::int64_t i) {
         const double before = level.ground.spacing_at(nodes, i);
         refined[place] = kept_node(nodes, i);
-        leave_patch(level, refined[place++]);
+        leave_patch(level, refined[place]);
+        stay_unless_coarser(refined[place++], spacing(i));
         for_new_nodes(level, i, spacing(i), [&](const Point<Dim>& x) {
-          refined[place++] = new_node(x, before, spacing(i));
+          refined[place] = new_node(x, before, spacing(i));
+          stay_unless_coarser(refined[place++], spacing(i));
         });
       });
     });
