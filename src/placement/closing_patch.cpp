@@ -26,6 +26,9 @@ constexpr double kRadius = 12, kRadiusOfDisc = 17;
 constexpr double kMostOfSphere = 1.6, kMostOfSphereForDisc = 2.4;  // radians
 // Free nodes may come so far between the patch's last ones.
 constexpr double kSeam = 0.5;  // spacings
+// Of the patch, about the point, its nodes stay in the finish as well, where the chart grows by more
+// than a third from node to node.
+constexpr double kFixed = 0.5;  // of its radius
 constexpr double kSameSpacing = 0.02;
 // To the point, at which the chart has no place for d.
 constexpr double kNotNearer = 0.25;  // spacings
@@ -210,6 +213,7 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
   const double last = last_of_patch(d);
   patch.edge = edge_in_chart(chart, last);
   patch.beyond = edge_in_chart(chart, last - kSeam * d);
+  patch.margin = edge_in_chart(chart, kFixed * last);
   for (std::size_t n = 3; n < nodes.size(); ++n) {
     const Point<2> u = chart.in_chart(nodes[n]);
     if (dot(u, u) >= patch.edge * patch.edge) patch.nodes.push_back(u);

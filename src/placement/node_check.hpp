@@ -61,14 +61,16 @@ class NodeCheck {
   void check_inside(std::int64_t i, const FacetIndex<Dim>& boundary) const;
   // Node i, which was laid on the boundary, is still there.
   void check_laid(std::int64_t i, const Point<Dim>& laid) const;
-  // Of the nodes that were laid there, each comes once, but for as many as were left out: times is
-  // how often on this rank, and where(k) where it was laid. Collective.
-  template <class Where>
-  void check_laid_come_once(std::vector<std::int64_t> times, const Where& where) const {
+  // Of the nodes that were laid there, each comes once, but for as many as were left out and
+  // those that may_lack(k): times is how often on this rank, and where(k) where it was laid.
+  // Collective.
+  template <class Where, class MayLack>
+  void check_laid_come_once(std::vector<std::int64_t> times, const Where& where,
+                            const MayLack& may_lack) const {
     comm_.allreduce_sum(times);
     std::int64_t left_out = level_.left_out;
     for (std::size_t k = 0; k < times.size(); ++k)
-      if (times[k] != 1 && !(times[k] == 0 && left_out-- > 0))
+      if (times[k] != 1 && !(times[k] == 0 && (may_lack(k) || left_out-- > 0)))
         fail_check("the boundary's node " + point_text(where(k)) + " comes " +
                    std::to_string(times[k]) + " times");
   }

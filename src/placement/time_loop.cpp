@@ -11,6 +11,7 @@
 #include "level/finer_places.hpp"
 #include "level/finish.hpp"
 #include "level/node_spacing.hpp"
+#include "level/plane/closed_sphere.hpp"
 #include "level/population_events.hpp"
 #include "level/rebalance.hpp"
 #include "level/room.hpp"
@@ -184,6 +185,7 @@ Outcome Simulation<Dim>::finish(double fraction) {
     finish_by_runge_kutta(level_);
     ++run_.steps_done;
   }
+  free_margin(level_);
   lay_first_row();
   if (stops_in_finish(fraction)) return Outcome::stopped;
   repair_defects();

@@ -20,6 +20,7 @@ struct ClosingPatch {
   std::vector<Point<2>> nodes;  // the others, in the chart
   double edge = 0;              // in the chart: so far from its origin these lie at least,
   double beyond = 0;            // and others at most
+  double margin = 0;            // from `edge` to here they move in the finish
   double d = 0;                 // along the sphere at the point: what it was made for
 };
 

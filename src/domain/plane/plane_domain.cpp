@@ -305,7 +305,7 @@ void PlaneDomain::close(const ClosingPatch& patch) {
   add_great_circles(CurveRole::boundary, true, {patch.rim.begin(), patch.rim.end()}, nullptr,
                     kEachIsACorner);
   for (const Point<2>& u : patch.nodes) given_nodes_.push_back({u, 0, "a node of the patch"});
-  closing_ = {patch.edge, patch.beyond, patch.d};
+  closing_ = {patch.edge, patch.beyond, patch.margin, patch.d};
   checked_ = false;
 }
 

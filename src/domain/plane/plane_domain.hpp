@@ -89,7 +89,7 @@ class PlaneDomain : public DomainBase<2> {
   void close(const ClosingPatch& patch);
   // What of the patch counts later; null if the sphere is not closed yet.
   struct Closing {
-    double edge, beyond, d;  // of ClosingPatch
+    double edge, beyond, margin, d;  // of ClosingPatch
   };
   const Closing* closing() const { return closing_ ? &*closing_ : nullptr; }
   // Of its nodes, those of the patch; 0 if it is not closed.
@@ -101,6 +101,10 @@ class PlaneDomain : public DomainBase<2> {
   // Is a boundary node or a fixed one at that place of the patch?
   bool is_in_patch(const Point<2>& u) const {
     return closing_ && dot(u, u) >= closing_->edge * closing_->edge;
+  }
+  // Is it, in that part of the patch whose nodes move in the finish?
+  bool is_in_margin(const Point<2>& u) const {
+    return is_in_patch(u) && dot(u, u) < closing_->margin * closing_->margin;
   }
   // Is the place one that only nodes of the patch may have?
   bool is_closed_at(const Point<2>& u) const {

@@ -25,6 +25,17 @@ void close_sphere(Level<2>& level) {
   });
 }
 
+void free_margin(Level<2>& level) {
+  const PlaneDomain& domain = level.ground.domain();
+  if (!domain.closing()) return;
+  Nodes<2>& nodes = level.nodes;
+  for_each("pnpbs::free_margin", nodes.count, [&](std::int64_t i) {
+    if (nodes.boundary_node(i) < 0 || !domain.is_in_margin(nodes.position(i))) return;
+    nodes.carrier(i) = nodes.moving;
+    nodes.boundary_node(i) = -1;
+  });
+}
+
 // Seen from outside all triangles turn left, and so they do in the chart but for this one.
 bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& corners) {
   if (!is_closed_sphere(level)) return false;

@@ -21,6 +21,10 @@ inline bool is_closed_sphere(const Level<3>&) { return false; }
 // anything.
 void close_sphere(Level<2>& level);
 inline void close_sphere(Level<3>&) {}
+// Frees the nodes in the margin of the patch: the lattice there and that of the others, which came
+// to it, then meet half-way.
+void free_margin(Level<2>& level);
+inline void free_margin(Level<3>&) {}
 // Is it that triangle? By its nodes.
 bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& corners);
 

@@ -11,9 +11,11 @@ Ground<2>::Ground(std::shared_ptr<const PlaneDomain> domain,
                   std::shared_ptr<const Spacing<2>> spacing, const NodeLimit& limit)
     : domain_(std::move(domain)), spacing_(std::move(spacing)) {
   boundary_ = discretize_boundary(*domain_, evaluator(), limit.max_nodes);
-  // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too.
+  // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too. But not
+  // those of a patch that are to move: no others come among them.
   for (std::size_t f = static_cast<std::size_t>(boundary_.first_fixed); f < boundary_.nodes.size();
        ++f) {
+    if (domain_->is_in_margin(boundary_.nodes[f].position)) continue;
     const std::int32_t node = static_cast<std::int32_t>(f);
     boundary_.facets.push_back({node, node, boundary_.nodes[f].tag, true, true});
   }
