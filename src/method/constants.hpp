@@ -91,9 +91,9 @@ inline constexpr double kMaxForced = 0.2;
 inline constexpr double kCoarserRestInPlane = 0.3;
 // The same in a volume. [tolerance_mean] Chosen: docs/method.md, coarser levels.
 inline constexpr double kCoarserRestInSpace = 0.08;
-// What coarser levels aim at, as refining leaves distances a little too large. [mean_distance]
-// Chosen: docs/method.md, coarser levels.
-inline constexpr double kCoarserDistance = 0.997;
+// What coarser levels in space aim at, as refining leaves distances a little too large there.
+// [mean_distance] Chosen: docs/method.md, coarser levels.
+inline constexpr double kCoarserDistanceInSpace = 0.997;
 // For how long coarser levels adjust their population. [share of their steps] As the paper's preset
 // of population_share.
 inline constexpr double kCoarserPopulationShare = 0.75;
