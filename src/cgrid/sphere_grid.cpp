@@ -6,9 +6,9 @@
 
 #include "base/execution.hpp"
 #include "cgrid/entity_numbers.hpp"
-#include "cgrid/sphere_geometry.hpp"
 #include "mesh/ask_owners.hpp"
 #include "mesh/distributed_mesh.hpp"
+#include "sphere/sphere_geometry.hpp"
 
 namespace pnpbs {
 

@@ -4,8 +4,8 @@
 // Journal of Computational Physics 228 (2009), 8321-8335, equations 33 and 39).
 #pragma once
 
-#include "cgrid/sphere_geometry.hpp"
 #include "cgrid/sphere_grid.hpp"
+#include "sphere/sphere_geometry.hpp"
 
 namespace pnpbs {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "cgrid/sphere_geometry.hpp"
+#include "sphere/sphere_geometry.hpp"
 #include "voronoi/divided_element.hpp"
 #include "voronoi/part_rows.hpp"
 

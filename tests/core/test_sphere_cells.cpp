@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
-#include "cgrid/sphere_geometry.hpp"
 #include "cgrid/star_rings.hpp"
 #include "quick_assert.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
+#include "sphere/sphere_geometry.hpp"
 
 using pnpbs::Point;
 
