@@ -116,43 +116,48 @@ class CellMoments {
   std::array<double, N> first_{};
 };
 
+template <std::size_t N>
+struct CellNeighbour {
+  CellCorner<N> corner, halfway;  // that of the edge from the node
+  bool moves;
+};
+
 // Adds what of a cell belongs to a triangle with its node. Where the triangle is obtuse that
 // reaches beyond it or is less than nothing, and what others add makes up for it.
 template <std::size_t N>
-void add_part(const CellCorner<N>& o, const CellCorner<N>& a, const CellCorner<N>& b,
-              bool edge_stays, CellMoments<N>& cell) {
-  const CellCorner<N> towards_a = middle(o, a), towards_b = middle(o, b);
-  if (edge_stays && dot(way(o.x, a.x), way(o.x, b.x)) < 0) {
+void add_part(const CellCorner<N>& o, const CellNeighbour<N>& from, const CellNeighbour<N>& to,
+              CellMoments<N>& cell) {
+  const CellCorner<N>&a = from.corner, &b = to.corner;
+  if (!from.moves && !to.moves && dot(way(o.x, a.x), way(o.x, b.x)) < 0) {
     const CellCorner<N> first = crossing(o, a, b), last = crossing(o, b, a);
-    cell.add(towards_a, first);
+    cell.add(from.halfway, first);
     cell.add(first, last);
-    cell.add(last, towards_b);
+    cell.add(last, to.halfway);
     return;
   }
   const CellCorner<N> centre = circumcentre(o, a, b);
-  cell.add(towards_a, centre);
-  cell.add(centre, towards_b);
+  cell.add(from.halfway, centre);
+  cell.add(centre, to.halfway);
 }
 
 // Of a closed star. corner_of(j) is node j as a corner.
 template <std::size_t N, class CornerOf>
 Point<N> centroid(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
                   const CornerOf& corner_of) {
-  struct Neighbour {
-    CellCorner<N> corner;
-    bool moves;
-  };
   const CellCorner<N> node = corner_of(i);
   CellMoments<N> cell(node);
-  std::optional<Neighbour> first, last;
-  const auto go_on = [&](const Neighbour& next) {
+  std::optional<CellNeighbour<N>> first, last;
+  const auto go_on = [&](const CellNeighbour<N>& next) {
     if (last)
-      add_part<N>(node, last->corner, next.corner, !last->moves && !next.moves, cell);
+      add_part<N>(node, *last, next, cell);
     else
       first = next;
     last = next;
   };
-  stars.for_neighbours(i, [&](std::int64_t j) { go_on({corner_of(j), nodes.moves(j)}); });
+  stars.for_neighbours(i, [&](std::int64_t j) {
+    const CellCorner<N> corner = corner_of(j);
+    go_on({corner, middle(node, corner), nodes.moves(j) != 0});
+  });
   go_on(*first);
   return cell.centroid();
 }
