@@ -203,6 +203,8 @@ module pnpbs
     generic :: get => placement_get_int64, placement_get_real, placement_get_text
     procedure :: edge_band_count => placement_edge_band_count
     procedure :: get_edge_bands => placement_get_edge_bands
+    procedure :: cell_band_count => placement_cell_band_count
+    procedure :: get_cell_bands => placement_get_cell_bands
     procedure :: warning_count => placement_warning_count
     procedure :: get_warning => placement_get_warning
     procedure :: write => placement_write
@@ -2589,6 +2591,55 @@ contains
                   c_placement_get_edge_bands(self%c, given%capacity(minval(room)), count, a_from, &
                                              a_to, a_edges, a_mean, a_deviation), stat, errmsg, &
                   given)
+  end subroutine
+
+  !> Returns the number of bands that get_cell_bands returns: 8 at most. Collective.
+  subroutine placement_cell_band_count(self, count, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude('placement%cell_band_count', &
+                  c_placement_get_cell_bands(self%c, c_text('edge_ratio'), 0_c_int64_t, count, &
+                                             c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, &
+                                             c_null_ptr), stat, errmsg)
+  end subroutine
+
+  !> Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in the
+  !> plane and on spheres; elsewhere there are no bands. A cell is the polygon of the circumcentres
+  !> of the triangles around an inner node that is not fixed. Lengths and areas are along the
+  !> sphere. The limits of the bands are those of get_edge_bands, and bands with neither a cell nor
+  !> an edge are left out, so they are the same for all measures. A cell's d is that of its node, an
+  !> edge's the mean of d at its ends. Includes all ranks, and is the same on each. Collective.
+  !>   measure       'edge_ratio', of each cell its shortest edge over its longest; 'area_ratio', of
+  !>                 each edge between two cells the area of the smaller cell over that of the
+  !>                 larger; or 'dual_offset', of each edge between two such nodes the distance of
+  !>                 its middle from that of the Voronoi edge across it, over its length
+  !>   d_from, d_to  optional, (count): lower and upper end of each band, increasing
+  !>   number        optional, (count): number of cells or edges measured
+  !>   mean          optional, (count): of the measure; 0 if number is 0, as is worst
+  !>   worst         optional, (count): the smallest ratio, or the largest offset
+  subroutine placement_get_cell_bands(self, measure, d_from, d_to, number, mean, worst, stat, &
+                                      errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: measure
+    real(c_double), intent(inout), optional :: d_from(:), d_to(:), mean(:), worst(:)
+    integer(c_int64_t), intent(inout), optional :: number(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_from, a_to, a_number, a_mean, a_worst
+    integer(c_int64_t) :: room(5), count
+    call given%place_real('d_from', d_from, a_from, room(1))
+    call given%place_real('d_to', d_to, a_to, room(2))
+    call given%place_int64('number', number, a_number, room(3))
+    call given%place_real('mean', mean, a_mean, room(4))
+    call given%place_real('worst', worst, a_worst, room(5))
+    call conclude('placement%get_cell_bands', &
+                  c_placement_get_cell_bands(self%c, c_text(measure), &
+                                             given%capacity(minval(room)), count, a_from, a_to, &
+                                             a_number, a_mean, a_worst), stat, errmsg, given)
   end subroutine
 
   !> Returns the number of warnings about domain and spacing, collected at initialise (a feature

@@ -1185,6 +1185,22 @@ module pnpbs_c
       integer(c_int) :: c_placement_get_edge_bands
     end function
 
+    function c_placement_get_cell_bands(placement, measure, capacity, count, d_from, d_to, number, &
+      mean, worst) bind(C, name="pnpbs_placement_get_cell_bands")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: measure(*)
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: d_from ! double *
+      type(c_ptr), value :: d_to ! double *
+      type(c_ptr), value :: number ! int64_t *
+      type(c_ptr), value :: mean ! double *
+      type(c_ptr), value :: worst ! double *
+      integer(c_int) :: c_placement_get_cell_bands
+    end function
+
     function c_placement_warning_count(placement, count) bind(C, &
       name="pnpbs_placement_warning_count")
       import

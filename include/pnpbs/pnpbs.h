@@ -1106,6 +1106,29 @@ PNPBS_API pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement,
                                                       int64_t *edges, double *mean,
                                                       double *deviation);
 
+/** Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in the plane
+ *  and on spheres; elsewhere there are no bands. A cell is the polygon of the circumcentres of the
+ *  triangles around an inner node that is not fixed. Measures are "edge_ratio", of each cell its
+ *  shortest edge over its longest; "area_ratio", of each edge between two cells the area of the
+ *  smaller cell over that of the larger; and "dual_offset", of each edge between two such nodes the
+ *  distance of its middle from that of the Voronoi edge across it, over its length. Lengths and
+ *  areas are along the sphere. The limits of the bands are those of pnpbs_placement_get_edge_bands,
+ *  and bands with neither a cell nor an edge are left out, so they are the same for all measures. A
+ *  cell's d is that of its node, an edge's the mean of d at its ends. Includes all ranks, and is
+ *  the same on each. Collective. Call with capacity 0 to get the count; arrays may be NULL.
+ *  @param[in] measure   its name
+ *  @param[in] capacity  bands the arrays have room for; 8 is always enough
+ *  @param[out] count    number of bands
+ *  @param[out] d_from   [count] lower end, in the unit of the coordinates; increasing
+ *  @param[out] d_to     [count] upper end
+ *  @param[out] number   [count] number of cells or edges measured
+ *  @param[out] mean     [count] of the measure; 0 if number is 0, as is worst
+ *  @param[out] worst    [count] the smallest ratio, or the largest offset */
+PNPBS_API pnpbs_status pnpbs_placement_get_cell_bands(pnpbs_placement placement,
+                                                      const char *measure, int64_t capacity,
+                                                      int64_t *count, double *d_from, double *d_to,
+                                                      int64_t *number, double *mean, double *worst);
+
 /** Returns warnings about domain and spacing, collected at initialise (a feature smaller than d, an
  *  unused vertex, ...), and about nodes that do not follow the spacing, from the last run.
  *  Local. */

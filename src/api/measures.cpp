@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is told of a placement: edge length over d by bands of d, and before a run what it would
-// come to.
+// What is told of a placement: edge length over d and Voronoi cells by bands of d, and before a run
+// what it would come to.
 #include "api/placement_calls.hpp"
+#include "settings/named_rows.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
+
+namespace {
+
+struct CellMeasureRow {
+  const char* name;
+  CellFigure CellShape::*figure;
+};
+
+const CellFigure& figure_of(const CellShape& shape, const char* measure) {
+  static const std::vector<CellMeasureRow> table = {{"edge_ratio", &CellShape::edge_ratio},
+                                                    {"area_ratio", &CellShape::area_ratio},
+                                                    {"dual_offset", &CellShape::dual_offset}};
+  return shape.*row_named(measure, table, "measure of cells").figure;
+}
+
+}  // namespace
 
 pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t capacity,
                                             int64_t* count, double* d_from, double* d_to,
@@ -21,6 +38,30 @@ pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t c
       if (edges) edges[k] = bands[k].ratio.edges;
       if (mean) mean[k] = bands[k].ratio.mean;
       if (deviation) deviation[k] = bands[k].ratio.deviation;
+    }
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_get_cell_bands(pnpbs_placement placement, const char* measure,
+                                            int64_t capacity, int64_t* count, double* d_from,
+                                            double* d_to, int64_t* number, double* mean,
+                                            double* worst) {
+  return collective(placement, [&](Placement& p) {
+    require_pointer(measure, "measure");
+    require_pointer(count, "count");
+    figure_of({}, measure);  // there is one of this name
+    const std::vector<CellBand>& bands = p.results().element_quality().cell.bands;
+    *count = static_cast<std::int64_t>(bands.size());
+    if (capacity == 0 && !d_from && !d_to && !number && !mean && !worst) return PNPBS_OK;
+    require_capacity(capacity, *count);
+    for (std::size_t k = 0; k < bands.size(); ++k) {
+      const CellFigure& figure = figure_of(bands[k].shape, measure);
+      if (d_from) d_from[k] = bands[k].from;
+      if (d_to) d_to[k] = bands[k].to;
+      if (number) number[k] = figure.number;
+      if (mean) mean[k] = figure.mean;
+      if (worst) worst[k] = figure.worst;
     }
     return PNPBS_OK;
   });

@@ -12,6 +12,7 @@
 #include "cgrid/tangential_weights.hpp"
 #include "io/entity_rows.hpp"
 #include "io/netcdf.hpp"
+#include "quality/plane/voronoi_ring.hpp"
 
 namespace pnpbs::io {
 
@@ -270,13 +271,11 @@ void Table::add_vertices() {
 
 void Table::add_qualities() {
   reals("cellQuality", Entity::cell, [&g = grid_](const Place& at) {
-    double least = 0, longest = 0;
-    for (std::int64_t p = g.rings.begin(at.node); p < g.rings.end(at.node); ++p) {
-      const double edge = voronoi_edge_length(g, at.node, p);
-      least = p == g.rings.begin(at.node) ? edge : std::min(least, edge);
-      longest = std::max(longest, edge);
-    }
-    return least / longest;
+    ShortestOverLongest<3> ratio;
+    for (std::int64_t p = g.rings.begin(at.node); p < g.rings.end(at.node); ++p)
+      ratio.add(g.centre(g.rings.triangle(g.rings.before(at.node, p))),
+                g.centre(g.rings.triangle(p)));
+    return ratio.value();
   });
   reals("gridSpacing", Entity::cell, [&g = grid_, r = r_](const Place& at) {
     double sum = 0;

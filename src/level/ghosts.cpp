@@ -26,6 +26,13 @@ void Ghosts<Dim>::update(const Communicator& comm, Nodes<Dim>& nodes) {
   exact_at_ = nodes.positions();
 }
 
+template <int Dim>
+void Ghosts<Dim>::fill(const Communicator& comm, const View<double>& values) const {
+  std::vector<Bytes> outgoing, incoming;
+  agreed(comm, [&] { halo_.make_buffers(outgoing, incoming); });
+  halo_.update(comm, values, outgoing, incoming);
+}
+
 // A rank that fails within has its messages come and go, but empty: its neighbours must not wait.
 template <int Dim>
 void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const Settings& settings,

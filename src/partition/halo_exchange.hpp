@@ -84,6 +84,27 @@ class HaloExchange {
         for (std::int32_t& node : list) node = moved_to_[static_cast<std::size_t>(node)];
   }
 
+  // Owners send values; these buffers must not be those of another exchange. All neighbours at the
+  // same time, after each has made its buffers.
+  void make_buffers(std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming) const {
+    for (const std::vector<std::int32_t>& list : send_)
+      outgoing.emplace_back(list.size() * sizeof(double));
+    for (const std::vector<std::int32_t>& list : receive_)
+      incoming.emplace_back(list.size() * sizeof(double));
+  }
+  void update(const Communicator& comm, const View<double>& values, std::vector<Bytes>& outgoing,
+              std::vector<Bytes>& incoming) const {
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      char* out = outgoing[k].data();
+      for (const std::int32_t i : send_[k]) put(out, values(i));
+    }
+    comm.exchange_known(neighbours_, outgoing, incoming);
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      const char* in = incoming[k].data();
+      for (const std::int32_t i : receive_[k]) take(in, values(i));
+    }
+  }
+
   // Owners send positions and velocities. All neighbours at the same time.
   void update(const Communicator& comm, Nodes<Dim>& nodes) {
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {

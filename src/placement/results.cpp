@@ -231,7 +231,9 @@ template <int Dim>
 const ElementQuality& Results<Dim>::element_quality() {
   prepare_stars();
   if (quality_stamp_ != level_->stamp()) {
-    quality_ = measure_elements<Dim>(*comm_, {level_->nodes, chart()}, level_->stars);
+    quality_ = measure_elements<Dim>(
+        *comm_, {level_->nodes, chart()}, level_->stars,
+        [this](const View<double>& values) { level_->ghosts.fill(*comm_, values); });
     quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
     if constexpr (Dim == 3) {
       if (!level_->ground.surfaces_alone()) {

@@ -251,12 +251,39 @@ const std::vector<StatisticRow>& statistic_table() {
           "in the plane and on spheres: edges between two triangles that the Voronoi edge between "
           "their circumcentres does not cross")),
       computed(real(
+          "edge.mean_dual_offset",
+          [](P p) { return p.results().element_quality().cell.shape.dual_offset.mean; },
+          "in the plane and on spheres: distance between the middle of an edge between two inner "
+          "nodes and that of the Voronoi edge across it, over the length of the former: mean")),
+      computed(real(
+          "edge.max_dual_offset",
+          [](P p) { return p.results().element_quality().cell.shape.dual_offset.worst; },
+          "the same: maximum")),
+      computed(real(
           "cell.mean_offset", [](P p) { return p.results().element_quality().cell.mean_offset; },
           "in the plane and on spheres: distance over d of inner nodes from the centroids of their "
           "Voronoi cells for the density d^-4 (option centroidal_sweeps): mean")),
       computed(real(
           "cell.max_offset", [](P p) { return p.results().element_quality().cell.max_offset; },
           "the same: maximum")),
+      computed(real(
+          "cell.mean_edge_ratio",
+          [](P p) { return p.results().element_quality().cell.shape.edge_ratio.mean; },
+          "in the plane and on spheres: shortest edge of the Voronoi cell of an inner node, the "
+          "polygon of its triangles' circumcentres, over the longest: mean")),
+      computed(real(
+          "cell.min_edge_ratio",
+          [](P p) { return p.results().element_quality().cell.shape.edge_ratio.worst; },
+          "the same: minimum")),
+      computed(real(
+          "cell.mean_area_ratio",
+          [](P p) { return p.results().element_quality().cell.shape.area_ratio.mean; },
+          "of two such cells beside each other: area of the smaller one over that of the larger: "
+          "mean")),
+      computed(real(
+          "cell.min_area_ratio",
+          [](P p) { return p.results().element_quality().cell.shape.area_ratio.worst; },
+          "the same: minimum")),
       real(
           "speed.largest", [](P p) { return p.results().speeds().max; },
           "largest scaled speed, spacings per unit of time"),

@@ -342,13 +342,14 @@ int regular_neighbours(const VolumeStars& stars) {
 
 template <int Dim>
 ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Dim>& measured,
-                                const Stars<Dim>& stars) {
+                                const Stars<Dim>& stars,
+                                [[maybe_unused]] const FillGhosts& fill_ghosts) {
   const SpacingBands bands = bands_of_nodes<Dim>(comm, measured);
   const EdgeSums edges =
       edge_sums<Dim>(comm, measured, stars, bands, [](std::int64_t, std::int64_t) { return true; });
   ElementQuality found;
   found.simplex = measure_simplices(comm, measured, stars);
-  if constexpr (Dim == 2) found.cell = measure_cells(comm, measured, stars);
+  if constexpr (Dim == 2) found.cell = measure_cells(comm, measured, stars, bands, fill_ghosts);
   found.edge = ratio_of(edges.all());
   found.bands = bands_with_edges(bands, edges);
   found.irregular = irregular_share<Dim>(comm, measured.nodes, stars, regular_neighbours(stars));
@@ -369,8 +370,8 @@ template std::vector<EdgeBand> edge_bands_to_judge<2>(const Communicator&, const
 template std::vector<EdgeBand> edge_bands_to_judge<3>(const Communicator&, const MeasuredNodes<3>&,
                                                       const Stars<3>&, const View<char>&);
 template ElementQuality measure_elements<2>(const Communicator&, const MeasuredNodes<2>&,
-                                            const Stars<2>&);
+                                            const Stars<2>&, const FillGhosts&);
 template ElementQuality measure_elements<3>(const Communicator&, const MeasuredNodes<3>&,
-                                            const Stars<3>&);
+                                            const Stars<3>&, const FillGhosts&);
 
 }  // namespace pnpbs

@@ -50,7 +50,7 @@ struct ElementQuality {
 // From stars that are right for the owned nodes, and exact ghosts around these. Collective.
 template <int Dim>
 ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Dim>& measured,
-                                const Stars<Dim>& stars);
+                                const Stars<Dim>& stars, const FillGhosts& fill_ghosts);
 
 // The bands in which d may be missed, without those that have no edge: of each the edges with an
 // end inside; if d is missed by these, those with both, where they are nearer to d and enough. (A

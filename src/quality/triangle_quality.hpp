@@ -27,17 +27,32 @@ inline double triangle_quality(const Point<3>& a, const Point<3>& b, const Point
   return product > 0 ? 4 * dot(normal, normal) / product : 0.0;
 }
 
+// Of the ways from a to b and to c.
+template <std::size_t Dim>
+double dot_from(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
+                const std::array<double, Dim>& c) {
+  double product = 0;
+  for (std::size_t k = 0; k < Dim; ++k) product += (b[k] - a[k]) * (c[k] - a[k]);
+  return product;
+}
+
 // Of the angle at a.
 template <std::size_t Dim>
 double angle_cosine(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
                     const std::array<double, Dim>& c) {
-  double product = 0;
-  for (std::size_t k = 0; k < Dim; ++k) product += (b[k] - a[k]) * (c[k] - a[k]);
-  return product / (distance<static_cast<int>(Dim)>(a, b) * distance<static_cast<int>(Dim)>(a, c));
+  return dot_from(a, b, c) /
+         (distance<static_cast<int>(Dim)>(a, b) * distance<static_cast<int>(Dim)>(a, c));
 }
 
 // Is an angle larger than 90 degrees, and not by rounding?
 inline bool is_obtuse(double cosine) { return cosine < -1e-10; }
+
+// That at a: most are not, which takes no square roots.
+template <std::size_t Dim>
+bool is_obtuse_at(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
+                  const std::array<double, Dim>& c) {
+  return dot_from(a, b, c) < 0 && is_obtuse(angle_cosine(a, b, c));
+}
 
 // A bound on quality that many triangles are held against, without square roots.
 class QualityBound {

@@ -10,21 +10,29 @@
 
 namespace pnpbs {
 
-// Along the great circle.
+// Along the great circle, between points this far apart in space.
+inline double arc_over(double chord) { return 2 * std::asin(std::min(1.0, 0.5 * chord)); }
+
 inline double arc(const Point<3>& a, const Point<3>& b) {
-  return 2 * std::asin(std::min(1.0, 0.5 * length(difference(a, b))));
+  return arc_over(length(difference(a, b)));
 }
 
 inline Point<3> arc_middle(const Point<3>& a, const Point<3>& b) {
   return unit_vector({a[0] + b[0], a[1] + b[1], a[2] + b[2]});
 }
 
-// Positive where the corners turn counter-clockwise, seen from outside (A. van Oosterom and J.
-// Strackee, IEEE Transactions on Biomedical Engineering 30 (1983), 125-126). By differences, since
-// small triangles are what there is.
-inline double signed_area(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+// A complex number whose argument is half the area of a triangle: about 4 if that is small (A. van
+// Oosterom and J. Strackee, IEEE Transactions on Biomedical Engineering 30 (1983), 125-126). By
+// differences, since small triangles are what there is.
+inline Point<2> half_area_direction(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   const double volume = dot(a, cross(difference(b, a), difference(c, a)));
-  return 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(c, a));
+  return {1 + dot(a, b) + dot(b, c) + dot(c, a), volume};
+}
+
+// Positive where the corners turn counter-clockwise, seen from outside.
+inline double signed_area(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  const auto [real, imaginary] = half_area_direction(a, b, c);
+  return 2 * std::atan2(imaginary, real);
 }
 
 // As far from all three. The centre of their circle in space, seen from the origin: the normal of

@@ -37,7 +37,7 @@ Json options_of(const Arguments& arguments) {
   return options;
 }
 
-Json bands_of(const Statistics& statistics) {
+Json edge_bands_of(const Statistics& statistics) {
   Json bands = Json::array();
   for (const EdgeBand& band : statistics.edge_bands()) {
     bands.push_back({{"from", band.from},
@@ -45,6 +45,25 @@ Json bands_of(const Statistics& statistics) {
                      {"edges", band.edges},
                      {"mean", band.mean},
                      {"deviation", band.deviation}});
+  }
+  return bands;
+}
+
+// The names of the figures are those of the statistics of all cells or edges.
+Json cell_bands_of(const Statistics& statistics) {
+  Json bands = Json::array();
+  for (const CellBand& band : statistics.cell_bands()) {
+    Json entry = {{"from", band.from}, {"to", band.to}, {"cells", band.edge_ratio.number}};
+    const auto add = [&](const std::string& worst, const std::string& what,
+                         const CellFigure& figure) {
+      entry["mean_" + what] = figure.number > 0 ? Json(figure.mean) : Json();
+      entry[worst + "_" + what] = figure.number > 0 ? Json(figure.worst) : Json();
+    };
+    add("min", "edge_ratio", band.edge_ratio);
+    entry["edges"] = band.dual_offset.number;
+    add("min", "area_ratio", band.area_ratio);
+    add("max", "dual_offset", band.dual_offset);
+    bands.push_back(std::move(entry));
   }
   return bands;
 }
@@ -111,7 +130,8 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   report["options"] = options_of(arguments);
   for (const auto& [name, value] : statistics.all())
     insert(report, name, std::visit(AsJson(), value));
-  report["edge"]["bands"] = bands_of(statistics);
+  report["edge"]["bands"] = edge_bands_of(statistics);
+  if (!statistics.cell_bands().empty()) report["cell"]["bands"] = cell_bands_of(statistics);
   if (volumes) report["volumes"] = figures_of(*volumes);
   if (volumes && volumes->mass) report["mass"] = *volumes->mass;
   if (particles) report["particles"] = figures_of(*particles);

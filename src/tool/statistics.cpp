@@ -21,16 +21,40 @@ StatisticValue read(pnpbs_placement placement, const LibraryStatistic& statistic
   return {};
 }
 
+constexpr std::size_t kMaxBands = 8;
+
 // None if the library has no value.
 std::vector<EdgeBand> read_edge_bands(pnpbs_placement placement) {
-  constexpr std::size_t max = 8;
-  std::int64_t count = 0, edges[max];
-  double from[max], to[max], mean[max], deviation[max];
-  if (pnpbs_placement_get_edge_bands(placement, max, &count, from, to, edges, mean, deviation) < 0)
+  std::int64_t count = 0, edges[kMaxBands];
+  double from[kMaxBands], to[kMaxBands], mean[kMaxBands], deviation[kMaxBands];
+  if (pnpbs_placement_get_edge_bands(placement, kMaxBands, &count, from, to, edges, mean,
+                                     deviation) < 0)
     return {};
   std::vector<EdgeBand> bands;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
     bands.push_back({from[k], to[k], edges[k], mean[k], deviation[k]});
+  return bands;
+}
+
+std::vector<CellBand> read_cell_bands(pnpbs_placement placement) {
+  constexpr std::pair<const char*, CellFigure CellBand::*> kMeasures[] = {
+      {"edge_ratio", &CellBand::edge_ratio},
+      {"area_ratio", &CellBand::area_ratio},
+      {"dual_offset", &CellBand::dual_offset}};
+  std::int64_t count = 0, number[kMaxBands];
+  double from[kMaxBands], to[kMaxBands], mean[kMaxBands], worst[kMaxBands];
+  std::vector<CellBand> bands;
+  for (const auto& [name, figure] : kMeasures) {
+    if (pnpbs_placement_get_cell_bands(placement, name, kMaxBands, &count, from, to, number, mean,
+                                       worst) < 0)
+      return {};
+    bands.resize(static_cast<std::size_t>(count));
+    for (std::size_t k = 0; k < bands.size(); ++k) {
+      bands[k].from = from[k];
+      bands[k].to = to[k];
+      bands[k].*figure = {number[k], mean[k], worst[k]};
+    }
+  }
   return bands;
 }
 
@@ -41,6 +65,7 @@ Statistics::Statistics(pnpbs_placement placement) {
     values_.emplace_back(statistic.name, read(placement, statistic));
   }
   edge_bands_ = read_edge_bands(placement);
+  cell_bands_ = read_cell_bands(placement);
 }
 
 void Statistics::renew_memory(pnpbs_placement placement) {

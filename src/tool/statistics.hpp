@@ -22,6 +22,18 @@ struct EdgeBand {
   double mean, deviation;
 };
 
+// What pnpbs_placement_get_cell_bands measures.
+struct CellFigure {
+  std::int64_t number;
+  double mean, worst;
+};
+
+// Of the Voronoi cells where d is in a band.
+struct CellBand {
+  double from, to;  // of d
+  CellFigure edge_ratio, area_ratio, dual_offset;
+};
+
 class Statistics {
  public:
   explicit Statistics(pnpbs_placement placement);
@@ -32,6 +44,7 @@ class Statistics {
   void renew_memory(pnpbs_placement placement);
 
   const std::vector<EdgeBand>& edge_bands() const { return edge_bands_; }
+  const std::vector<CellBand>& cell_bands() const { return cell_bands_; }
 
   // nullptr if there is none of this name and type.
   template <typename Value>
@@ -45,6 +58,7 @@ class Statistics {
  private:
   std::vector<std::pair<std::string, StatisticValue>> values_;
   std::vector<EdgeBand> edge_bands_;
+  std::vector<CellBand> cell_bands_;
 };
 
 }  // namespace pnpbs::tool

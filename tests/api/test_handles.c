@@ -157,6 +157,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_get_string, (handle, "hash", out.texts + 1))                                        \
   X(placement_get_edge_bands, (handle, 1, out.integers + 1, out.reals + 2, out.reals + 3,         \
                                out.integers + 4, out.reals + 5, out.reals + 6))                   \
+  X(placement_get_cell_bands, (handle, "edge_ratio", 1, out.integers + 1, out.reals + 2,          \
+                               out.reals + 3, out.integers + 4, out.reals + 5, out.reals + 6))    \
   X(placement_warning_count, (handle, out.small + 2))                                             \
   X(placement_get_warning, (handle, 0, out.texts + 1))                                            \
   X(placement_write, (handle, "unwritten.csv", 0))                                                \

@@ -77,6 +77,62 @@ static void check_circumcentres(pnpbs_placement placement, const result* it, int
   ck_assert_int_ge(uncrossed, least);
 }
 
+/* ---------------------------------------------------------------- Voronoi cells --------- */
+
+/* A corner of a cell, in a triangle of its node: from the node, with the last corner of the
+ * triangle, which the next triangle has as well. */
+typedef struct {
+  double angle, x, y;
+  int64_t shared;
+} cell_corner;
+
+typedef struct {
+  int64_t n;
+  double area, ratio;
+  cell_corner corners[32];
+} cell;
+
+static int by_angle(const void* a, const void* b) {
+  return ascending(&((const cell_corner*)a)->angle, &((const cell_corner*)b)->angle);
+}
+
+static void add_corner(cell* to, const double* a, const double* b, const double* c,
+                       int64_t shared) {
+  const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+  const double bb = bx * bx + by * by, cc = cx * cx + cy * cy, twice = 2 * (bx * cy - by * cx);
+  cell_corner* it = &to->corners[to->n++];
+  ck_assert_int_le(to->n, 32);
+  it->angle = atan2(by + cy, bx + cx);
+  it->x = (cy * bb - by * cc) / twice;
+  it->y = (bx * cc - cx * bb) / twice;
+  it->shared = shared;
+}
+
+/* Of the nodes that no curve has; the others' are of no use. */
+static cell* cells_of(const result* it) {
+  cell* cells = calloc((size_t)it->n, sizeof *cells);
+  int64_t t, i, k;
+  for (t = 0; t < 3 * it->triangles; ++t) {
+    const int64_t *v = it->corners + t / 3 * 3, a = v[t % 3], b = v[(t + 1) % 3],
+                  c = v[(t + 2) % 3];
+    if (it->tags[a] == 0) add_corner(&cells[a], it->xy + 2 * a, it->xy + 2 * b, it->xy + 2 * c, c);
+  }
+  for (i = 0; i < it->n; ++i) {
+    double least = 1e300, most = 0;
+    cell* its = &cells[i];
+    qsort(its->corners, (size_t)its->n, sizeof *its->corners, by_angle);
+    for (k = 0; k < its->n; ++k) {
+      const cell_corner *p = &its->corners[k], *q = &its->corners[(k + 1) % its->n];
+      const double length = hypot(q->x - p->x, q->y - p->y);
+      least = fmin(least, length);
+      most = fmax(most, length);
+      its->area += 0.5 * (p->x * q->y - p->y * q->x);
+    }
+    its->ratio = least / most;
+  }
+  return cells;
+}
+
 static void check_irregular(pnpbs_placement placement, const result* it) {
   int64_t i, inner = 0, irregular = 0;
   for (i = 0; i < it->n; ++i) {
@@ -141,6 +197,82 @@ static void check_edges(pnpbs_placement placement, const result* it) {
   }
 }
 
+typedef struct {
+  sums of;
+  double worst;
+} measured;
+
+static void add_measured(measured bands[BANDS + 1], int64_t band, double value, int smaller) {
+  const int64_t both[2] = {band, BANDS}; /* and all together */
+  int k;
+  for (k = 0; k < 2; ++k) {
+    measured* it = &bands[both[k]];
+    if (it->of.n == 0 || (smaller ? value < it->worst : value > it->worst)) it->worst = value;
+    add(&it->of, value);
+  }
+}
+
+static int64_t band_at(const bands* told, double d) {
+  int64_t b = 0;
+  while (b + 1 < told->count && d >= told->to[b]) ++b;
+  return b;
+}
+
+static void check_measure(pnpbs_placement placement, const char* name, const bands* limits,
+                          const measured found[BANDS + 1]) {
+  int64_t count, number[BANDS], k, edge_band = 0;
+  double from[BANDS], to[BANDS], mean[BANDS], worst[BANDS];
+  MUST(pnpbs_placement_get_cell_bands(placement, name, BANDS, &count, from, to, number, mean,
+                                      worst));
+  ck_assert_int_gt(count, 0);
+  for (k = 0; k < count; ++k) {
+    while (limits->from[edge_band] < from[k]) ++edge_band;
+    ck_assert_double_eq(from[k], limits->from[edge_band]);
+    ck_assert_double_eq(to[k], limits->to[edge_band]);
+    ck_assert_int_eq(number[k], (int64_t)found[edge_band].of.n);
+    if (number[k] == 0) continue;
+    ck_assert_double_eq_tol(mean[k], mean_of(&found[edge_band].of), 2e-9);
+    ck_assert_double_eq_tol(worst[k], found[edge_band].worst, 1e-9);
+  }
+}
+
+/* Edges are met at both ends, and count at the one with the lesser place. */
+static void check_cells(pnpbs_placement placement, const result* it) {
+  const bands limits = bands_of(placement);
+  measured ratios[BANDS + 1], areas[BANDS + 1], offsets[BANDS + 1];
+  cell* cells = cells_of(it);
+  int64_t i, k;
+  memset(ratios, 0, sizeof ratios);
+  memset(areas, 0, sizeof areas);
+  memset(offsets, 0, sizeof offsets);
+  for (i = 0; i < it->n; ++i) {
+    const cell* its = &cells[i];
+    if (it->tags[i] != 0) continue;
+    add_measured(ratios, band_at(&limits, it->d[i]), its->ratio, 1);
+    for (k = 0; k < its->n; ++k) {
+      const cell_corner *p = &its->corners[k], *q = &its->corners[(k + 1) % its->n];
+      const int64_t j = p->shared, band = band_at(&limits, 0.5 * (it->d[i] + it->d[j]));
+      const double x = it->xy[2 * j] - it->xy[2 * i], y = it->xy[2 * j + 1] - it->xy[2 * i + 1];
+      if (j < i || it->tags[j] != 0) continue;
+      add_measured(areas, band, fmin(its->area, cells[j].area) / fmax(its->area, cells[j].area), 1);
+      add_measured(offsets, band, hypot(p->x + q->x - x, p->y + q->y - y) / 2 / hypot(x, y), 0);
+    }
+  }
+  check_measure(placement, "edge_ratio", &limits, ratios);
+  check_measure(placement, "area_ratio", &limits, areas);
+  check_measure(placement, "dual_offset", &limits, offsets);
+  ck_assert_double_eq_tol(real_of(placement, "cell.mean_edge_ratio"), mean_of(&ratios[BANDS].of),
+                          2e-9);
+  ck_assert_double_eq_tol(real_of(placement, "cell.min_edge_ratio"), ratios[BANDS].worst, 1e-9);
+  ck_assert_double_eq_tol(real_of(placement, "cell.mean_area_ratio"), mean_of(&areas[BANDS].of),
+                          2e-9);
+  ck_assert_double_eq_tol(real_of(placement, "cell.min_area_ratio"), areas[BANDS].worst, 1e-9);
+  ck_assert_double_eq_tol(real_of(placement, "edge.mean_dual_offset"), mean_of(&offsets[BANDS].of),
+                          2e-9);
+  ck_assert_double_eq_tol(real_of(placement, "edge.max_dual_offset"), offsets[BANDS].worst, 1e-9);
+  free(cells);
+}
+
 /* ---------------------------------------------------------------- cases ----------------- */
 
 static job graded_job(cone* d) {
@@ -161,6 +293,7 @@ START_TEST(as_by_brute_force) {
   check_triangles(it.placement, &found);
   check_irregular(it.placement, &found);
   check_edges(it.placement, &found);
+  check_cells(it.placement, &found);
   check_circumcentres(it.placement, &found, 0);
   result_free(&found);
   job_end(&it);
@@ -235,6 +368,7 @@ START_TEST(before_a_run) {
   found = result_of(it.placement);
   check_triangles(it.placement, &found);
   check_edges(it.placement, &found);
+  check_cells(it.placement, &found);
   check_circumcentres(it.placement, &found, 10);
   result_free(&found);
   MUST_COMPUTE(pnpbs_placement_step(it.placement, 1)); /* what was found is found anew */
@@ -263,6 +397,21 @@ START_TEST(arrays_too_small) {
   MUST(pnpbs_placement_get_edge_bands(it.placement, 0, &count, NULL, NULL, NULL, NULL, NULL));
   ck_assert_int_eq(count, 8);
   MUST(pnpbs_placement_get_edge_bands(it.placement, 8, &count, NULL, NULL, NULL, mean, NULL));
+  MUST_FAIL(
+      PNPBS_ERROR_ARGUMENT,
+      pnpbs_placement_get_cell_bands(it.placement, NULL, 0, &count, NULL, NULL, NULL, NULL, NULL),
+      "measure", "NULL");
+  MUST_FAIL(PNPBS_ERROR_KEY,
+            pnpbs_placement_get_cell_bands(it.placement, "edge_rato", 0, &count, NULL, NULL, NULL,
+                                           NULL, NULL),
+            "edge_rato", "edge_ratio");
+  MUST_FAIL(PNPBS_ERROR_CAPACITY,
+            pnpbs_placement_get_cell_bands(it.placement, "edge_ratio", 7, &count, NULL, NULL, NULL,
+                                           mean, NULL),
+            "capacity = 7", "8 are needed");
+  MUST(pnpbs_placement_get_cell_bands(it.placement, "edge_ratio", 0, &count, NULL, NULL, NULL, NULL,
+                                      NULL));
+  ck_assert_int_eq(count, 8);
   job_end(&it);
 }
 END_TEST

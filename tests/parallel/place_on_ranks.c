@@ -22,6 +22,7 @@ static void describe_elements(pnpbs_placement placement, char* word) {
   const char* keys[] = {"quality.mean",      "quality.one_percent", "quality.min",
                         "quality.min_angle", "quality.irregular",   "edge.mean",
                         "edge.deviation",    "cell.mean_offset",    "cell.max_offset"};
+  const char* measures[] = {"edge_ratio", "area_ratio", "dual_offset"};
   const char* counts[] = {"quality.obtuse", "edge.uncrossed"};
   double from[8], to[8], mean[8], deviation[8], value;
   int64_t edges[8], bands, b, count;
@@ -42,6 +43,16 @@ static void describe_elements(pnpbs_placement placement, char* word) {
     append(word, (double)edges[b]);
     append(word, mean[b]);
     append(word, deviation[b]);
+  }
+  for (k = 0; k < sizeof measures / sizeof measures[0]; ++k) {
+    check(pnpbs_placement_get_cell_bands(placement, measures[k], 8, &bands, from, to, edges, mean,
+                                         deviation),
+          measures[k]);
+    for (b = 0; b < bands; ++b) {
+      append(word, (double)edges[b]);
+      append(word, mean[b]);
+      append(word, deviation[b]);
+    }
   }
 }
 

@@ -109,6 +109,12 @@ class Results(Case):
         self.assertIn("vtu", " ".join(row.name for row in pnpbs.format_table()))
         bands = self.placement.edge_bands()
         self.assertTrue((abs(bands.mean - 1) < 0.1).all() and len(bands.mean) > 3)
+        cells = self.placement.cell_bands("edge_ratio")
+        np.testing.assert_array_equal(cells.d_from, bands.d_from)
+        self.assertTrue(((0 < cells.worst) & (cells.worst <= cells.mean) & (cells.mean < 1)).all())
+        self.assertEqual(cells.worst.min(), self.placement.statistic("cell.min_edge_ratio"))
+        with self.assertRaisesRegex(pnpbs.PNPBSError, "dual_offset"):
+            self.placement.cell_bands("dual_ofset")
         self.assertEqual(pnpbs.library_version()[:2], (0, 2))
         self.assertIn("Kokkos", pnpbs.build_info())
         self.assertEqual([pnpbs.file_dimension(name) for name in ("part.stl", "land.geojson")], [3, 2])

@@ -60,12 +60,15 @@ class Grid:
 class MpasGrids(CommandTest):
     def grid(self, *arguments, ranks=0, name="grid.nc"):
         arguments = (*arguments, "--output", name, "--format", "mpas", "--output", "graph.graph", "--output",
-                     "nodes.csv", "--quiet")
+                     "nodes.csv", "--quiet", "--report", "report.json")
         if ranks:
             self.run_on_ranks(*arguments, ranks=ranks)
         else:
             self.run_command(*arguments)
         return Grid(self.folder / name)
+
+    def report(self):
+        return json.loads((self.folder / "report.json").read_text())
 
     def whole(self, **more):
         return self.grid("--sphere", f"{RADIUS},20,-30", "--spacing", "350e3 + 150e3*sin(pi*lat/180)^2", **more)
@@ -186,6 +189,11 @@ class MpasGrids(CommandTest):
         np.testing.assert_allclose(grid["gridSpacing"], d, rtol=0.35)
         np.testing.assert_array_equal(grid["indexToCellID"], 1 + np.arange(n["nCells"]))
         self.check_qualities(grid)
+        # The nodes that close the sphere do not move, and do not count.
+        bands = self.report()["cell"]["bands"]
+        cells = sum(band["cells"] for band in bands)
+        self.assertTrue(0.8 * n["nCells"] < cells < n["nCells"], f"{cells} of {n['nCells']}")
+        self.assertGreaterEqual(min(band["min_edge_ratio"] for band in bands), grid["cellQuality"].min() - 1e-9)
 
     def check_qualities(self, grid):
         cell, edge, _ = grid.rows_of("edgesOnCell", "nEdgesOnCell")
@@ -198,6 +206,38 @@ class MpasGrids(CommandTest):
         np.testing.assert_array_equal(grid["obtuseTriangle"], square[:, 2] > square[:, 0] + square[:, 1])
         self.assertTrue(np.all((grid["triangleAngleQuality"] > 0) & (grid["triangleAngleQuality"] <= 1)))
 
+    def check_report(self, grid, d):
+        """The statistics of the cells, all and by bands of d at the cells."""
+        report = self.report()
+        pairs = grid.places("cellsOnEdge")
+        between = np.all(pairs >= 0, axis=1)
+        areas = np.sort(grid["areaCell"][pairs[between]], axis=1)
+        middles = unit(grid.x["Vertex"][grid.places("verticesOnEdge")[between]].sum(axis=1))
+        offsets = arc(middles, grid.x["Edge"][between]) * RADIUS / grid["dcEdge"][between]
+        measures = {"edge_ratio": ("cell", "cells", "min", grid["cellQuality"], d),
+                    "area_ratio": ("cell", "edges", "min", areas[:, 0] / areas[:, 1], d[pairs[between]].mean(axis=1)),
+                    "dual_offset": ("edge", "edges", "max", offsets, d[pairs[between]].mean(axis=1))}
+        bands = report["cell"]["bands"]
+        ends = [band["to"] for band in bands]
+        self.assertEqual([band["from"] for band in bands[1:]], ends[:-1])
+        self.assertTrue({band["from"] for band in bands} <= {band["from"] for band in report["edge"]["bands"]})
+        for name, (group, number, worst, values, at) in measures.items():
+            of_worst = getattr(np, worst)
+            of_all = [report[group][f"{which}_{name}"] for which in ("mean", worst)]
+            np.testing.assert_allclose(of_all, [values.mean(), of_worst(values)], atol=1e-9)
+            place = np.searchsorted(ends[:-1], at, side="right")
+            for k, band in enumerate(bands):
+                here = values[place == k]
+                self.assertEqual(band[number], len(here))
+                expected = [here.mean(), of_worst(here)] if len(here) else [np.nan] * 2
+                told = [band[f"{which}_{name}"] for which in ("mean", worst)]
+                np.testing.assert_allclose(np.array(told, float), expected, atol=1e-9)
+
+    def test_bodies_have_no_such_figures(self):
+        self.run_command("--domain", "box(0,0,0,1,1,1)", "--spacing", "0.25", "--report", "report.json", "--quiet")
+        self.assertNotIn("bands", self.report()["cell"])
+        self.assertIn("bands", self.report()["edge"])
+
     def test_the_graph_of_the_cells(self):
         grid = self.whole()
         lines = (self.folder / "graph.graph").read_text().splitlines()
@@ -209,9 +249,11 @@ class MpasGrids(CommandTest):
     def test_ranks_write_the_same(self):
         self.whole(ranks=1)
         files = [(self.folder / name).read_bytes() for name in ("grid.nc", "graph.graph")]
+        figures = [self.report()[name] for name in ("cell", "edge", "quality")]
         for ranks in (2, 3, 5):
             self.whole(ranks=ranks)
             self.assertEqual([(self.folder / name).read_bytes() for name in ("grid.nc", "graph.graph")], files)
+            self.assertEqual([self.report()[name] for name in ("cell", "edge", "quality")], figures)
 
     def test_what_is_refused(self):
         for name in ("grid.mpas", "grid.graph"):
@@ -231,7 +273,8 @@ class MpasGrids(CommandTest):
         ring = [[40 * np.cos(t), 30 * np.sin(t)] for t in np.radians(range(0, 360, 15))]
         coast = self.folder / "island.geojson"
         coast.write_text(json.dumps({"type": "Polygon", "coordinates": [ring + ring[:1]]}))
-        arguments = ("--domain", coast, "--sphere", f"{RADIUS},0,0", "--spacing", "400e3", "--corner-angle", "20")
+        arguments = ("--domain", coast, "--sphere", f"{RADIUS},0,0", "--spacing", "300e3 + 0.05*dist", "--corner-angle",
+                     "20")
         grid = self.grid(*arguments)
         self.check_all(grid)
         nodes = np.genfromtxt(self.folder / "nodes.csv", delimiter=",", names=True)
@@ -245,6 +288,7 @@ class MpasGrids(CommandTest):
         self.assertGreater(np.sum(grid["boundaryVertex"]), 20)
         self.assertLess(grid["areaCell"].sum(), 4 * np.pi * RADIUS**2)
         self.assertEqual(grid["meshDensity"].max(), 1)
+        self.check_report(grid, inner["spacing"])
         if os.environ.get("PNPBS_MPIEXEC"):
             whole = (self.folder / "grid.nc").read_bytes()
             self.grid(*arguments, ranks=3)

@@ -26,7 +26,8 @@ from .mesh import DistributedMesh
 from .mesh_arrays import MeshArrays
 from .particles import Particles
 from .placement import Estimate, Placement, PopulationChange
-from .results import EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering, Stars
+from .results import (CellBands, EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering,
+                      Stars)
 from .rows import CompressedRows
 from .shapes import GeoGrid, Projection, ShapeCounts, Shapes, geo_build_info
 from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unfinished_files,
@@ -35,11 +36,11 @@ from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unf
 from .voronoi import VoronoiCells
 
 __all__ = [
-    "CompressedRows", "Context", "DistributedMesh", "Domain", "EdgeBands", "Estimate",
-    "ExchangePattern", "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "MeshArrays",
-    "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError", "Particles", "Placement",
-    "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars", "StatisticRow", "Status",
-    "Transfer", "VoronoiCells", "build_info", "discard_unfinished_files", "file_dimension",
+    "CellBands", "CompressedRows", "Context", "DistributedMesh", "Domain", "EdgeBands",
+    "Estimate", "ExchangePattern", "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut",
+    "MeshArrays", "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError", "Particles",
+    "Placement", "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars",
+    "StatisticRow", "Status", "Transfer", "VoronoiCells", "build_info", "discard_unfinished_files", "file_dimension",
     "format_table", "geo_build_info", "library_path", "library_version", "mpi_library",
     "option_table", "shutdown", "sphere_degrees", "sphere_points", "statistic_table",
 ]

@@ -197,6 +197,9 @@ pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char *k
 pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t capacity,
     int64_t *count, double *d_from, double *d_to, int64_t *edges, double *mean,
     double *deviation);
+pnpbs_status pnpbs_placement_get_cell_bands(pnpbs_placement placement, const char *measure,
+    int64_t capacity, int64_t *count, double *d_from, double *d_to, int64_t *number, double *mean,
+    double *worst);
 pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
 pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
     const char **text);

@@ -84,6 +84,14 @@ class EdgeBands(NamedTuple):
     deviation: Doubles
 
 
+class CellBands(NamedTuple):
+    d_from: Doubles
+    d_to: Doubles
+    number: Ids
+    mean: Doubles
+    worst: Doubles
+
+
 _Self = TypeVar("_Self", bound="Results")
 
 
@@ -293,6 +301,26 @@ class Results(PlacementHandle):
         n = count.value
         bands = EdgeBands(np.zeros(n), np.zeros(n), np.zeros(n, np.int64), np.zeros(n), np.zeros(n))
         self._call("get_edge_bands", n, ctypes.byref(count), *bands)
+        return bands
+
+    def cell_bands(self, measure: str) -> CellBands:
+        """Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in
+        the plane and on spheres; elsewhere there are no bands. A cell is the polygon of the
+        circumcentres of the triangles around an inner node that is not fixed. `measure` is
+        "edge_ratio", of each cell its shortest edge over its longest; "area_ratio", of each edge
+        between two cells the area of the smaller cell over that of the larger; or "dual_offset",
+        of each edge between two such nodes the distance of its middle from that of the Voronoi edge
+        across it, over its length. Lengths and areas are along the sphere. Returns for each band
+        its lower and upper end, the number of cells or edges, the mean, and the smallest ratio or
+        largest offset. The limits of the bands are those of `edge_bands`, and bands with neither a
+        cell nor an edge are left out, so they are the same for all measures. A cell's d is that of
+        its node, an edge's the mean of d at its ends. Includes all ranks, and is the same on each.
+        Collective."""
+        count = ctypes.c_int64()
+        self._call("get_cell_bands", measure.encode(), 0, ctypes.byref(count), *[None] * 5)
+        n = count.value
+        bands = CellBands(np.zeros(n), np.zeros(n), np.zeros(n, np.int64), np.zeros(n), np.zeros(n))
+        self._call("get_cell_bands", measure.encode(), n, ctypes.byref(count), *bands)
         return bands
 
     def warnings(self) -> List[str]:

@@ -532,6 +532,13 @@ pnpbs_placement_get_edge_bands(placement, capacity, count, d_from, d_to, edges, 
         d_to::Ptr{Cdouble}, edges::Ptr{Int64}, mean::Ptr{Cdouble},
         deviation::Ptr{Cdouble})::pnpbs_status
 
+pnpbs_placement_get_cell_bands(placement, measure, capacity, count, d_from, d_to, number, mean,
+                               worst) =
+    @ccall $(symbol(:pnpbs_placement_get_cell_bands))(
+        placement::pnpbs_placement, measure::Cstring, capacity::Int64, count::Ptr{Int64},
+        d_from::Ptr{Cdouble}, d_to::Ptr{Cdouble}, number::Ptr{Int64}, mean::Ptr{Cdouble},
+        worst::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_placement_warning_count(placement, count) =
     @ccall $(symbol(:pnpbs_placement_warning_count))(
         placement::pnpbs_placement, count::Ptr{Int32})::pnpbs_status

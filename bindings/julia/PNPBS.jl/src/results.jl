@@ -348,6 +348,33 @@ function edge_bands(placement::Placement)
 end
 
 """
+    cell_bands(placement, measure) -> (d_from, d_to, number, mean, worst)
+
+Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in the plane and
+on spheres; elsewhere there are no bands. A cell is the polygon of the circumcentres of the
+triangles around an inner node that is not fixed. `measure` is `:edge_ratio`, of each cell its
+shortest edge over its longest; `:area_ratio`, of each edge between two cells the area of the
+smaller cell over that of the larger; or `:dual_offset`, of each edge between two such nodes the
+distance of its middle from that of the Voronoi edge across it, over its length. Lengths and areas
+are along the sphere. Returns for each band its lower and upper end, the number of cells or edges,
+the mean, and the smallest ratio or largest offset. The limits of the bands are those of
+[`edge_bands`](@ref), and bands with neither a cell nor an edge are left out, so they are the same
+for all measures. A cell's d is that of its node, an edge's the mean of d at its ends. Includes all
+ranks, and is the same on each. Collective.
+"""
+function cell_bands(placement::Placement, measure)
+    count = Ref{Int64}(0)
+    ask(capacity, arrays...) =
+        check(placement, LibPNPBS.pnpbs_placement_get_cell_bands(live(placement), string(measure),
+                                                                 capacity, count, arrays...))
+    ask(0, C_NULL, C_NULL, C_NULL, C_NULL, C_NULL)
+    d_from, d_to, mean, worst = (zeros(count[]) for _ in 1:4)
+    number = zeros(Int64, count[])
+    ask(count[], d_from, d_to, number, mean, worst)
+    return (d_from = d_from, d_to = d_to, number = number, mean = mean, worst = worst)
+end
+
+"""
     warnings(placement) -> Vector{String}
 
 Returns warnings about domain and spacing (a feature smaller than the spacing, an unused vertex),

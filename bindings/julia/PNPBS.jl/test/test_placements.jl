@@ -74,6 +74,13 @@ end
         @test length(bands.mean) == length(bands.deviation) == length(bands.edges) > 1
         @test all(bands.d_from .< bands.d_to) && all(bands.edges .> 0)
         @test all(0.7 .< bands.mean .< 1.4)
+        cells = cell_bands(placement, :edge_ratio)
+        @test cells.d_from[1] == bands.d_from[1] && all(cells.number .> 0)
+        @test all(0 .< cells.worst .<= cells.mean .< 1)
+        @test minimum(cells.worst) == all_of_them["cell.min_edge_ratio"]
+        offsets = cell_bands(placement, "dual_offset")
+        @test offsets.d_to == cells.d_to && all(0 .< offsets.mean .< offsets.worst .< 1)
+        @test fails(() -> cell_bands(placement, :edge_rato), :error_key, "edge_ratio")
         @test 0.9 < all_of_them["quality.mean"] < 1
         expected = estimate(placement)
         @test abs(expected.nodes / node_count(placement) - 1) < 0.1
