@@ -151,6 +151,7 @@ module pnpbs
     procedure :: rebalance => placement_rebalance
     procedure :: run => placement_run
     procedure :: dimension => placement_dimension
+    procedure :: sphere_radius => placement_sphere_radius
     procedure :: count => placement_count
     procedure :: get_nodes => placement_get_nodes
     procedure :: get_normals => placement_get_normals
@@ -1506,9 +1507,10 @@ contains
   end subroutine
 
   !> Sets the spacing to values on a rectangular grid, which are copied. It is linear in each
-  !> direction between grid points and constant beyond the grid's edge. Collective.
-  !>   origin  (dim) the first grid point
-  !>   step    (dim) > 0, distance between grid points
+  !> direction between grid points and constant beyond the grid's edge. On a sphere the grid has two
+  !> directions, longitude and latitude in degrees; columns all around are joined. Collective.
+  !>   origin  (dim), on a sphere (2): the first grid point
+  !>   step    (dim), on a sphere (2): > 0, distance between grid points
   !>   values  (nx, ny), in space (nx, ny, nz)
   subroutine placement_set_spacing_grid(self, origin, step, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1546,7 +1548,11 @@ contains
     integer, intent(in) :: origins, steps, rank_of_values
     type(arguments), intent(inout) :: given
     integer :: dim
+    real(c_double) :: radius
     dim = dimension_of(self, given)
+    if (c_placement_sphere_radius(self%c, radius) == PNPBS_OK) then
+      if (radius > 0) dim = 2
+    end if
     call given%check_rank('values', rank_of_values, dim)
     call given%check_rows('origin', origins, rank_of_values)
     call given%check_rows('step', steps, rank_of_values)
@@ -1827,6 +1833,17 @@ contains
     character(len=*), intent(inout), optional :: errmsg
     dim = 0
     call conclude('placement%dimension', c_placement_dimension(self%c, dim), stat, errmsg)
+  end subroutine
+
+  !> Returns the radius of the sphere that the placement's nodes lie on. Local.
+  !>   radius  0: its domain is not on a sphere
+  subroutine placement_sphere_radius(self, radius, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(out) :: radius
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    radius = 0
+    call conclude('placement%sphere_radius', c_placement_sphere_radius(self%c, radius), stat, errmsg)
   end subroutine
 
   !> Returns the number of nodes of this rank. Local.

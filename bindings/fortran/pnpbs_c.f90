@@ -866,6 +866,15 @@ module pnpbs_c
       integer(c_int) :: c_placement_dimension
     end function
 
+    function c_placement_sphere_radius(placement, radius) bind(C, &
+      name="pnpbs_placement_sphere_radius")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      real(c_double), intent(out) :: radius
+      integer(c_int) :: c_placement_sphere_radius
+    end function
+
     function c_placement_count(placement, nodes) bind(C, name="pnpbs_placement_count")
       import
       implicit none

@@ -241,7 +241,7 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on a
  *  sphere yet: conserved integrals, particles and offsets, arcs, parametric curves,
  *  graphs, holes of a whole sphere, files of curves other than those of geographic shapes, segments
- *  of the domain, and spacing given on grids, meshes or points. Local.
+ *  of the domain, and spacing given on meshes or at points. Local.
  *  @param[in] radius   > 0
  *  @param[in] outside  [3], any length but 0: its direction counts */
 PNPBS_API pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,
@@ -650,12 +650,17 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement plac
 /** Sets the spacing to values on a rectangular grid, which are copied. It is linear in each
  *  direction between grid points and constant beyond the grid's edge; nodes farther than d and half
  *  a step from the grid cause a warning (pnpbs_placement_get_warning). In a direction with one grid
- *  point the value holds everywhere. Collective. Checks the domain first. Errors:
- *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a grid that does
- *  not meet the domain's bounding box; PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
- *  @param[in] size    [dim] number of grid points in each direction, >= 1
- *  @param[in] origin  [dim] the first grid point
- *  @param[in] step    [dim] > 0, distance between grid points
+ *  point the value holds everywhere. On a sphere the grid has two directions, longitude and
+ *  latitude in degrees. Longitudes 360 degrees apart are the same: columns all around the sphere
+ *  are joined, with or without the first one again at the end. A pole that is a step or less from
+ *  the grid has the mean of the row beside it. Collective. Checks the domain first. Errors:
+ *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and in the plane and in
+ *  space for a grid that does not meet the domain's bounding box; PNPBS_ERROR_ARGUMENT for a step
+ *  that is not positive, and on a sphere for longitudes over more than 360 degrees and latitudes
+ *  beyond a pole; PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
+ *  @param[in] size    [dim], on a sphere [2]: number of grid points in each direction, >= 1
+ *  @param[in] origin  [dim], on a sphere [2]: the first grid point
+ *  @param[in] step    [dim], on a sphere [2]: > 0, distance between grid points
  *  @param[in] values  [size[1]][size[0]], in space [size[2]][size[1]][size[0]] (x fastest) */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement,
                                                         const int64_t *size, const double *origin,
@@ -826,6 +831,10 @@ PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 /** Returns the dimension of the placement's domain. Local.
  *  @param[out] dim  2: in the plane, 3: in space and on a sphere */
 PNPBS_API pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t *dim);
+
+/** Returns the radius of the sphere that the placement's nodes lie on. Local.
+ *  @param[out] radius  0: its domain is not on a sphere */
+PNPBS_API pnpbs_status pnpbs_placement_sphere_radius(pnpbs_placement placement, double *radius);
 
 /** Returns the number of nodes of this rank. Local. */
 PNPBS_API pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t *nodes);

@@ -73,6 +73,15 @@ pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t* dim) 
   });
 }
 
+pnpbs_status pnpbs_placement_sphere_radius(pnpbs_placement placement, double* radius) {
+  return guarded(placement, [&](PlacementObject& object) {
+    require_pointer(radius, "radius");
+    const StereographicChart* chart = object.placement->chart();
+    *radius = chart ? chart->radius() : 0;
+    return PNPBS_OK;
+  });
+}
+
 pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t* nodes) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(nodes, "nodes");

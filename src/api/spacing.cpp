@@ -2,8 +2,8 @@
 // The spacing of a placement, set through the C interface.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "api/given_grid.hpp"
 #include "api/placement_calls.hpp"
 #include "api/spacing_callback.hpp"
 #include "api/sphere_points.hpp"
@@ -48,40 +48,6 @@ std::shared_ptr<const Spacing<Dim>> local_spacing(const PlacementOf<Dim>& in, co
 
 void require_spacing(double d, const std::string& what) {
   require_spacing_value("argument " + what, d);
-}
-
-// "[y][x]" of the i-th value on a grid, the direction that varies fastest last.
-template <int Dim>
-std::string grid_index(std::int64_t i, const std::int64_t* size) {
-  std::string text;
-  for (int k = 0; k < Dim; ++k) {
-    text.insert(0, "[" + std::to_string(i % size[k]) + "]");
-    i /= size[k];
-  }
-  return text;
-}
-
-// The number of values of a grid.
-template <int Dim>
-std::int64_t check_grid(const std::int64_t* size, const double* origin, const double* step) {
-  constexpr std::int64_t kMax = std::int64_t{1} << 31;
-  std::int64_t n = 1;
-  for (int k = 0; k < Dim; ++k) {
-    const std::string at = "[" + std::to_string(k) + "] = ";
-    if (size[k] < 1 || size[k] > kMax)
-      throw Error(ErrorKind::argument,
-                  "argument size" + at + std::to_string(size[k]) + " must be in 1 .. 2^31");
-    if (!std::isfinite(origin[k]))
-      throw Error(ErrorKind::argument,
-                  "argument origin" + at + number_text(origin[k]) + " must be finite");
-    if (!std::isfinite(step[k]) || step[k] <= 0)
-      throw Error(ErrorKind::argument,
-                  "argument step" + at + number_text(step[k]) + " must be greater than 0");
-    if (n > std::numeric_limits<std::int64_t>::max() / size[k])
-      throw Error(ErrorKind::argument, "argument size: more values than can be counted");
-    n *= size[k];
-  }
-  return n;
 }
 
 template <int Dim>
@@ -187,25 +153,17 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
                                               const double* origin, const double* step,
                                               const double* values) {
   return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
-    require_no_sphere(in.chart(), "placement", "grids give the spacing");
-    require_pointer(size, "size");
-    require_pointer(origin, "origin");
-    require_pointer(step, "step");
-    require_pointer(values, "values");
-    const std::int64_t n = check_grid<Dim>(size, origin, step);
-    for (std::int64_t i = 0; i < n; ++i)
-      if (!std::isfinite(values[i]) || values[i] <= 0)
-        require_spacing(values[i], "values" + grid_index<Dim>(i, size));
-    std::array<std::int64_t, Dim> counts;
-    Point<Dim> from, by;
-    std::copy_n(size, Dim, counts.begin());
-    std::copy_n(origin, Dim, from.begin());
-    std::copy_n(step, Dim, by.begin());
-    const auto spacing = std::make_shared<GridSpacing<Dim>>(
-        counts, from, by, std::vector<double>(values, values + n));
+    const GivenGrid grid{size, origin, step, values};
+    std::shared_ptr<const Spacing<Dim>> spacing;
+    if constexpr (Dim == 2)
+      if (const StereographicChart* chart = in.chart())
+        spacing =
+            std::make_shared<SphereSpacing>(spacing_on_sphere_grid(grid, chart->radius()), *chart);
+    if (!spacing) spacing = spacing_on_grid<Dim>(grid);
     in.domain().check();
-    require_meeting_boxes<Dim>("arguments size, origin and step", spacing->extent()->box,
-                               in.domain().bounds());
+    if (!in.chart())
+      require_meeting_boxes<Dim>("arguments size, origin and step", spacing->extent()->box,
+                                 in.domain().bounds());
     return spacing;
   });
 }

@@ -50,6 +50,16 @@ std::string warning_of_coarse_spacing(const Level<3>& level, const VolumeDomain&
          three_digits(kRight * side) + " or less";
 }
 
+// ". The grid reaches from ... to ..."
+template <int Dim>
+std::string reach_text(const GivenExtent<Dim>& extent, const Domain<Dim>& domain) {
+  const std::string begin = std::string(". The ") + extent.name + " reaches ";
+  if (chart_of(domain)) return extent.on_sphere.empty() ? "" : begin + extent.on_sphere;
+  const Box<Dim>& bounds = domain.bounds();
+  return begin + extent_text<Dim>(extent.box, bounds) + ", the domain " +
+         extent_text<Dim>(bounds, bounds);
+}
+
 // Nodes that are farther than d from where the spacing is given: those between a curved boundary
 // and a mesh whose edges cut its corners are not. Collective.
 template <int Dim>
@@ -80,13 +90,11 @@ std::string warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>
   beyond = over_ranks(comm, beyond);
   const std::uint64_t all = comm.allreduce_sum(static_cast<std::uint64_t>(level.owned_count()));
   if (beyond.count == 0) return "";
-  const Box<Dim>& bounds = domain.bounds();
   const std::string name = extent->name;
   return "the " + name + " of the spacing covers only a part of the domain: of " +
          std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
          " are farther than d from it, one of them at " + rounded_point_text<Dim>(beyond.at) +
-         "; there " + extent->beyond + ". The " + name + " reaches " +
-         extent_text<Dim>(extent->box, bounds) + ", the domain " + extent_text<Dim>(bounds, bounds);
+         "; there " + extent->beyond + reach_text(*extent, domain);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/types.hpp"
@@ -36,6 +37,8 @@ struct GivenExtent {
   const char* name;
   const char* beyond;
   Box<Dim> box;  // around it; infinite where it has no end
+  // In words, on a sphere, which has no box: "from latitude 0 to latitude 60", or nothing.
+  std::string on_sphere = {};
 };
 
 // As a placement asks for it. Values may be with other ranks: who asks on one rank alone takes a

@@ -423,6 +423,7 @@ START_TEST(getting_nodes) {
   snprintf(need, sizeof need, "%lld", (long long)n);
   REFUSE(ARGUMENT, "nodes", "NULL", pnpbs_placement_count(p, NULL));
   REFUSE(ARGUMENT, "dim", "NULL", pnpbs_placement_dimension(p, NULL));
+  REFUSE(ARGUMENT, "radius", "NULL", pnpbs_placement_sphere_radius(p, NULL));
   REFUSE(CAPACITY, "capacity = 3", need,
          pnpbs_placement_get_nodes(p, 3, out.reals, out.integers + 20, NULL, NULL));
   REFUSE(CAPACITY, "capacity = 0", need,

@@ -121,6 +121,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_rebalance, (handle))                                                                \
   X(placement_run, (handle))                                                                      \
   X(placement_dimension, (handle, out.small + 2))                                                 \
+  X(placement_sphere_radius, (handle, out.reals + 1))                                             \
   X(placement_count, (handle, out.integers + 1))                                                  \
   X(placement_get_nodes,                                                                          \
     (handle, 1, out.reals + 1, out.integers + 3, out.small + 8, out.reals + 5))                   \

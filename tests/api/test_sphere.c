@@ -101,7 +101,7 @@ static int32_t slope_spacing(int64_t n, int32_t dim, const double* x, double* d,
 START_TEST(nodes_fill_what_coasts_bound) {
   job it = sea_job();
   const double whole = 2 * PI * R * R * (1 + sin(70 * PI / 180));
-  double measure, low[3], high[3];
+  double measure, radius, low[3], high[3];
   int32_t dim;
   int64_t i, edges;
   results r;
@@ -117,6 +117,8 @@ START_TEST(nodes_fill_what_coasts_bound) {
   MUST(pnpbs_placement_check(it.placement));
   MUST(pnpbs_placement_dimension(it.placement, &dim));
   ck_assert_int_eq(dim, 3);
+  MUST(pnpbs_placement_sphere_radius(it.placement, &radius));
+  ck_assert(radius == R);
   r = results_of(it.placement);
   for (i = 0; i < r.nodes; ++i) {
     const double* x = r.x + 3 * i;
@@ -627,6 +629,15 @@ START_TEST(what_whole_spheres_refuse) {
 }
 END_TEST
 
+START_TEST(what_is_no_sphere_has_no_radius) {
+  job it = square_job(1);
+  double radius = 1;
+  MUST(pnpbs_placement_sphere_radius(it.placement, &radius));
+  ck_assert(radius == 0);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(bad_input) {
   job it = sea_job();
   pnpbs_domain domain;
@@ -681,6 +692,7 @@ int main(void) {
   tcase_add_test(tests, whole_spheres_have_curves_beside_what_is_laid_first);
   tcase_add_test(tests, whole_spheres_have_coarser_levels);
   tcase_add_test(tests, what_whole_spheres_refuse);
+  tcase_add_test(tests, what_is_no_sphere_has_no_radius);
   tcase_add_test(tests, bad_input);
   tcase_set_timeout(tests, 0);
   suite_add_tcase(suite, tests);

@@ -402,8 +402,8 @@ contains
   subroutine about_a_sphere
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
-    real(c_double) :: places(2, 180), found(2, 180), ring(3, 180), area
-    real(c_double), allocatable :: x(:,:)
+    real(c_double) :: places(2, 180), found(2, 180), ring(3, 180), area, radius
+    real(c_double), allocatable :: x(:,:), d(:)
     integer(c_int64_t), allocatable :: triangles(:,:)
     integer(c_int64_t) :: nodes, count, edges, t
     integer(c_int32_t) :: dim
@@ -420,6 +420,8 @@ contains
     call domain%measure(area)
     call expect(abs(area - 2 * pi * (1 + sin(70 * pi / 180))) < 1d-3, 'area on a sphere')
     call placement%create(context, domain)
+    call placement%sphere_radius(radius)
+    call expect(radius == 1, 'radius of the sphere of nodes')
     call placement%set_spacing_constant(0.1d0)
     call placement%run(stat)
     call expect(stat == PNPBS_OK, 'nodes on a sphere')
@@ -435,6 +437,20 @@ contains
     ! Sides inside belong to two triangles, those of the boundary to one: twice V - E + F.
     call expect(2 * nodes - (3 * count + edges) + 2 * count == 2, &
                 'triangles of a sphere with one hole')
+    ! Longitudes and latitudes.
+    call placement%set_spacing_grid([-135d0, -90d0], [90d0, 90d0], &
+                                    spread([0.1d0, 0.12d0, 0.14d0], 1, 4))
+    call placement%run(stat)
+    call expect(stat == PNPBS_OK, 'nodes by a grid on a sphere')
+    call placement%count(nodes)
+    deallocate (x)
+    allocate (x(3, nodes), d(nodes))
+    call placement%get_nodes(x, spacing=d)
+    call expect(maxval(abs(d - (0.12d0 + 0.02d0 * asin(x(3, :)) / (pi / 2)))) < 1d-12, &
+                'd by a grid on a sphere')
+    call placement%set_spacing_grid([0d0, 0d0, 0d0], [1d0, 1d0, 1d0], reshape([0.1d0], [1, 1, 1]), &
+                                    stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'values')
     call placement%destroy
     call domain%destroy
   end subroutine

@@ -434,6 +434,7 @@ class Domains(Case):
         self.assertAlmostEqual(domain.measure(), 2 * np.pi * (1 + np.sin(np.radians(70))), 3)
         placement = pnpbs.Placement(domain).set_spacing(0.1)
         domain.close()
+        self.assertEqual((placement.dim, placement.sphere_radius), (3, 1))
         self.assertEqual(placement.run(), Status.OK)
         points, triangles = placement.nodes().points, placement.triangles()
         self.assertEqual(points.shape, (placement.node_count, 3))
@@ -449,6 +450,23 @@ class Domains(Case):
         mesh = placement.mesh()
         self.assertEqual((mesh.dim, mesh.elements.shape), (3, triangles.shape))
         self.assertEqual(mesh.facets.shape, edges.shape)
+
+    def test_grids_on_a_sphere(self):
+        """Longitude and latitude in degrees; the first index goes along longitudes."""
+        sphere = pnpbs.Domain.on_sphere(self.context, 1, (0, 1, 1))
+        lon, lat = np.meshgrid(np.arange(-180, 180, 10), np.arange(-85, 90, 10), indexing="ij")
+        d = 0.1 + 0.03 * np.cos(np.radians(lat)) * np.sin(np.radians(lon))
+        placement = pnpbs.Placement(sphere).set_spacing(d, origin=(-180, -85), step=(10, 10))
+        placement.run()
+        nodes = placement.nodes()
+        expected = 0.1 + 0.03 * nodes.points[:, 1]
+        np.testing.assert_allclose(nodes.spacing, expected, atol=2 * 0.03 * np.radians(10)**2 / 8)
+        self.assertGreater(np.ptp(nodes.spacing), 0.055)
+        self.assertEqual([w for w in placement.warnings() if "covers only" in w], [])
+        with self.assertRaisesRegex(ValueError, "2 dimensions"):
+            placement.set_spacing(d[:, :, None], origin=(0, 0, 0), step=(1, 1, 1))
+        with self.assertRaisesRegex(PNPBSError, "latitude from -90"):
+            placement.set_spacing(d, origin=(0, -95), step=(10, 10))
 
     def test_wrong_arguments_on_a_sphere(self):
         def refusal(function, *arguments):

@@ -142,6 +142,7 @@ pnpbs_status pnpbs_placement_adjust_population(pnpbs_placement placement, int64_
 pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
 pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t *dim);
+pnpbs_status pnpbs_placement_sphere_radius(pnpbs_placement placement, double *radius);
 pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t *nodes);
 pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
     double *coordinates, int64_t *ids, int32_t *tags, double *spacing);

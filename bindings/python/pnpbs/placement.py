@@ -104,7 +104,8 @@ class Placement(Results, Fields, Meshes, Tessellation):
           progress.
         - An array of `dim` dimensions with `origin` and `step`: values on a rectangular grid whose
           first point is `origin`, with distances `step`; the first index goes along x. Linear
-          between grid points, constant beyond the grid's edge.
+          between grid points, constant beyond the grid's edge. On a sphere the grid has two
+          dimensions, longitude and latitude in degrees; columns all around are joined.
         - An array of one dimension: values at the nodes of this rank, in the order of `nodes`;
           linear on each triangle or tetrahedron of their triangulation."""
         callback = None
@@ -190,15 +191,17 @@ class Placement(Results, Fields, Meshes, Tessellation):
 
     def _set_spacing_grid(self, d: ArrayLike, origin: Optional[ArrayLike],
                           step: Optional[ArrayLike]) -> None:
-        dim = self.dim
-        if np.ndim(d) != dim:
-            raise ValueError(f"d has shape {np.shape(d)}; an array of {dim} dimensions was expected")
+        directions = 2 if self.sphere_radius > 0 else self.dim
+        if np.ndim(d) != directions:
+            raise ValueError(f"d has shape {np.shape(d)}; an array of {directions} dimensions was "
+                             "expected")
         if origin is None or step is None:
             raise ValueError("values on a grid take both an origin and a step")
         # The library's first index runs fastest.
         values = np.ascontiguousarray(np.asarray(d, np.float64).T)
         self._call("set_spacing_grid", np.array(np.shape(d), np.int64),
-                   as_point(origin, dim, "origin"), as_point(step, dim, "step"), values)
+                   as_point(origin, directions, "origin"), as_point(step, directions, "step"),
+                   values)
 
     def set_monitor(self, monitor: Optional[Monitor]) -> Placement:
         """Calls `monitor(fraction, step, nodes, max_speed)` from time to time during a run. While

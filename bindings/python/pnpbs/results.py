@@ -111,6 +111,11 @@ class Results(PlacementHandle):
         return int(self._number("dimension", ctypes.c_int32))
 
     @property
+    def sphere_radius(self) -> float:
+        """The radius of the sphere that the nodes lie on; 0 if the domain is not on one. Local."""
+        return float(self._number("sphere_radius", ctypes.c_double))
+
+    @property
     def node_count(self) -> int:
         """The number of nodes of this rank. Local."""
         return int(self._number("count", ctypes.c_int64))

@@ -393,6 +393,10 @@ pnpbs_placement_dimension(placement, dim) =
     @ccall $(symbol(:pnpbs_placement_dimension))(
         placement::pnpbs_placement, dim::Ptr{Int32})::pnpbs_status
 
+pnpbs_placement_sphere_radius(placement, radius) =
+    @ccall $(symbol(:pnpbs_placement_sphere_radius))(
+        placement::pnpbs_placement, radius::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_placement_count(placement, nodes) =
     @ccall $(symbol(:pnpbs_placement_count))(
         placement::pnpbs_placement, nodes::Ptr{Int64})::pnpbs_status

@@ -31,7 +31,7 @@ export set_spacing_mesh!, set_spacing_points!, set_spacing_file!
 export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_region!, add_fixed_nodes!
 export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!
 export add_offset!
-export sphere_domain, sphere_points, sphere_degrees
+export sphere_domain, sphere_points, sphere_degrees, sphere_radius
 export set_filled!, set_repair!
 export set_corner_angle!, simplify!, simplify_by_file!
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names

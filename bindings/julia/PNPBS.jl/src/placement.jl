@@ -53,6 +53,17 @@ function Base.ndims(placement::Placement)
     return Int(dim[])
 end
 
+"""
+    sphere_radius(placement)
+
+Returns the radius of the sphere that the nodes lie on; 0 if the domain is not on one. Local.
+"""
+function sphere_radius(placement::Placement)
+    radius = Ref{Float64}(0)
+    check(placement, LibPNPBS.pnpbs_placement_sphere_radius(live(placement), radius))
+    return radius[]
+end
+
 function Base.show(io::IO, placement::Placement)
     what = isopen(placement) ? "$(node_count(placement)) nodes here" : "closed"
     print(io, "PNPBS.Placement(", what, ")")
@@ -93,7 +104,8 @@ Collective.
   y)` or, in space, `f(x, y, z)`, and returns a number.
 - A matrix, in space an array of three dimensions: values on a rectangular grid whose first point is
   `origin`, with distances `step`; the first index goes along x. Linear between grid points,
-  constant beyond the grid's edge.
+  constant beyond the grid's edge. On a sphere a matrix: longitude and latitude in degrees; columns
+  all around are joined.
 - A vector: values at the nodes of this rank, in the order of [`nodes`](@ref); linear on each
   triangle or tetrahedron of their triangulation.
 
@@ -122,13 +134,13 @@ function set_spacing!(f, placement::Placement; per_point::Bool = false)
 end
 
 function set_spacing!(placement::Placement, values::AbstractArray{<:Real}; origin, step)
-    dim = ndims(placement)
-    ndims(values) == dim || throw(DimensionMismatch(
-        "values has size $(size(values)); an array of $dim dimensions was expected"))
+    directions = sphere_radius(placement) > 0 ? 2 : ndims(placement)
+    ndims(values) == directions || throw(DimensionMismatch(
+        "values has size $(size(values)); an array of $directions dimensions was expected"))
     check(placement,
           LibPNPBS.pnpbs_placement_set_spacing_grid(live(placement), Int64[size(values)...],
-                                                    as_point(origin, dim, "origin"),
-                                                    as_point(step, dim, "step"),
+                                                    as_point(origin, directions, "origin"),
+                                                    as_point(step, directions, "step"),
                                                     convert(Array{Float64}, values)))
     return keep_spacing!(placement, nothing)
 end

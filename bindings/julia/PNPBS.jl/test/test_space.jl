@@ -309,6 +309,7 @@ end
         @test measure(domain) ≈ 2pi * (1 + sind(70)) rtol = 1e-4
         placement = set_spacing!(Placement(domain), 0.1)
         close(domain)
+        @test sphere_radius(placement) == 1
         @test run!(placement) === :ok
         points, corners = nodes(placement).points, triangles(placement)
         @test size(points) == (3, node_count(placement))
@@ -321,5 +322,13 @@ end
         @test 3 * size(corners, 2) == 2 * length(edges) - size(on_boundary.edges, 2)
         @test thrown(() -> PNPBS.picture(placement, :triangles)) isa ArgumentError
         @test sum(VoronoiCells(placement).volumes) ≈ 2pi * (1 + sind(70)) rtol = 1e-2
+        # A grid of longitudes and latitudes.
+        d = [0.12 + 0.02 * latitude for longitude in 1:4, latitude in -1:1]
+        set_spacing!(placement, d; origin = (-135, -90), step = (90, 90))
+        @test run!(placement) === :ok
+        found = nodes(placement)
+        @test found.spacing ≈ 0.12 .+ 0.02 .* asin.(found.points[3, :]) ./ (pi / 2) rtol = 1e-12
+        @test thrown(() -> set_spacing!(placement, zeros(1, 1, 1); origin = (0, 0, 0),
+                                        step = (1, 1, 1))) isa DimensionMismatch
     end
 end
