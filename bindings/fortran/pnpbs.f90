@@ -1547,13 +1547,9 @@ contains
     class(pnpbs_placement), intent(in) :: self
     integer, intent(in) :: origins, steps, rank_of_values
     type(arguments), intent(inout) :: given
-    integer :: dim
-    real(c_double) :: radius
-    dim = dimension_of(self, given)
-    if (c_placement_sphere_radius(self%c, radius) == PNPBS_OK) then
-      if (radius > 0) dim = 2
-    end if
-    call given%check_rank('values', rank_of_values, dim)
+    integer :: extent
+    extent = extent_of_elements(self, given)
+    call given%check_rank('values', rank_of_values, extent)
     call given%check_rows('origin', origins, rank_of_values)
     call given%check_rows('step', steps, rank_of_values)
   end subroutine
@@ -1561,12 +1557,13 @@ contains
   !> Sets the spacing to values at the nodes of a background mesh, which are copied. It is linear on
   !> each triangle, in space on each tetrahedron, and beyond the mesh equal to the value at the
   !> nearest point of the mesh. Collective; every rank passes and stores the same arrays. Checks the
-  !> domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and
-  !> for a mesh whose bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node
-  !> number out of range, a flat element, or arrays that differ between ranks.
+  !> domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and,
+  !> but for spheres, for a mesh whose bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT
+  !> for a node number out of range, a flat element, or arrays that differ between ranks.
   !>   coordinates  (dim, n)
   !>   d            (n)
-  !>   corners      (dim + 1, elements) node numbers, counted from 1, in either orientation
+  !>   corners      (dim + 1, elements), on a sphere (3, elements): node numbers, counted from 1, in
+  !>                either orientation
   subroutine placement_set_spacing_mesh(self, coordinates, d, corners, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:), d(:)
@@ -1575,9 +1572,11 @@ contains
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
     integer(c_int64_t) :: n, elements
+    integer :: extent
     integer(c_int) :: status
     call check_field(self, coordinates, d, given)
-    call given%check_rows('corners', size(corners, 1), size(coordinates, 1) + 1)
+    extent = extent_of_elements(self, given)
+    call given%check_rows('corners', size(corners, 1), extent + 1)
     n = given%capacity(size(d, kind=c_int64_t))
     elements = size(corners, 2, kind=c_int64_t)
     status = c_placement_set_spacing_mesh(self%c, n, coordinates, d, elements, corners - 1)
@@ -1586,11 +1585,11 @@ contains
 
   !> Sets the spacing to values at scattered points, which are copied. It equals the given value at
   !> each point and elsewhere a plane fitted to the 8 (in space 16) nearest points by weighted least
-  !> squares, bounded by the smallest and largest of their values. Collective; every rank passes and
-  !> stores the same arrays. Checks the domain first. Errors: PNPBS_ERROR_SPACING for a value that
-  !> is zero, negative or not finite, for coincident points with different values, and for points
-  !> whose bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT for arrays that differ
-  !> between ranks.
+  !> squares, bounded by the smallest and largest of their values; on a sphere, with ways along it.
+  !> Collective; every rank passes and stores the same arrays. Checks the domain first. Errors:
+  !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for coincident points with
+  !> different values, and, but for spheres, for points whose bounding box does not meet the
+  !> domain's; PNPBS_ERROR_ARGUMENT for arrays that differ between ranks.
   !>   coordinates  (dim, n)
   !>   d            (n)
   subroutine placement_set_spacing_points(self, coordinates, d, stat, errmsg)
@@ -1609,8 +1608,8 @@ contains
   !> Sets the spacing to values at points from a file, by its extension: .vtu (VTK's unstructured
   !> grid), .msh (Gmsh's, with $NodeData) or .csv (columns x, y, (z) and others). Triangles and
   !> quadrangles, in space tetrahedra, form a mesh as in set_spacing_mesh; without any, the points
-  !> are used as in set_spacing_points. In the plane z is ignored. Collective; every rank reads the
-  !> file. Errors: PNPBS_ERROR_FILE, and as these two.
+  !> are used as in set_spacing_points. In the plane z is ignored; on a sphere elements are as in the
+  !> plane. Collective; every rank reads the file. Errors: PNPBS_ERROR_FILE, and as these two.
   !>   path   trailing blanks are ignored
   !>   field  optional: its name in the file; default: the only one, or the one called "spacing"
   subroutine placement_set_spacing_file(self, path, field, stat, errmsg)
@@ -3765,6 +3764,17 @@ contains
     end select
     if (status < 0) call given%refuse(status, pnpbs_last_error())
     dim = found
+  end function
+
+  ! 2 for triangles, also on a sphere.
+  function extent_of_elements(placement, given) result(extent)
+    class(pnpbs_placement), intent(in) :: placement
+    type(arguments), intent(inout) :: given
+    integer :: extent
+    real(c_double) :: radius
+    extent = dimension_of(placement, given)
+    if (c_placement_sphere_radius(placement%c, radius) /= PNPBS_OK) return
+    if (radius > 0) extent = 2
   end function
 
   ! 0 if the placement is dead, which the call that follows finds, too.

@@ -240,8 +240,8 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
  *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on a
  *  sphere yet: conserved integrals, particles and offsets, arcs, parametric curves,
- *  graphs, holes of a whole sphere, files of curves other than those of geographic shapes, segments
- *  of the domain, and spacing given on meshes or at points. Local.
+ *  graphs, holes of a whole sphere, files of curves other than those of geographic shapes, and
+ *  segments of the domain. Local.
  *  @param[in] radius   > 0
  *  @param[in] outside  [3], any length but 0: its direction counts */
 PNPBS_API pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,
@@ -670,17 +670,19 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placemen
  *  each triangle, in space on each tetrahedron, and beyond the mesh equal to the value at the
  *  nearest point of the mesh; nodes farther than d from the mesh cause a warning
  *  (pnpbs_placement_get_warning). Elements may overlap (the one with the lowest node numbers is
- *  used) and need not share whole sides. Growth is limited as for any spacing (option
- *  growth_limit). Collective; every rank passes and stores the same arrays. Checks the domain
- *  first. Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a
- *  mesh whose bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node number out
- *  of range, a flat element, or arrays that differ between ranks; PNPBS_ERROR_DOMAIN as in
- *  pnpbs_domain_check.
+ *  used) and need not share whole sides. On a sphere they are triangles, of the whole sphere or of
+ *  a part; d at a point of the sphere is that of the plane triangle on the ray to it from the
+ *  origin. Growth is limited as for any spacing (option growth_limit). Collective; every rank
+ *  passes and stores the same arrays. Checks the domain first. Errors: PNPBS_ERROR_SPACING for a
+ *  value that is zero, negative or not finite, and in the plane and in space for a mesh whose
+ *  bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node number out of range, a
+ *  flat element, or arrays that differ between ranks; PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
  *  @param[in] n            number of nodes of the mesh, below 2^31
  *  @param[in] coordinates  [n][dim]
  *  @param[in] d            [n]
  *  @param[in] elements     number of triangles or tetrahedra, >= 1
- *  @param[in] corners      [elements][dim + 1] 0-based node numbers, in either orientation */
+ *  @param[in] corners      [elements][dim + 1], on a sphere [elements][3]: 0-based node numbers, in
+ *                          either orientation */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placement, int64_t n,
                                                         const double *coordinates, const double *d,
                                                         int64_t elements, const int64_t *corners);
@@ -691,10 +693,12 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placemen
  *  between the points; far from all of them d is close to the values of the nearest, and nodes far
  *  beyond the points' bounding box cause a warning. The weights are (1/r - 1/R)^2, with r the
  *  distance of a point and R that of the nearest unused one, so d is continuous (R. Franke, G.
- *  Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). The order of the points has no
- *  effect. Collective; every rank passes and stores the same arrays. Checks the domain first.
- *  Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for coincident
- *  points with different values, and for points whose bounding box does not meet the domain's;
+ *  Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). On a sphere the plane is fitted to 8
+ *  points in the azimuthal equidistant projection about each place, and nodes far beyond a cap that
+ *  holds all points cause the warning. The order of the points has no effect. Collective; every
+ *  rank passes and stores the same arrays. Checks the domain first. Errors: PNPBS_ERROR_SPACING for
+ *  a value that is zero, negative or not finite, for coincident points with different values, and
+ *  in the plane and in space for points whose bounding box does not meet the domain's;
  *  PNPBS_ERROR_ARGUMENT for arrays that differ between ranks; PNPBS_ERROR_DOMAIN as in
  *  pnpbs_domain_check.
  *  @param[in] n            number of points, 1 .. 2^31 - 1
@@ -711,10 +715,10 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placem
  *    .csv   a header with columns x, y, (z) and others, and one point per line
  *  Triangles and quadrangles, in space tetrahedra, form a mesh as in
  *  pnpbs_placement_set_spacing_mesh; without any, the points are used as in
- *  pnpbs_placement_set_spacing_points. In the plane z is ignored. Collective; every rank reads the
- *  file. Errors: PNPBS_ERROR_FILE for a file that cannot be read, has another format or other
- *  elements, and for a missing field (the message lists the fields in the file); those of the two
- *  functions above.
+ *  pnpbs_placement_set_spacing_points. In the plane z is ignored; on a sphere points are x, y, z,
+ *  and elements as in the plane. Collective; every rank reads the file. Errors: PNPBS_ERROR_FILE
+ *  for a file that cannot be read, has another format or other elements, and for a missing field
+ *  (the message lists the fields in the file); those of the two functions above.
  *  @param[in] path   the file
  *  @param[in] field  its name in the file; NULL or "": the only one, or the one called "spacing" */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement, const char *path,

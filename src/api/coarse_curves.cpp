@@ -41,12 +41,20 @@ pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing
 pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char* path, const char* field,
                                            double tolerance, double smallest, int64_t* vertices,
                                            int64_t* curves) {
-  return change_plane(domain, [&](PlaneDomain& plane) {
+  return change_domain(domain, [&](DomainObject& object) {
     require_pointer(path, "path");
-    GivenField<2> values = read_field<2>(path, field ? field : "");
-    plane.check();
-    const std::shared_ptr<const LocalSpacing<2>> spacing =
-        spacing_from_field(std::move(values), plane.bounds());
-    simplify_by(plane, *spacing, {tolerance, smallest}, vertices, curves);
+    const std::string name = field ? field : "";
+    const SimplifyRule rule{tolerance, smallest};
+    std::shared_ptr<const LocalSpacing<2>> spacing;
+    if (const StereographicChart* chart = sphere_of(object)) {
+      spacing = spacing_from_field(read_field<SphereField>(path, name), *chart);
+      simplify_by(*object.plane, *spacing, rule, vertices, curves);
+    } else {
+      PlaneDomain& plane = plane_of(object);
+      auto values = read_field<GivenField<2>>(path, name);
+      plane.check();
+      spacing = spacing_from_field(std::move(values), plane.bounds());
+      simplify_by(plane, *spacing, rule, vertices, curves);
+    }
   });
 }

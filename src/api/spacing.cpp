@@ -50,53 +50,59 @@ void require_spacing(double d, const std::string& what) {
   require_spacing_value("argument " + what, d);
 }
 
-template <int Dim>
-GivenField<Dim> field_from(std::int64_t n, const double* coordinates, const double* d) {
+template <class Field>
+Field field_from(std::int64_t n, const double* coordinates, const double* d) {
   given_values::require_count("n", n, 1);
   require_pointer(coordinates, "coordinates");
   require_pointer(d, "d");
-  GivenField<Dim> field;
+  Field field;
   field.points.resize(static_cast<std::size_t>(n));
   for (std::int64_t i = 0; i < n; ++i)
-    std::copy_n(coordinates + Dim * i, Dim, field.points[static_cast<std::size_t>(i)].begin());
+    std::copy_n(coordinates + Field::dim * i, Field::dim,
+                field.points[static_cast<std::size_t>(i)].begin());
   field.values.assign(d, d + n);
   return field;
 }
 
-template <int Dim>
-void add_elements(GivenField<Dim>& field, std::int64_t elements, const std::int64_t* corners) {
+template <class Field>
+void add_elements(Field& field, std::int64_t elements, const std::int64_t* corners) {
+  constexpr int kCorners = Field::corners;
   given_values::require_count("elements", elements, 1);
   require_pointer(corners, "corners");
   const auto nodes = static_cast<std::int64_t>(field.points.size());
   field.elements.resize(static_cast<std::size_t>(elements));
-  for (std::int64_t i = 0; i < elements * (Dim + 1); ++i) {
+  for (std::int64_t i = 0; i < elements * kCorners; ++i) {
     if (corners[i] < 0 || corners[i] >= nodes)
-      throw Error(ErrorKind::argument, "argument corners[" + std::to_string(i / (Dim + 1)) + "][" +
-                                           std::to_string(i % (Dim + 1)) +
+      throw Error(ErrorKind::argument, "argument corners[" + std::to_string(i / kCorners) + "][" +
+                                           std::to_string(i % kCorners) +
                                            "] = " + std::to_string(corners[i]) +
                                            " is not one of the " + std::to_string(nodes) +
                                            " nodes, 0 .. " + std::to_string(nodes - 1));
-    field.elements[static_cast<std::size_t>(i / (Dim + 1))]
-                  [static_cast<std::size_t>(i % (Dim + 1))] = static_cast<std::int32_t>(corners[i]);
+    field.elements[static_cast<std::size_t>(i / kCorners)][static_cast<std::size_t>(i % kCorners)] =
+        static_cast<std::int32_t>(corners[i]);
   }
 }
 
-// Collective: read(p) is the field that this rank gives, which all ranks must give.
+// Collective: read<Field>() is the field that this rank gives, which all ranks must give, of the
+// kind of the placement: GivenField in its dimension, or SphereField.
 template <class Read>
 pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
   return local_change(placement, [&](Placement& p) {
-    agreed(p.communicator(), [&] {
-      require_no_sphere(p.chart(), "placement", "meshes and points give the spacing");
-    });
     in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
       const Communicator& comm = p.communicator();
       std::shared_ptr<const Spacing<Dim>> spacing;
       std::uint64_t hash = 0;
-      agreed(comm, [&] {
-        GivenField<Dim> field = read(in);
+      const auto take = [&]<class Field>(const auto& where) {
+        Field field = read.template operator()<Field>();
         hash = hash_of(field);
         in.domain().check();
-        spacing = spacing_from_field(std::move(field), in.domain().bounds());
+        spacing = spacing_from_field(std::move(field), where());
+      };
+      agreed(comm, [&] {
+        if constexpr (Dim == 2)
+          if (const StereographicChart* chart = in.chart())
+            return take.template operator()<SphereField>([&] { return *chart; });
+        take.template operator()<GivenField<Dim>>([&] { return in.domain().bounds(); });
       });
       agreed(comm, [&] {
         if (!comm.same_on_all(hash))
@@ -114,8 +120,8 @@ pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
 pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placement, int64_t n,
                                               const double* coordinates, const double* d,
                                               int64_t elements, const int64_t* corners) {
-  return take_field(placement, [&]<int Dim>(PlacementOf<Dim>&) {
-    GivenField<Dim> field = field_from<Dim>(n, coordinates, d);
+  return take_field(placement, [&]<class Field>() {
+    auto field = field_from<Field>(n, coordinates, d);
     add_elements(field, elements, corners);
     return field;
   });
@@ -123,15 +129,14 @@ pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placement, int64_t
 
 pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placement, int64_t n,
                                                 const double* coordinates, const double* d) {
-  return take_field(placement,
-                    [&]<int Dim>(PlacementOf<Dim>&) { return field_from<Dim>(n, coordinates, d); });
+  return take_field(placement, [&]<class Field>() { return field_from<Field>(n, coordinates, d); });
 }
 
 pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement, const char* path,
                                               const char* field) {
-  return take_field(placement, [&]<int Dim>(PlacementOf<Dim>&) {
+  return take_field(placement, [&]<class Field>() {
     require_pointer(path, "path");
-    return read_field<Dim>(path, field ? field : "");
+    return read_field<Field>(path, field ? field : "");
   });
 }
 

@@ -62,6 +62,19 @@ class FromOtherSide : public Spacing<2> {
     for (std::size_t i = 0; i < u.size(); ++i) d[i] *= factor[i];
   }
 
+  KnownValues<2> known_values() const override {
+    KnownValues<2> known = spacing_.known_values();
+    const auto turn = [this](Point<2>& u, double& d) {
+      const Point<2> v = other_.in_chart(chart_.on_sphere(u));
+      d *= other_.stretch(v) / chart_.stretch(u);
+      u = v;
+    };
+    for (GrowthSource<2>& value : known.values) turn(value.x, value.d);
+    for (GrowthSource<2>& value : known.in_domain) turn(value.x, value.d);
+    for (auto& slope : known.slopes) turn(slope.at, slope.d);
+    return known;
+  }
+
  private:
   Point<2> not_too_near(const Point<2>& v) const {
     const double r = std::hypot(v[0], v[1]);

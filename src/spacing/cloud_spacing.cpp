@@ -10,8 +10,11 @@
 #include "base/cholesky.hpp"
 #include "base/error.hpp"
 #include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
 #include "base/started_execution.hpp"
 #include "domain/given_values.hpp"
+#include "sphere/degrees.hpp"
+#include "sphere/great_circle.hpp"
 
 namespace pnpbs {
 
@@ -67,10 +70,28 @@ double fitted_at_origin(std::span<CloudSample<Dim>> samples) {
   return mean_value;
 }
 
+// From x to y: straight or, on a sphere, as far as it is along that, in the direction that it
+// begins in (the azimuthal equidistant projection about x).
+template <int Dim, int Across>
+Point<Across> way_between(const Point<Dim>& x, const Point<Dim>& y) {
+  Point<Across> way{};
+  if constexpr (Across == Dim) {
+    for (int c = 0; c < Dim; ++c) way[c] = y[c] - x[c];
+  } else {
+    const Point<3> chord = difference(y, x), east = east_at(x), north = cross(unit_vector(x), east);
+    const double along = length(x) * angle_between(x, y);
+    way = {dot(chord, east), dot(chord, north)};
+    const double flat = length(way);
+    if (!(flat > 0)) return {along, 0};
+    for (double& part : way) part *= along / flat;
+  }
+  return way;
+}
+
 }  // namespace
 
-template <int Dim>
-CloudSpacing<Dim>::CloudSpacing(const GivenField<Dim>& field) {
+template <int Dim, int Across>
+CloudSpacing<Dim, Across>::CloudSpacing(const GivenField<Dim, Across + 1>& field) {
   std::vector<std::size_t> order(field.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -98,8 +119,9 @@ CloudSpacing<Dim>::CloudSpacing(const GivenField<Dim>& field) {
   find_known();
 }
 
-template <int Dim>
-typename CloudSpacing<Dim>::Neighbours CloudSpacing<Dim>::nearest(const Point<Dim>& x) const {
+template <int Dim, int Across>
+typename CloudSpacing<Dim, Across>::Neighbours CloudSpacing<Dim, Across>::nearest(
+    const Point<Dim>& x) const {
   Neighbours near;
   const auto limit = [&] {
     return near.found <= kNeighbours ? std::numeric_limits<double>::infinity()
@@ -118,8 +140,8 @@ typename CloudSpacing<Dim>::Neighbours CloudSpacing<Dim>::nearest(const Point<Di
   return near;
 }
 
-template <int Dim>
-double CloudSpacing<Dim>::at(const Point<Dim>& x) const {
+template <int Dim, int Across>
+double CloudSpacing<Dim, Across>::at(const Point<Dim>& x) const {
   const Neighbours near = nearest(x);
   const auto value = [&](int k) {
     return values_[static_cast<std::size_t>(near.nearest[static_cast<std::size_t>(k)].point)];
@@ -131,32 +153,32 @@ double CloudSpacing<Dim>::at(const Point<Dim>& x) const {
   const double beyond =
       near.found > n ? std::sqrt(nearest_square / near.nearest[kNeighbours].square) : 0;
   const double unit = std::sqrt(near.nearest[static_cast<std::size_t>(n - 1)].square);
-  std::array<CloudSample<Dim>, kNeighbours> samples;
+  std::array<CloudSample<Across>, kNeighbours> samples;
   double min = value(0), max = value(0);
   for (int k = 0; k < n; ++k) {
     const Neighbour& one = near.nearest[static_cast<std::size_t>(k)];
     const double part = std::sqrt(nearest_square / one.square) - beyond;
-    CloudSample<Dim>& sample = samples[static_cast<std::size_t>(k)];
+    CloudSample<Across>& sample = samples[static_cast<std::size_t>(k)];
     sample.weight = part * part;
-    for (int c = 0; c < Dim; ++c)
-      sample.way[c] = (points_[static_cast<std::size_t>(one.point)][c] - x[c]) / unit;
+    sample.way = way_between<Dim, Across>(x, points_[static_cast<std::size_t>(one.point)]);
+    for (double& part : sample.way) part /= unit;
     sample.value = value(k) - value(0);
     min = std::min(min, value(k));
     max = std::max(max, value(k));
   }
-  const double rise = fitted_at_origin<Dim>({samples.data(), static_cast<std::size_t>(n)});
+  const double rise = fitted_at_origin<Across>({samples.data(), static_cast<std::size_t>(n)});
   return std::clamp(value(0) + rise, min, max);
 }
 
-template <int Dim>
-void CloudSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
+template <int Dim, int Across>
+void CloudSpacing<Dim, Across>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
   for_each_if_started("pnpbs::CloudSpacing::evaluate", n,
                       [=, this](std::int64_t i) { d[i] = at(x[i]); });
 }
 
-template <int Dim>
-void CloudSpacing<Dim>::find_known() {
-  constexpr int kNearest = Dim + 1;
+template <int Dim, int Across>
+void CloudSpacing<Dim, Across>::find_known() {
+  constexpr int kNearest = Across + 1;
   const auto count = static_cast<std::int64_t>(points_.size());
   std::vector<std::array<Neighbour, kNearest>> nearest_ones(points_.size());
   for_each_if_started("pnpbs::CloudSpacing::find_known", count, [&](std::int64_t i) {
@@ -179,8 +201,8 @@ void CloudSpacing<Dim>::find_known() {
   }
 }
 
-template <int Dim>
-std::optional<GivenExtent<Dim>> CloudSpacing<Dim>::extent() const {
+template <int Dim, int Across>
+std::optional<GivenExtent<Dim>> CloudSpacing<Dim, Across>::extent() const {
   constexpr double endless = std::numeric_limits<double>::infinity();
   Box<Dim> box{points_.front(), points_.front()};
   for (const Point<Dim>& x : points_) box = joined(box, Box<Dim>{x, x});
@@ -196,5 +218,6 @@ std::optional<GivenExtent<Dim>> CloudSpacing<Dim>::extent() const {
 
 template class CloudSpacing<2>;
 template class CloudSpacing<3>;
+template class CloudSpacing<3, 2>;
 
 }  // namespace pnpbs

@@ -8,6 +8,9 @@
 //
 // Not by a triangulation of the cloud, which has long thin elements along its hull and none where
 // all points are on a line, and needs more than stars of nodes in a domain.
+//
+// On a sphere the plane is that of two dimensions that touches it at x, onto which ways along the
+// sphere from x are laid in their directions.
 #pragma once
 
 #include "spacing/given_field.hpp"
@@ -15,12 +18,13 @@
 
 namespace pnpbs {
 
-template <int Dim>
+// Points in Dim dimensions; planes over Across of them, which are fewer on a sphere.
+template <int Dim, int Across = Dim>
 class CloudSpacing : public LocalSpacing<Dim> {
  public:
   // Of a checked field without elements. Throws Error(ErrorKind::spacing) where points in one place
   // have different values.
-  explicit CloudSpacing(const GivenField<Dim>& field);
+  explicit CloudSpacing(const GivenField<Dim, Across + 1>& field);
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
   // With slopes from each point to the nearest ones.
   KnownValues<Dim> known_values() const override { return known_; }
@@ -28,7 +32,7 @@ class CloudSpacing : public LocalSpacing<Dim> {
   // meant for more than their box. A direction in which all have one coordinate has no end.
   std::optional<GivenExtent<Dim>> extent() const override;
 
-  static constexpr int kNeighbours = Dim == 2 ? 8 : 16;
+  static constexpr int kNeighbours = Across == 2 ? 8 : 16;
 
  private:
   // One of the points nearest to x.
@@ -59,5 +63,6 @@ class CloudSpacing : public LocalSpacing<Dim> {
 
 extern template class CloudSpacing<2>;
 extern template class CloudSpacing<3>;
+extern template class CloudSpacing<3, 2>;  // on a sphere
 
 }  // namespace pnpbs

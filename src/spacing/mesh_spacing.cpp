@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/started_execution.hpp"
+#include "spacing/simplex_slope.hpp"
 
 namespace pnpbs {
 
@@ -34,42 +34,6 @@ std::vector<std::array<std::int32_t, Dim>> open_facets(
     facet = next;
   }
   return open;
-}
-
-// The gradient of what is linear on a simplex: by edges that are made orthogonal, one by one, to
-// those before. What is left of the values along them are its components.
-template <int Dim>
-typename KnownValues<Dim>::Slope slope_of(const Patch<Dim>& patch,
-                                          const std::array<std::int32_t, Dim + 1>& simplex) {
-  const auto node = [&](std::size_t k) -> const PatchNode<Dim>& {
-    return patch.nodes[static_cast<std::size_t>(simplex[k])];
-  };
-  typename KnownValues<Dim>::Slope slope{0, node(0).value, {}};
-  std::array<Point<Dim>, Dim> edges;
-  std::array<double, Dim> rises, squares;
-  double square_of_growth = 0;
-  for (std::size_t k = 0; k < Dim; ++k) {
-    rises[k] = node(k + 1).value - node(0).value;
-    for (std::size_t c = 0; c < Dim; ++c) edges[k][c] = node(k + 1).x[c] - node(0).x[c];
-    for (std::size_t before = 0; before < k; ++before) {
-      double along = 0;
-      for (std::size_t c = 0; c < Dim; ++c) along += edges[k][c] * edges[before][c];
-      along /= squares[before];
-      for (std::size_t c = 0; c < Dim; ++c) edges[k][c] -= along * edges[before][c];
-      rises[k] -= along * rises[before];
-    }
-    squares[k] = 0;
-    for (const double e : edges[k]) squares[k] += e * e;
-    // Of a simplex that is flat but for rounding, nothing may be left.
-    if (squares[k] > 0) square_of_growth += rises[k] * rises[k] / squares[k];
-    squares[k] = std::max(squares[k], std::numeric_limits<double>::min());
-  }
-  slope.growth = std::sqrt(square_of_growth);
-  for (std::size_t k = 0; k <= Dim; ++k) {
-    slope.d = std::min(slope.d, node(k).value);
-    for (std::size_t c = 0; c < Dim; ++c) slope.at[c] += node(k).x[c] / (Dim + 1);
-  }
-  return slope;
 }
 
 template <int Dim>

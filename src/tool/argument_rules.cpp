@@ -52,7 +52,6 @@ void require_what_spheres_have(const Arguments& arguments) {
   refuse_if(!arguments.inner.empty(), "--inner");
   refuse_if(!arguments.cut.empty(), "--cut");
   refuse_if(arguments.bubbles, "--bubbles");
-  refuse_if(spacing_file(arguments.spacing).has_value(), "a file of --spacing");
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * d on spheres by values on grids: against the functions that the values are of, where grids begin
- * and end and at poles, too; what is said of grids that cover a part, and of wrong ones.
+ * d on spheres by values on grids, on meshes and at points: against the functions that the values
+ * are of and against searches through all triangles, where grids begin and end, at poles and around
+ * the point that is projected from, too; what is said of those that cover a part, and of wrong
+ * ones.
  */
 #include "api_support.h"
 
@@ -315,9 +317,347 @@ START_TEST(wrong_grids) {
 }
 END_TEST
 
+/* ---------------------------------------------------------------- meshes and points ------ */
+
+typedef struct {
+  int64_t n, triangles;
+  double *x, *d;
+  int64_t* corners;
+} sphere_mesh;
+
+/* Of a placement, with values of a function at its nodes. */
+static sphere_mesh mesh_of(pnpbs_placement placement, field f) {
+  sphere_mesh mesh = {0};
+  int64_t i;
+  mesh.n = nodes_of(placement, &mesh.x, &mesh.d);
+  MUST(pnpbs_placement_get_triangles(placement, 0, &mesh.triangles, NULL));
+  mesh.corners = malloc((size_t)mesh.triangles * 3 * sizeof *mesh.corners);
+  ck_assert(mesh.corners);
+  MUST(pnpbs_placement_get_triangles(placement, mesh.triangles, &mesh.triangles, mesh.corners));
+  for (i = 0; f && i < mesh.n; ++i) {
+    double degrees[2];
+    MUST(pnpbs_sphere_degrees(1, mesh.x + 3 * i, degrees));
+    mesh.d[i] = f(degrees[0], degrees[1]);
+  }
+  return mesh;
+}
+
+static void mesh_free(sphere_mesh* mesh) {
+  free(mesh->x);
+  free(mesh->d);
+  free(mesh->corners);
+}
+
+/* The triangles of a whole sphere, projected from there. */
+static sphere_mesh globe_mesh(double longitude, double latitude, double spacing, field f) {
+  job it = globe_from(longitude, latitude);
+  sphere_mesh mesh;
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, spacing));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  mesh = mesh_of(it.placement, f);
+  job_end(&it);
+  return mesh;
+}
+
+static void set_mesh(pnpbs_placement placement, const sphere_mesh* mesh) {
+  MUST(pnpbs_placement_set_spacing_mesh(placement, mesh->n, mesh->x, mesh->d, mesh->triangles,
+                                        mesh->corners));
+}
+
+/* Where the ray from the centre through x meets a triangle: by T. Moeller, B. Trumbore (J. Graphics
+ * Tools 2 (1997) 21-28). Linear there. */
+static int value_on_ray(const sphere_mesh* mesh, int64_t t, const double* x, double* value) {
+  const int64_t* c = mesh->corners + 3 * t;
+  const double* a = mesh->x + 3 * c[0];
+  double e[2][3], p[3], q[3], u, v, determinant, along;
+  int k;
+  for (k = 0; k < 3; ++k) {
+    e[0][k] = mesh->x[3 * c[1] + k] - a[k];
+    e[1][k] = mesh->x[3 * c[2] + k] - a[k];
+  }
+  for (k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3, m = (k + 2) % 3;
+    p[k] = x[l] * e[1][m] - x[m] * e[1][l];
+    q[k] = -a[l] * e[0][m] + a[m] * e[0][l];
+  }
+  determinant = e[0][0] * p[0] + e[0][1] * p[1] + e[0][2] * p[2];
+  u = -(a[0] * p[0] + a[1] * p[1] + a[2] * p[2]) / determinant;
+  v = (x[0] * q[0] + x[1] * q[1] + x[2] * q[2]) / determinant;
+  along = (e[1][0] * q[0] + e[1][1] * q[1] + e[1][2] * q[2]) / determinant;
+  if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9 || along < 0) return 0;
+  *value = (1 - u - v) * mesh->d[c[0]] + u * mesh->d[c[1]] + v * mesh->d[c[2]];
+  return 1;
+}
+
+/* One from the same point, whose triangle about it is unbounded in the chart, and others. Growth is
+ * not limited, so that d at nodes is what the mesh has there. */
+START_TEST(a_mesh_of_the_whole_sphere) {
+  static const double from[3][2] = {{20, -30}, {-160, 30}, {85, 88}};
+  sphere_mesh mesh = globe_mesh(20, -30, 800, sideways);
+  job it = globe_from(from[_i][0], from[_i][1]);
+  double *x, *d;
+  int64_t n, i, t;
+  set_mesh(it.placement, &mesh);
+  MUST(pnpbs_placement_set_double(it.placement, "growth_limit", 0));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert(!warning_with(it.placement, "covers only"));
+  n = nodes_of(it.placement, &x, &d);
+  ck_assert_int_gt(n, 3000);
+  for (i = 0; i < n; ++i) {
+    double expected = 0;
+    for (t = 0; t < mesh.triangles && !value_on_ray(&mesh, t, x + 3 * i, &expected); ++t) continue;
+    ck_assert_int_lt(t, mesh.triangles);
+    ck_assert_double_eq_tol(d[i], expected, 1e-6);
+  }
+  free(x);
+  free(d);
+  mesh_free(&mesh);
+  job_end(&it);
+}
+END_TEST
+
+/* Nodes by d as it was at the nodes before are as many: it is the same d. Both ways, also where it
+ * is finest about the point that is projected from. */
+START_TEST(as_many_nodes_by_their_own_spacing) {
+  field f = _i % 2 == 0 ? to_the_poles : sideways;
+  job it = globe_from(-90, 5);
+  sphere_mesh mesh;
+  int64_t nodes;
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, field_callback, &f));
+  MUST(pnpbs_placement_run(it.placement));
+  mesh = mesh_of(it.placement, NULL);
+  if (_i < 2)
+    set_mesh(it.placement, &mesh);
+  else
+    MUST(pnpbs_placement_set_spacing_points(it.placement, mesh.n, mesh.x, mesh.d));
+  MUST(pnpbs_placement_run(it.placement)); /* from those there are */
+  MUST(pnpbs_placement_check(it.placement));
+  MUST(pnpbs_placement_count(it.placement, &nodes));
+  ck_assert_double_eq_tol((double)nodes / (double)mesh.n, 1, 0.015); /* by a callback 0.008 */
+  pnpbs_placement_destroy(&it.placement);
+  job_place(&it);
+  if (_i < 2)
+    set_mesh(it.placement, &mesh);
+  else
+    MUST(pnpbs_placement_set_spacing_points(it.placement, mesh.n, mesh.x, mesh.d));
+  MUST(pnpbs_placement_run(it.placement)); /* from none */
+  MUST(pnpbs_placement_count(it.placement, &nodes));
+  ck_assert_double_eq_tol((double)nodes / (double)mesh.n, 1, 0.01);
+  ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.985);
+  mesh_free(&mesh);
+  job_end(&it);
+}
+END_TEST
+
+static double between(const double* a, const double* b) {
+  return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
+}
+
+/* The value at the nearest place of the sides of one triangle alone, and its distance: among points
+ * on all of them. */
+static double nearest_on_border(const sphere_mesh* mesh, const double* x, double* value) {
+  enum { PARTS = 60 };
+  double least = 3 * R;
+  int64_t t, other;
+  int k, l, c, part;
+  for (t = 0; t < mesh->triangles; ++t)
+    for (k = 0; k < 3; ++k) {
+      const int64_t a = mesh->corners[3 * t + k], b = mesh->corners[3 * t + (k + 1) % 3];
+      int alone = 1;
+      if (between(mesh->x + 3 * a, x) > least + 1000) continue;
+      for (other = 0; other < mesh->triangles && alone; ++other)
+        for (l = 0; l < 3; ++l)
+          alone = alone && !(mesh->corners[3 * other + l] == b &&
+                             mesh->corners[3 * other + (l + 1) % 3] == a);
+      for (part = 0; alone && part <= PARTS; ++part) {
+        double y[3], size;
+        for (c = 0; c < 3; ++c)
+          y[c] = mesh->x[3 * a + c] + part * (mesh->x[3 * b + c] - mesh->x[3 * a + c]) / PARTS;
+        size = sqrt(y[0] * y[0] + y[1] * y[1] + y[2] * y[2]);
+        for (c = 0; c < 3; ++c) y[c] *= R / size;
+        if (between(x, y) >= least) continue;
+        least = between(x, y);
+        *value = mesh->d[a] + part * (mesh->d[b] - mesh->d[a]) / PARTS;
+      }
+    }
+  return 2 * R * asin(least / (2 * R));
+}
+
+/* Beyond the northern half d is that of the nearest place. */
+START_TEST(a_mesh_of_a_part) {
+  sphere_mesh mesh = globe_mesh(20, -30, 800, sideways);
+  job it = globe_from(20, -30);
+  double *x, *d, expected;
+  int64_t n, i, t, kept = 0, outside = 0;
+  long all = 0, beyond = 0;
+  const char* warning;
+  for (t = 0; t < mesh.triangles; ++t) {
+    const int64_t* c = mesh.corners + 3 * t;
+    if (mesh.x[3 * c[0] + 2] < 0 || mesh.x[3 * c[1] + 2] < 0 || mesh.x[3 * c[2] + 2] < 0) continue;
+    memmove(mesh.corners + 3 * kept++, c, 3 * sizeof *c);
+  }
+  mesh.triangles = kept;
+  set_mesh(it.placement, &mesh);
+  MUST(pnpbs_placement_set_double(it.placement, "growth_limit", 0));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  n = nodes_of(it.placement, &x, &d);
+  for (i = 0; i < n; ++i) {
+    double distance;
+    for (t = 0; t < mesh.triangles && !value_on_ray(&mesh, t, x + 3 * i, &expected); ++t) continue;
+    if (t < mesh.triangles) continue;
+    distance = nearest_on_border(&mesh, x + 3 * i, &expected);
+    outside += distance > d[i];
+    /* Near the other pole all of the border is as far. */
+    if (distance < 8000) ck_assert_double_eq_tol(d[i], expected, 2);
+  }
+  warning = warning_with(it.placement, "the background mesh of the spacing covers only a part");
+  ck_assert_ptr_nonnull(warning);
+  ck_assert_ptr_nonnull(strstr(warning, "one of them at (longitude "));
+  ck_assert_ptr_null(strstr(warning, "reaches"));
+  ck_assert_int_eq(sscanf(strstr(warning, "of the domain: of "),
+                          "of the domain: of %ld nodes, %ld are", &all, &beyond),
+                   2);
+  ck_assert_double_eq_tol((double)beyond / (double)all, (double)outside / (double)n, 0.02);
+  free(x);
+  free(d);
+  mesh_free(&mesh);
+  job_end(&it);
+}
+END_TEST
+
+/* Met at the points, and a smooth function between them to the second order. */
+START_TEST(points_all_over_the_sphere) {
+  static const double places[][2] = {{0, 90}, {180, 0}, {-160, 31}, {20, -90}, {19, 40}};
+  const double spacing = 600, most = 100 * pow(spacing / R, 2) / 2;
+  sphere_mesh cloud = globe_mesh(20, -30, spacing, sideways);
+  job it = globe_from(20, -30);
+  double fixed[3 * COUNT_OF(places)], *x, *d;
+  int64_t n, i;
+  int k, met = 0;
+  for (k = 0; k < COUNT_OF(places); ++k) { /* the nearest of the points */
+    double place[3], least = 3 * R;
+    MUST(pnpbs_sphere_points(R, 1, places[k], place));
+    for (i = 0; i < cloud.n; ++i) {
+      if (between(cloud.x + 3 * i, place) >= least) continue;
+      least = between(cloud.x + 3 * i, place);
+      memcpy(fixed + 3 * k, cloud.x + 3 * i, 3 * sizeof *fixed);
+    }
+  }
+  MUST(pnpbs_domain_add_fixed_nodes(it.domain, COUNT_OF(places), fixed, NULL));
+  pnpbs_placement_destroy(&it.placement);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_points(it.placement, cloud.n, cloud.x, cloud.d));
+  MUST(pnpbs_placement_set_double(it.placement, "growth_limit", 0));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert(!warning_with(it.placement, "covers only"));
+  n = nodes_of(it.placement, &x, &d);
+  for (i = 0; i < n; ++i) {
+    double degrees[2];
+    MUST(pnpbs_sphere_degrees(1, x + 3 * i, degrees));
+    ck_assert_double_eq_tol(d[i], sideways(degrees[0], degrees[1]), most);
+    for (k = 0; k < COUNT_OF(places); ++k) {
+      if (between(x + 3 * i, fixed + 3 * k) > 1e-6) continue;
+      ck_assert_double_eq_tol(d[i], sideways(degrees[0], degrees[1]), 1e-6);
+      ++met;
+    }
+  }
+  ck_assert_int_eq(met, COUNT_OF(places));
+  free(x);
+  free(d);
+  mesh_free(&cloud);
+  job_end(&it);
+}
+END_TEST
+
+/* In a part of the sphere, and one that is meant for all of it. Lengths do not count. */
+START_TEST(points_in_a_part) {
+  double degrees[2 * 50], x[3 * 50], d[50];
+  job it = globe_from(20, -30);
+  int i;
+  for (i = 0; i < 50; ++i) {
+    degrees[2 * i] = 170 + 3 * (i % 10);
+    degrees[2 * i + 1] = -10 + 5 * (double)(i / 10);
+    d[i] = 400 + 10 * (i % 10);
+  }
+  MUST(pnpbs_sphere_points(3, 50, degrees, x));
+  MUST(pnpbs_placement_set_spacing_points(it.placement, 50, x, d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_ptr_nonnull(
+      warning_with(it.placement, "the cloud of points of the spacing covers only a part"));
+  pnpbs_placement_destroy(&it.placement);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_points(it.placement, 1, x, d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_ptr_null(warning_with(it.placement, "covers only"));
+  job_end(&it);
+}
+END_TEST
+
+/* Where nodes are far apart otherwise, and samples of d would miss it: the least d is there, also
+ * among the nodes about the point that is projected from, which are laid first. */
+START_TEST(what_is_fine_at_one_node) {
+  static const double places[2][2] = {{100, 50}, {20, -20}};
+  sphere_mesh mesh = globe_mesh(70, 40, 250, NULL);
+  job it = globe_from(20, -30);
+  double place[3], *x, *d, least = 3 * R, finest = R;
+  int64_t n, i, fine = 0, at = 0;
+  MUST(pnpbs_sphere_points(R, 1, places[_i / 2], place));
+  for (i = 0; i < mesh.n; ++i) {
+    mesh.d[i] = 800;
+    if (between(mesh.x + 3 * i, place) >= least) continue;
+    least = between(mesh.x + 3 * i, place);
+    fine = i;
+  }
+  mesh.d[fine] = 60;
+  if (_i % 2 == 0)
+    set_mesh(it.placement, &mesh);
+  else
+    MUST(pnpbs_placement_set_spacing_points(it.placement, mesh.n, mesh.x, mesh.d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  n = nodes_of(it.placement, &x, &d);
+  for (i = 0; i < n; ++i) {
+    if (d[i] >= finest) continue;
+    finest = d[i];
+    at = i;
+  }
+  ck_assert_double_lt(finest, 90);
+  ck_assert_double_lt(between(x + 3 * at, mesh.x + 3 * fine), 90);
+  free(x);
+  free(d);
+  mesh_free(&mesh);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(wrong_meshes_and_points) {
+  double x[] = {1, 0, 0, 0, 2, 0, 0, 0, 3, -1, 0, 0, 0, 0, 0}, d[] = {300, 300, 300, 300, 300};
+  const int64_t triangle[] = {0, 1, 2}, half_turn[] = {0, 3, 2}, no_node[] = {0, 1, 5};
+  job it = globe_from(20, -30);
+  pnpbs_placement p = it.placement;
+  MUST(pnpbs_placement_set_spacing_mesh(p, 3, x, d, 1, triangle));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_set_spacing_mesh(p, 4, x, d, 1, half_turn),
+            "argument corners[0]", "great circle");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_set_spacing_mesh(p, 5, x, d, 1, no_node),
+            "argument corners[0][2] = 5", "5 nodes");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_set_spacing_points(p, 5, x, d),
+            "argument coordinates[4] = (0, 0, 0)", "direction");
+  x[3] = NAN;
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_set_spacing_points(p, 4, x, d),
+            "argument coordinates[1]", "nan");
+  x[3] = 0, d[1] = -1;
+  MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_set_spacing_points(p, 3, x, d), "argument d[1]",
+            "-1");
+  x[3] = 5, x[4] = 0; /* where the first one is */
+  d[1] = 200;
+  MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_set_spacing_points(p, 3, x, d), "argument d[",
+            "a place has one spacing");
+  job_end(&it);
+}
+END_TEST
+
 int main(void) {
   Suite* suite = suite_create("sphere_fields");
-  TCase* grids = tcase_create("grids");
+  TCase *grids = tcase_create("grids"), *fields = tcase_create("fields");
   tcase_add_loop_test(grids, a_grid_around_the_sphere, 0, 7);
   tcase_add_test(grids, a_grid_has_as_many_nodes_as_its_function);
   tcase_add_test(grids, a_pole_has_one_spacing);
@@ -326,5 +666,14 @@ int main(void) {
   tcase_add_test(grids, wrong_grids);
   tcase_set_timeout(grids, 0);
   suite_add_tcase(suite, grids);
+  tcase_add_loop_test(fields, a_mesh_of_the_whole_sphere, 0, 3);
+  tcase_add_loop_test(fields, as_many_nodes_by_their_own_spacing, 0, 4);
+  tcase_add_test(fields, a_mesh_of_a_part);
+  tcase_add_test(fields, points_all_over_the_sphere);
+  tcase_add_test(fields, points_in_a_part);
+  tcase_add_loop_test(fields, what_is_fine_at_one_node, 0, 4);
+  tcase_add_test(fields, wrong_meshes_and_points);
+  tcase_set_timeout(fields, 0);
+  suite_add_tcase(suite, fields);
   return run_suite(suite);
 }

@@ -405,7 +405,7 @@ contains
     real(c_double) :: places(2, 180), found(2, 180), ring(3, 180), area, radius
     real(c_double), allocatable :: x(:,:), d(:)
     integer(c_int64_t), allocatable :: triangles(:,:)
-    integer(c_int64_t) :: nodes, count, edges, t
+    integer(c_int64_t) :: nodes, again, count, edges, t
     integer(c_int32_t) :: dim
     integer :: i
     places = reshape([(real(2 * i - 180, c_double), -70d0, i = 1, 180)], [2, 180])
@@ -448,6 +448,24 @@ contains
     call placement%get_nodes(x, spacing=d)
     call expect(maxval(abs(d - (0.12d0 + 0.02d0 * asin(x(3, :)) / (pi / 2)))) < 1d-12, &
                 'd by a grid on a sphere')
+    ! As many nodes by d at those before.
+    call placement%triangle_count(count)
+    deallocate (triangles)
+    allocate (triangles(3, count))
+    call placement%get_triangles(triangles)
+    call placement%set_spacing_mesh(x, d, triangles)
+    call placement%run(stat)
+    call expect(stat == PNPBS_OK, 'nodes by a mesh on a sphere')
+    call placement%count(again)
+    call expect(abs(again - nodes) < nodes / 50d0, 'as many nodes by a mesh on a sphere')
+    call placement%set_spacing_points(x, d)
+    call placement%run(stat)
+    call expect(stat == PNPBS_OK, 'nodes by points on a sphere')
+    call placement%count(again)
+    call expect(abs(again - nodes) < nodes / 50d0, 'as many nodes by points on a sphere')
+    call placement%set_spacing_mesh(x, d, reshape([1_c_int64_t], [4, 1], pad=[2_c_int64_t]), stat, &
+                                    errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'corners')
     call placement%set_spacing_grid([0d0, 0d0, 0d0], [1d0, 1d0, 1d0], reshape([0.1d0], [1, 1, 1]), &
                                     stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'values')

@@ -155,7 +155,7 @@ std::string grid_appended(bool packed) {
 // What is wrong with values that were read.
 template <int Dim>
 const char* fault_in(const pnpbs::FileField& file) {
-  const pnpbs::GivenField<Dim> field = pnpbs::given_field<Dim>(file, "mutated");
+  const pnpbs::GivenField<Dim> field = pnpbs::given_field<pnpbs::GivenField<Dim>>(file, "mutated");
   if (field.values.size() != field.points.size()) return "values of other points";
   for (const auto& element : field.elements)
     for (const std::int32_t corner : element)

@@ -468,6 +468,21 @@ class Domains(Case):
         with self.assertRaisesRegex(PNPBSError, "latitude from -90"):
             placement.set_spacing(d, origin=(0, -95), step=(10, 10))
 
+    def test_meshes_and_points_on_a_sphere(self):
+        """d of the nodes before leads to as many nodes."""
+        sphere = pnpbs.Domain.on_sphere(self.context, 1, (0, 1, 1))
+        placement = pnpbs.Placement(sphere).set_spacing(lambda x: 0.1 + 0.03 * x[:, 2])
+        placement.run()
+        nodes, triangles = placement.nodes(), placement.triangles()
+        for again in (pnpbs.Placement(sphere).set_spacing_mesh(nodes.points, nodes.spacing, triangles),
+                      pnpbs.Placement(sphere).set_spacing_points(nodes.points, nodes.spacing)):
+            again.run()
+            self.assertLess(abs(again.node_count / placement.node_count - 1), 0.02)
+            np.testing.assert_allclose(again.nodes().spacing,
+                                       0.1 + 0.03 * again.nodes().points[:, 2], atol=1e-3)
+        with self.assertRaisesRegex(ValueError, "corners"):
+            placement.set_spacing_mesh(nodes.points, nodes.spacing, [(0, 1, 2, 3)])
+
     def test_wrong_arguments_on_a_sphere(self):
         def refusal(function, *arguments):
             return self.assert_status(Status.ERROR_ARGUMENT, function, *arguments)

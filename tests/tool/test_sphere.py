@@ -113,6 +113,20 @@ class WholeSphere(CommandTest):
         nodes = self.placed("--nodes", "20000", spacing="100 + 2*abs(lat)")[1]["nodes"]
         self.assertLess(abs(nodes / 20000 - 1), 0.02)
 
+    def test_values_in_files(self):
+        """d of the nodes before, by a mesh or at points, leads to as many nodes."""
+        _, report = self.placed("--output", "before.vtu", "--output", "before.csv")
+        for name in ("before.vtu:spacing", "before.csv:spacing"):
+            with self.subTest(name):
+                nodes, again = self.placed(spacing=name)
+                self.assertLess(abs(again["nodes"] / report["nodes"] - 1), 0.01)
+                rows = np.array([[float(x) for x in line.split(b",")] for line in nodes.splitlines()[1:]])
+                expected = 250 + 150 * (rows[:, 2] / np.hypot(rows[:, 1], rows[:, 2]))**2
+                off = np.abs(rows[:, -1] / expected - 1)
+                off = off[np.abs(rows[:, 3]) < 0.9 * RADIUS]  # d jumps at the poles
+                self.assertLess(off.max(), 0.05)
+                self.assertLess(off.mean(), 0.004)
+
     @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
     def test_ranks_place_the_same_nodes(self):
         nodes, _ = self.placed()

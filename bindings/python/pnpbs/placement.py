@@ -137,18 +137,18 @@ class Placement(Results, Fields, Meshes, Tessellation):
     def set_spacing_mesh(self, points: ArrayLike, d: ArrayLike, corners: ArrayLike) -> Placement:
         """Sets the spacing to values `d` at the nodes of a background mesh, the rows of `points`.
         It is linear on each element, and beyond the mesh equal to the value at the nearest point of
-        the mesh. `corners` is (m, dim + 1), indices of rows: triangles, in space tetrahedra.
-        Collective; every rank passes the same arrays, and holds a copy."""
+        the mesh. `corners` is (m, dim + 1), on a sphere (m, 3), indices of rows: triangles, in
+        space tetrahedra. Collective; every rank passes the same arrays, and holds a copy."""
         coordinates, values = self._field(points, d)
-        elements = as_indices(corners, self.dim + 1, "corners")
+        elements = as_indices(corners, self._extent_of_elements + 1, "corners")
         self._call("set_spacing_mesh", len(values), coordinates, values, len(elements), elements)
         return self._keep_spacing(None)
 
     def set_spacing_points(self, points: ArrayLike, d: ArrayLike) -> Placement:
         """Sets the spacing to values `d` at scattered points, the rows of `points`. It equals the
         given value at each point and elsewhere a plane fitted to the 8 (in space 16) nearest points
-        by weighted least squares, bounded by the smallest and largest of their values. Collective;
-        every rank passes the same arrays, and holds a copy."""
+        by weighted least squares, bounded by the smallest and largest of their values; on a sphere,
+        with ways along it. Collective; every rank passes the same arrays, and holds a copy."""
         coordinates, values = self._field(points, d)
         self._call("set_spacing_points", len(values), coordinates, values)
         return self._keep_spacing(None)
@@ -157,12 +157,18 @@ class Placement(Results, Fields, Meshes, Tessellation):
         """Sets the spacing to values at points from a file: VTK's unstructured grid (.vtu), Gmsh's
         mesh with values at nodes (.msh), or a table with columns x, y, (z) and others (.csv).
         Triangles and quadrangles, in space tetrahedra, form a mesh as in `set_spacing_mesh`;
-        without any, the points are used as in `set_spacing_points`. In the plane z is ignored.
+        without any, the points are used as in `set_spacing_points`. In the plane z is ignored; on a
+        sphere elements are as in the plane.
         `field` is the name of the values in the file; the default is the only ones, or those called
         "spacing". Collective; every rank reads the file."""
         self._call("set_spacing_file", os.fsencode(path),
                    None if field is None else field.encode())
         return self._keep_spacing(None)
+
+    @property
+    def _extent_of_elements(self) -> int:
+        """2 for triangles, also on a sphere."""
+        return 2 if self.sphere_radius > 0 else self.dim
 
     def _field(self, points: ArrayLike, d: ArrayLike) -> Tuple[Doubles, Doubles]:
         coordinates = as_points(points, self.dim, "points")
@@ -191,7 +197,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
 
     def _set_spacing_grid(self, d: ArrayLike, origin: Optional[ArrayLike],
                           step: Optional[ArrayLike]) -> None:
-        directions = 2 if self.sphere_radius > 0 else self.dim
+        directions = self._extent_of_elements
         if np.ndim(d) != directions:
             raise ValueError(f"d has shape {np.shape(d)}; an array of {directions} dimensions was "
                              "expected")

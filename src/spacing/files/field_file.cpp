@@ -35,11 +35,12 @@ std::string listed(const std::vector<FieldName>& fields) {
   return "it has " + list_text(names, 20);
 }
 
-template <int Dim>
-void take_elements(const std::vector<std::int32_t>& corners, GivenField<Dim>& field) {
-  field.elements.resize(corners.size() / (Dim + 1));
+template <class Field>
+void take_elements(const std::vector<std::int32_t>& corners, Field& field) {
+  constexpr std::size_t kCorners = Field::corners;
+  field.elements.resize(corners.size() / kCorners);
   for (std::size_t e = 0; e < field.elements.size(); ++e)
-    std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(e * (Dim + 1)), Dim + 1,
+    std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(e * kCorners), kCorners,
                 field.elements[e].begin());
 }
 
@@ -69,39 +70,43 @@ std::size_t chosen_field(const std::vector<FieldName>& fields, const std::string
   return found;
 }
 
-template <int Dim>
-GivenField<Dim> given_field(const FileField& file, const std::string& name) {
-  if (Dim == 3 && !file.has_z)
-    throw Error(ErrorKind::file, name + ": there is no column z, expected one in space");
-  GivenField<Dim> field;
+template <class Field>
+Field given_field(const FileField& file, const std::string& name) {
+  constexpr bool kTriangles = Field::corners == 3;
+  if (Field::dim == 3 && !file.has_z)
+    throw Error(ErrorKind::file, name + ": there is no column z, expected one " +
+                                     (kTriangles ? "on a sphere" : "in space"));
+  Field field;
   field.points_name = name + ": points";
   field.values_name = name + ": " + file.field;
-  field.elements_name = name + (Dim == 2 ? ": triangles" : ": tetrahedra");
+  field.elements_name = name + (kTriangles ? ": triangles" : ": tetrahedra");
   field.points.resize(file.points.size());
   for (std::size_t i = 0; i < file.points.size(); ++i)
-    std::copy_n(file.points[i].begin(), Dim, field.points[i].begin());
+    std::copy_n(file.points[i].begin(), Field::dim, field.points[i].begin());
   field.values = file.values;
   field.fault = ErrorKind::file;
   field.only_used = true;
-  const std::int64_t others = Dim == 2 ? file.other_faces : file.other_solids;
+  const std::int64_t others = kTriangles ? file.other_faces : file.other_solids;
   if (others > 0)
     throw Error(ErrorKind::file,
                 name + ": " + std::to_string(others) + " elements are " +
-                    (Dim == 2 ? "neither triangles nor quadrangles" : "no tetrahedra") +
+                    (kTriangles ? "neither triangles nor quadrangles" : "no tetrahedra") +
                     ", expected a mesh of " +
-                    (Dim == 2 ? "these" : "these (ParaView's filter Tetrahedralize makes one)"));
-  take_elements(Dim == 2 ? file.triangles : file.tetrahedra, field);
+                    (kTriangles ? "these" : "these (ParaView's filter Tetrahedralize makes one)"));
+  take_elements(kTriangles ? file.triangles : file.tetrahedra, field);
   return field;
 }
 
-template <int Dim>
-GivenField<Dim> read_field(const std::string& path, const std::string& wanted) {
-  return given_field<Dim>(parse(path, wanted), path);
+template <class Field>
+Field read_field(const std::string& path, const std::string& wanted) {
+  return given_field<Field>(parse(path, wanted), path);
 }
 
 template GivenField<2> given_field(const FileField&, const std::string&);
 template GivenField<3> given_field(const FileField&, const std::string&);
+template SphereField given_field(const FileField&, const std::string&);
 template GivenField<2> read_field(const std::string&, const std::string&);
 template GivenField<3> read_field(const std::string&, const std::string&);
+template SphereField read_field(const std::string&, const std::string&);
 
 }  // namespace pnpbs

@@ -42,12 +42,12 @@ struct FieldName {
 std::size_t chosen_field(const std::vector<FieldName>& fields, const std::string& wanted,
                          const std::string& file);
 
-// As a spacing in this dimension is given; in the plane without z.
-template <int Dim>
-GivenField<Dim> given_field(const FileField& file, const std::string& name);
+// As a spacing is given there, GivenField<2>, GivenField<3> or SphereField; in the plane without z.
+template <class Field>
+Field given_field(const FileField& file, const std::string& name);
 
 // By the ending of the file's name, in capitals or not. Throws Error(ErrorKind::file).
-template <int Dim>
-GivenField<Dim> read_field(const std::string& path, const std::string& wanted);
+template <class Field>
+Field read_field(const std::string& path, const std::string& wanted);
 
 }  // namespace pnpbs

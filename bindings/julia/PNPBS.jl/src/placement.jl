@@ -133,8 +133,11 @@ function set_spacing!(f, placement::Placement; per_point::Bool = false)
     return keep_spacing!(placement, callback)
 end
 
+# 2 for triangles, also on a sphere.
+extent_of_elements(placement) = sphere_radius(placement) > 0 ? 2 : ndims(placement)
+
 function set_spacing!(placement::Placement, values::AbstractArray{<:Real}; origin, step)
-    directions = sphere_radius(placement) > 0 ? 2 : ndims(placement)
+    directions = extent_of_elements(placement)
     ndims(values) == directions || throw(DimensionMismatch(
         "values has size $(size(values)); an array of $directions dimensions was expected"))
     check(placement,
@@ -163,10 +166,9 @@ rank passes the same arrays, and holds a copy.
 """
 function set_spacing_mesh!(placement::Placement, points::AbstractMatrix{<:Real},
                            d::AbstractVector{<:Real}, corners::AbstractMatrix{<:Integer})
-    dim = ndims(placement)
-    coordinates = as_points(points, dim, "points")
+    coordinates = as_points(points, ndims(placement), "points")
     require_length(d, size(points, 2), "d")
-    require_columns(corners, dim + 1, "corners")
+    require_columns(corners, extent_of_elements(placement) + 1, "corners")
     check(placement,
           LibPNPBS.pnpbs_placement_set_spacing_mesh(live(placement), length(d), coordinates,
                                                     convert(Vector{Float64}, d), size(corners, 2),
@@ -179,8 +181,8 @@ end
 
 Sets the spacing to values `d` at scattered points, the columns of `points`. It equals the given
 value at each point and elsewhere a plane fitted to the 8 (in space 16) nearest points by weighted
-least squares, bounded by the smallest and largest of their values. Collective; every rank passes
-the same arrays, and holds a copy.
+least squares, bounded by the smallest and largest of their values; on a sphere, with ways along it.
+Collective; every rank passes the same arrays, and holds a copy.
 """
 function set_spacing_points!(placement::Placement, points::AbstractMatrix{<:Real},
                              d::AbstractVector{<:Real})
@@ -198,7 +200,8 @@ end
 Sets the spacing to values at points from a file: VTK's unstructured grid (.vtu), Gmsh's mesh with
 values at nodes (.msh), or a table with columns x, y, (z) and others (.csv). Triangles and
 quadrangles, in space tetrahedra, form a mesh as in [`set_spacing_mesh!`](@ref); without any, the
-points are used as in [`set_spacing_points!`](@ref). In the plane z is ignored. `field` is the name
+points are used as in [`set_spacing_points!`](@ref). In the plane z is ignored; on a sphere elements
+are as in the plane. `field` is the name
 of the values in the file; the default is the only ones, or those called "spacing". Collective;
 every rank reads the file.
 """

@@ -328,6 +328,14 @@ end
         @test run!(placement) === :ok
         found = nodes(placement)
         @test found.spacing ≈ 0.12 .+ 0.02 .* asin.(found.points[3, :]) ./ (pi / 2) rtol = 1e-12
+        set_spacing_mesh!(placement, found.points, found.spacing, triangles(placement))
+        @test run!(placement) === :ok
+        @test node_count(placement) ≈ size(found.points, 2) rtol = 0.02
+        set_spacing_points!(placement, found.points, found.spacing)
+        @test run!(placement) === :ok
+        @test node_count(placement) ≈ size(found.points, 2) rtol = 0.02
+        @test thrown(() -> set_spacing_mesh!(placement, found.points, found.spacing,
+                                             ones(Int, 4, 1))) isa DimensionMismatch
         @test thrown(() -> set_spacing!(placement, zeros(1, 1, 1); origin = (0, 0, 0),
                                         step = (1, 1, 1))) isa DimensionMismatch
     end
