@@ -1386,9 +1386,9 @@ contains
                   errmsg)
   end subroutine
 
-  !> Returns straight segments that approximate a domain in the plane (curves finely sampled), for
-  !> pictures. Local.
-  !>   segments  optional, (2, 2, count): coordinates, ends, segments
+  !> Returns straight segments that approximate the curves of a domain in the plane or on a sphere
+  !> (curves finely sampled), for pictures. Local.
+  !>   segments  optional, (dim, 2, count): coordinates, ends, segments
   !>   tags      optional, (count)
   subroutine domain_get_segments(self, segments, tags, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1399,8 +1399,10 @@ contains
     type(arguments) :: given
     type(c_ptr) :: a_segments, a_tags
     integer(c_int64_t) :: room, room_for_tags, count
+    integer :: dim
     integer(c_int) :: status
-    call given%place_real_pairs('segments', segments, 2, a_segments, room)
+    dim = dimension_of(self, given)
+    call given%place_real_pairs('segments', segments, dim, a_segments, room)
     call given%place_int32('tags', tags, a_tags, room_for_tags)
     room = given%capacity(min(room, room_for_tags))
     status = c_domain_get_segments(self%c, room, count, a_segments, a_tags)

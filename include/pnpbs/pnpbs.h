@@ -240,8 +240,8 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
  *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on a
  *  sphere yet: conserved integrals, particles and offsets, arcs, parametric curves,
- *  graphs, holes of a whole sphere, files of curves other than those of geographic shapes, and
- *  segments of the domain. Local.
+ *  graphs, holes of a whole sphere, and files of curves other than those of geographic shapes.
+ *  Local.
  *  @param[in] radius   > 0
  *  @param[in] outside  [3], any length but 0: its direction counts */
 PNPBS_API pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius,
@@ -597,10 +597,10 @@ PNPBS_API pnpbs_status pnpbs_domain_shape_spacing(pnpbs_domain domain, double no
                                                   double growth, int64_t n,
                                                   const double *coordinates, double *d);
 
-/** Returns straight segments that approximate a domain in the plane (curves finely sampled), for
- *  pictures. Local. Call with capacity 0 to get the count.
+/** Returns straight segments that approximate the curves of a domain in the plane or on a sphere
+ *  (curves finely sampled), for pictures. Local. Call with capacity 0 to get the count.
  *  @param[out] count     number of segments
- *  @param[out] segments  [count][2][2], or NULL
+ *  @param[out] segments  [count][2][2], on a sphere [count][2][3], or NULL
  *  @param[out] tags      [count], or NULL */
 PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity,
                                                  int64_t *count, double *segments, int32_t *tags);

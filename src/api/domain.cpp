@@ -39,6 +39,12 @@ Point<2> point_from(const PlaneDomain& domain, const double* x) {
   if (domain.chart()) return domain.chart()->in_chart(require_direction("point", x));
   return {x[0], x[1]};
 }
+// As the interface has it; returns the end of that.
+double* copy_place(const StereographicChart* chart, const Point<2>& u, double* x) {
+  if (!chart) return std::copy(u.begin(), u.end(), x);
+  const Point<3> on_sphere = chart->on_sphere(u);
+  return std::copy(on_sphere.begin(), on_sphere.end(), x);
+}
 Point<2> plane_point_from(const double* x) { return {x[0], x[1]}; }
 Point<3> space_point_from(const double* x) { return {x[0], x[1], x[2]}; }
 
@@ -298,7 +304,8 @@ pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double* measure) {
 pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, int64_t* count,
                                        double* segments, int32_t* tags) {
   return guarded(domain, [&](DomainObject& object) {
-    PlaneDomain& plane = plane_of(object);
+    const StereographicChart* chart = sphere_of(object);
+    PlaneDomain& plane = chart ? *object.plane : plane_of(object);
     if (!plane.is_checked()) {
       const Computing computing(*object.context);
       plane.check();
@@ -313,14 +320,11 @@ pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, in
     if (capacity < needed)
       throw Error(ErrorKind::capacity, "argument capacity = " + std::to_string(capacity) + "; " +
                                            std::to_string(needed) + " are needed");
-    std::size_t s = 0;
     for (const BoundaryCurve& curve : plane.curves())
-      for (std::size_t p = 0; p + 1 < curve.points.size(); ++p, ++s) {
-        if (tags) tags[s] = curve.tag;
-        for (std::size_t k = 0; segments && k < 2; ++k) {
-          segments[4 * s + k] = curve.points[p][k];
-          segments[4 * s + 2 + k] = curve.points[p + 1][k];
-        }
+      for (std::size_t p = 0; p + 1 < curve.points.size(); ++p) {
+        if (tags) *tags++ = curve.tag;
+        for (const Point<2>& end : {curve.points[p], curve.points[p + 1]})
+          if (segments) segments = copy_place(chart, end, segments);
       }
     return PNPBS_OK;
   });

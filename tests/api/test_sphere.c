@@ -629,6 +629,55 @@ START_TEST(what_whole_spheres_refuse) {
 }
 END_TEST
 
+/* The ends of the segments of a coast follow each other along the great circles between its
+ * vertices, on the sphere; a whole sphere has none. */
+START_TEST(segments_of_a_coast) {
+  static const double degrees[6] = {-10, 30, 60, 50, 40, -20}, outside[3] = {-1, 0, 0};
+  const int32_t given[3] = {4, 5, 6};
+  double corners[9], normal[3][3], *segments;
+  int32_t* tags;
+  job it = {0};
+  int64_t count, again, s;
+  int k, c;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create_sphere(it.context, R, outside, &it.domain));
+  MUST(pnpbs_domain_get_segments(it.domain, 0, &count, NULL, NULL));
+  ck_assert_int_eq(count, 0);
+  MUST(pnpbs_sphere_points(R, 3, degrees, corners));
+  MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 3, corners, given, 0));
+  MUST(pnpbs_domain_get_segments(it.domain, 0, &count, NULL, NULL));
+  ck_assert_int_gt(count, 30);
+  segments = malloc((size_t)count * 6 * sizeof *segments);
+  tags = malloc((size_t)count * sizeof *tags);
+  MUST(pnpbs_domain_get_segments(it.domain, count, &again, segments, tags));
+  ck_assert_int_eq(again, count);
+  for (k = 0; k < 3; ++k)
+    for (c = 0; c < 3; ++c) {
+      const double *a = corners + 3 * k, *b = corners + 3 * ((k + 1) % 3);
+      normal[k][c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+    }
+  for (s = 0; s < count; ++s) {
+    const double* n = normal[tags[s] - 4];
+    const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    ck_assert(tags[s] >= 4 && tags[s] <= 6);
+    for (k = 0; k < 2; ++k) {
+      const double* x = segments + 6 * s + 3 * k;
+      ck_assert_double_eq_tol(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / R, 1, 1e-14);
+      ck_assert_double_eq_tol((n[0] * x[0] + n[1] * x[1] + n[2] * x[2]) / (size * R), 0, 1e-12);
+    }
+    /* Which is the next one's begin. */
+    if (s + 1 < count && tags[s + 1] == tags[s])
+      ck_assert(memcmp(segments + 6 * s + 3, segments + 6 * s + 6, 3 * sizeof *segments) == 0);
+  }
+  MUST_FAIL(PNPBS_ERROR_CAPACITY,
+            pnpbs_domain_get_segments(it.domain, count - 1, &again, segments, NULL), "capacity",
+            "");
+  free(segments);
+  free(tags);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(what_is_no_sphere_has_no_radius) {
   job it = square_job(1);
   double radius = 1;
@@ -692,6 +741,7 @@ int main(void) {
   tcase_add_test(tests, whole_spheres_have_curves_beside_what_is_laid_first);
   tcase_add_test(tests, whole_spheres_have_coarser_levels);
   tcase_add_test(tests, what_whole_spheres_refuse);
+  tcase_add_test(tests, segments_of_a_coast);
   tcase_add_test(tests, what_is_no_sphere_has_no_radius);
   tcase_add_test(tests, bad_input);
   tcase_set_timeout(tests, 0);

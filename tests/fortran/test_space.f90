@@ -403,7 +403,7 @@ contains
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
     real(c_double) :: places(2, 180), found(2, 180), ring(3, 180), area, radius
-    real(c_double), allocatable :: x(:,:), d(:)
+    real(c_double), allocatable :: x(:,:), d(:), segments(:,:,:)
     integer(c_int64_t), allocatable :: triangles(:,:)
     integer(c_int64_t) :: nodes, again, count, edges, t
     integer(c_int32_t) :: dim
@@ -419,6 +419,11 @@ contains
     call domain%add_polyline(PNPBS_BOUNDARY, .true., ring, corner_angle=30d0)
     call domain%measure(area)
     call expect(abs(area - 2 * pi * (1 + sin(70 * pi / 180))) < 1d-3, 'area on a sphere')
+    call domain%segment_count(count)
+    allocate (segments(3, 2, count))
+    call domain%get_segments(segments)
+    call expect(maxval(abs(norm(reshape(segments, [3, int(2 * count)])) - 1)) < 1d-14, &
+                'segments on a sphere')
     call placement%create(context, domain)
     call placement%sphere_radius(radius)
     call expect(radius == 1, 'radius of the sphere of nodes')

@@ -432,6 +432,10 @@ class Domains(Case):
         self.assertEqual(domain.dim, 3)
         domain.add_polyline(ring, corner_angle=30)
         self.assertAlmostEqual(domain.measure(), 2 * np.pi * (1 + np.sin(np.radians(70))), 3)
+        segments = domain.outline().segments
+        self.assertEqual(segments.shape[1:], (2, 3))
+        np.testing.assert_allclose(np.linalg.norm(segments, axis=2), 1, atol=1e-14)
+        np.testing.assert_allclose(segments[:, :, 2], -np.sin(np.radians(70)), atol=1e-3)
         placement = pnpbs.Placement(domain).set_spacing(0.1)
         domain.close()
         self.assertEqual((placement.dim, placement.sphere_radius), (3, 1))

@@ -391,12 +391,13 @@ class Domain(Handle):
         return d
 
     def outline(self) -> Outline:
-        """Returns straight segments, (n, 2, 2), that approximate a domain in the plane, curves
-        finely sampled, for pictures: `segments[k, 0]` and `segments[k, 1]` are the ends of one; and
+        """Returns straight segments, (n, 2, dim), that approximate the curves of a domain in the
+        plane or on a sphere, finely sampled, for pictures: `segments[k, 0]` and `segments[k, 1]` are the ends of one; and
         their tags."""
         count = ctypes.c_int64()
         self._call("get_segments", 0, ctypes.byref(count), None, None)
-        segments, tags = np.zeros((count.value, 2, 2)), np.zeros(count.value, dtype=np.int32)
+        segments = np.zeros((count.value, 2, self.dim))
+        tags = np.zeros(count.value, dtype=np.int32)
         self._call("get_segments", count.value, ctypes.byref(count), segments, tags)
         return Outline(segments, tags)
 

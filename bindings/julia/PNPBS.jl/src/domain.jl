@@ -644,8 +644,8 @@ end
 """
     outline(domain) -> (segments, tags)
 
-Returns straight segments that approximate a domain in the plane, curves finely sampled, for
-pictures: `segments[:, 1, k]` and `segments[:, 2, k]` are the ends of the k-th. With Plots.jl and
+Returns straight segments that approximate the curves of a domain in the plane or on a sphere, finely
+sampled, for pictures: `segments[:, 1, k]` and `segments[:, 2, k]` are the ends of the k-th. With Plots.jl and
 Julia 1.9 or later, `plot(domain)` draws them.
 """
 function outline(domain::Domain)
@@ -654,7 +654,7 @@ function outline(domain::Domain)
         check(domain.context, LibPNPBS.pnpbs_domain_get_segments(live(domain), capacity, count,
                                                                  segments, tags))
     ask(0, C_NULL, C_NULL)
-    segments, tags = zeros(2, 2, count[]), zeros(Int32, count[])
+    segments, tags = zeros(ndims(domain), 2, count[]), zeros(Int32, count[])
     ask(count[], segments, tags)
     return (segments = segments, tags = tags)
 end

@@ -307,6 +307,7 @@ end
         @test thrown(() -> add_polyline!(domain, places)) isa DimensionMismatch
         @test add_polyline!(domain, ring; corner_angle = 30) === domain
         @test measure(domain) ≈ 2pi * (1 + sind(70)) rtol = 1e-4
+        @test all(x -> sum(abs2, x) ≈ 1, eachcol(reshape(outline(domain).segments, 3, :)))
         placement = set_spacing!(Placement(domain), 0.1)
         close(domain)
         @test sphere_radius(placement) == 1
