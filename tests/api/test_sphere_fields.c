@@ -629,6 +629,45 @@ START_TEST(what_is_fine_at_one_node) {
 }
 END_TEST
 
+static int32_t constant_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  int64_t i;
+  (void)dim, (void)x;
+  for (i = 0; i < n; ++i) d[i] = *(double*)user;
+  return 0;
+}
+
+/* A coast with more vertices than d needs loses as many by a file as by a callback. */
+START_TEST(a_coast_is_simplified_by_a_file) {
+  enum { VERTICES = 720 };
+  const char* path = "sphere_fields_coast.csv";
+  double degrees[2 * VERTICES], coast[3 * VERTICES], spacing = 300;
+  int64_t vertices[2], curves[2];
+  FILE* file = fopen(path, "w");
+  int k, i;
+  ck_assert(file);
+  fprintf(file, "x,y,z,d\n0,0,1,%g\n1,0,0,%g\n0,-2,0,%g\n", spacing, spacing, spacing);
+  ck_assert_int_eq(fclose(file), 0);
+  for (i = 0; i < VERTICES; ++i) {
+    degrees[2 * i] = 360.0 * i / VERTICES;
+    degrees[2 * i + 1] = 40 + 0.4 * sin(i);
+  }
+  MUST(pnpbs_sphere_points(R, VERTICES, degrees, coast));
+  for (k = 0; k < 2; ++k) {
+    job it = globe_from(20, 90);
+    MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, VERTICES, coast, NULL, 30));
+    if (k == 0)
+      MUST(pnpbs_domain_simplify(it.domain, constant_spacing, &spacing, 0.25, 0, vertices, curves));
+    else
+      MUST(pnpbs_domain_simplify_by_file(it.domain, path, "d", 0.25, 0, vertices + 1, curves + 1));
+    job_end(&it);
+  }
+  remove(path);
+  ck_assert_int_gt(vertices[0], VERTICES / 2);
+  ck_assert_int_eq(vertices[1], vertices[0]);
+  ck_assert_int_eq(curves[1], 0);
+}
+END_TEST
+
 START_TEST(wrong_meshes_and_points) {
   double x[] = {1, 0, 0, 0, 2, 0, 0, 0, 3, -1, 0, 0, 0, 0, 0}, d[] = {300, 300, 300, 300, 300};
   const int64_t triangle[] = {0, 1, 2}, half_turn[] = {0, 3, 2}, no_node[] = {0, 1, 5};
@@ -672,6 +711,7 @@ int main(void) {
   tcase_add_test(fields, points_all_over_the_sphere);
   tcase_add_test(fields, points_in_a_part);
   tcase_add_loop_test(fields, what_is_fine_at_one_node, 0, 4);
+  tcase_add_test(fields, a_coast_is_simplified_by_a_file);
   tcase_add_test(fields, wrong_meshes_and_points);
   tcase_set_timeout(fields, 0);
   suite_add_tcase(suite, fields);
