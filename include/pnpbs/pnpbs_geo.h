@@ -150,10 +150,12 @@ PNPBS_API pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index
 /** Values on a grid in a file. Opaque. */
 typedef struct pnpbs_geo_grid_handle *pnpbs_geo_grid;
 
-/** Reads a part of a grid: GeoTIFF, NetCDF and other formats that GDAL reads. Local. Errors:
- *  PNPBS_ERROR_FILE if it cannot be read or does not say where its cells lie, for a missing
- *  variable (the message lists the existing ones), and for more than 2 * 10^8 values in the part;
- *  PNPBS_ERROR_SPACING with both extents where it has nothing in the part; PNPBS_ERROR_ARGUMENT.
+/** Opens a part of a grid: GeoTIFF, NetCDF and other formats that GDAL reads. The file stays open,
+ *  and is read in blocks where values are requested, however large it is: a grid has 256 MiB of
+ *  blocks at most, the last used ones, and 64 MiB of GDAL's. Local. Errors: PNPBS_ERROR_FILE if it
+ *  cannot be read or does not say where its cells lie, and for a missing variable (the message
+ *  lists the existing ones); PNPBS_ERROR_SPACING with both extents where it has nothing in the
+ *  part; PNPBS_ERROR_ARGUMENT.
  *  @param[in] path        a file, or anything else that GDAL opens
  *  @param[in] variable    its name in a file of several, as in NetCDF, or the number of a band;
  *                         NULL if there is only one
@@ -172,8 +174,9 @@ PNPBS_API pnpbs_status pnpbs_geo_grid_read(const char *path, const char *variabl
 PNPBS_API pnpbs_status pnpbs_geo_grid_destroy(pnpbs_geo_grid *grid);
 
 /** Evaluates the grid at points: linear in each direction between the centres of the cells,
- *  constant beyond the edge. Cells without data take the value of the nearest cell that has some.
- *  For use in a pnpbs_spacing_fn. Local.
+ *  constant beyond the edge. Cells without data take the value of the nearest cell that has some,
+ *  counted in columns plus rows. For use in a pnpbs_spacing_fn. Local. Errors: PNPBS_ERROR_FILE if
+ *  the file can no longer be read.
  *  @param[in] coordinates  [n][2]
  *  @param[out] values      [n]
  *  @param[out] inside      [n] 0 where a point lies beyond the edge, to half a cell, else 1; or

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
-#include "geo/raster_file.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -49,42 +47,22 @@ std::string extents_text(const Box<2>& box) {
   return "from " + rounded_point_text<2>(box.low) + " to " + rounded_point_text<2>(box.high);
 }
 
-// Spreads values from the cells that have one, step by step.
-bool fill_gaps(std::vector<double>& values, std::int64_t columns) {
-  std::deque<std::int64_t> front;
-  const auto count = static_cast<std::int64_t>(values.size());
-  for (std::int64_t i = 0; i < count; ++i)
-    if (!std::isnan(values[i])) front.push_back(i);
-  if (front.empty()) return false;
-  for (; !front.empty(); front.pop_front()) {
-    const std::int64_t from = front[0], column = from % columns;
-    const auto visit = [&](bool exists, std::int64_t to) {
-      if (!exists || !std::isnan(values[to])) return;
-      values[to] = values[from];
-      front.push_back(to);
-    };
-    visit(column > 0, from - 1);
-    visit(column + 1 < columns, from + 1);
-    visit(from >= columns, from - columns);
-    visit(from + columns < count, from + columns);
-  }
-  return true;
-}
-
 }  // namespace
 
-Grid::Grid(const GridRequest& request) {
-  const RasterFile file(request.path, request.variable);
-  name_ = file.name();
-  columns_ = file.columns(), rows_ = file.rows();
-  to_plane_ = file.to_plane();
+Grid::Grid(const GridRequest& request) : file_(request.path, request.variable) {
+  name_ = file_.name();
+  columns_ = file_.columns(), rows_ = file_.rows();
+  to_plane_ = file_.to_plane();
   if (!GDALInvGeoTransform(to_plane_.data(), to_cells_.data()))
     throw Error(ErrorKind::file, name_ + ": its cells have no area");
-  choose_system(request, file.system());
+  choose_system(request, file_.system());
   measure_extent();
   window_ = window_for(request);
-  values_ = file.read(window_.column, window_.row, window_.columns, window_.rows);
-  if (!fill_gaps(values_, window_.columns))
+  const auto [columns, rows] = file_.shape_of_blocks();
+  values_ =
+      std::make_unique<RasterValues>([this](const CellBox& cells) { return file_.read(cells); },
+                                     window_, columns, rows, RasterValues::Memory{});
+  if (!values_->has_data())
     throw Error(ErrorKind::spacing, name_ + ": it has no data where the domain is");
 }
 
@@ -117,7 +95,7 @@ std::vector<Point<2>> Grid::cells_of(std::vector<Point<2>> points) const {
   return points;
 }
 
-Grid::Window Grid::window_for(const GridRequest& request) const {
+CellBox Grid::window_for(const GridRequest& request) const {
   constexpr double more = 0.05;  // than the lattice saw: the sides are curved
   const Box<2> box = box_around_finite(cells_of(lattice_over(request.part)));
   const std::int64_t counts[2] = {columns_, rows_};
@@ -138,15 +116,18 @@ Grid::Window Grid::window_for(const GridRequest& request) const {
 
 void Grid::evaluate(const std::vector<Point<2>>& points, double* values,
                     std::int32_t* inside) const {
+  const std::lock_guard<std::mutex> lock(one_at_a_time_);
   const std::vector<Point<2>> cells = cells_of(points);
   const double counts[2] = {static_cast<double>(columns_), static_cast<double>(rows_)};
   const std::int64_t first[2] = {window_.column, window_.row};
   const std::int64_t size[2] = {window_.columns, window_.rows};
+  std::vector<Between> places;
+  places.reserve(points.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!is_somewhere(cells[i]))
       throw Error(ErrorKind::spacing,
                   point_text(points[i]) + " has no place in the coordinates of " + name_);
-    std::int64_t cell[2], next[2];
+    std::int64_t cell[2];
     double fraction[2];
     bool within = true;
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
@@ -154,17 +135,12 @@ void Grid::evaluate(const std::vector<Point<2>>& points, double* values,
       const double at = std::clamp(cells[i][k] - static_cast<double>(first[k]), 0.0,
                                    static_cast<double>(size[k] - 1));
       cell[k] = static_cast<std::int64_t>(at);
-      next[k] = std::min(cell[k] + 1, size[k] - 1);
       fraction[k] = at - static_cast<double>(cell[k]);
     }
-    const auto value = [&](std::int64_t column, std::int64_t row) {
-      return values_[static_cast<std::size_t>(column + size[0] * row)];
-    };
-    values[i] = std::lerp(std::lerp(value(cell[0], cell[1]), value(next[0], cell[1]), fraction[0]),
-                          std::lerp(value(cell[0], next[1]), value(next[0], next[1]), fraction[0]),
-                          fraction[1]);
+    places.push_back({first[0] + cell[0], first[1] + cell[1], fraction[0], fraction[1]});
     if (inside) inside[i] = within ? 1 : 0;
   }
+  values_->interpolate(places, values);
 }
 
 }  // namespace pnpbs::geo

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values on a grid in a file that GDAL reads (GeoTIFF, NetCDF and others), asked for at points of
 // another projection: each is projected into the grid's own system, and values are linear in each
-// direction between the middles of its cells.
+// direction between the middles of its cells. They are read where they are asked for.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/types.hpp"
+#include "geo/raster_file.hpp"
+#include "geo/raster_values.hpp"
 #include "geo/reference_system.hpp"
 
 namespace pnpbs::geo {
@@ -28,19 +32,17 @@ class Grid {
   explicit Grid(const GridRequest& request);
 
   // Constant beyond the grid's edge, and there inside[i] is 0; cells without data have the value of
-  // the nearest cell that has some. Throws Error where a point has no place in the grid's system.
+  // the nearest cell that has some. Throws Error where a point has no place in the grid's system,
+  // or the file can no longer be read. Of several threads one at a time.
   void evaluate(const std::vector<Point<2>>& points, double* values, std::int32_t* inside) const;
   const Box<2>& extent() const { return extent_; }  // around all of it, in the points' plane
 
  private:
-  struct Window {
-    std::int64_t column, row, columns, rows;
-  };
   // Columns and rows as fractions, the middle of the first cell at 0.
   std::vector<Point<2>> cells_of(std::vector<Point<2>> points) const;
   void choose_system(const GridRequest& request, const ReferenceSystem& system);
   void measure_extent();
-  Window window_for(const GridRequest& request) const;
+  CellBox window_for(const GridRequest& request) const;
 
   std::string name_;
   std::int64_t columns_ = 0, rows_ = 0;
@@ -48,8 +50,10 @@ class Grid {
   std::optional<Transformation> forward_, backward_;  // from the points' plane to the grid's
   bool wraps_ = false;  // the grid is in degrees, its longitudes may be any of those 360 apart
   Box<2> extent_{};
-  Window window_{};
-  std::vector<double> values_;  // of the window
+  CellBox window_{};
+  RasterFile file_;
+  std::unique_ptr<RasterValues> values_;  // of the window
+  mutable std::mutex one_at_a_time_;
 };
 
 }  // namespace pnpbs::geo

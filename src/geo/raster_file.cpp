@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geo/raster_file.hpp"
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
+#include <unistd.h>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <mutex>
 #include <string_view>
 
@@ -16,7 +17,9 @@
 namespace pnpbs::geo {
 namespace {
 
-constexpr std::int64_t max_values = 200'000'000;
+// GDAL has decoded blocks of files in memory, up to 5 % of the machine's by default. Of this file
+// they are no more than this, unless the user has set GDAL's limit.
+constexpr std::int64_t max_bytes_in_gdal = std::int64_t{64} << 20;
 
 [[noreturn]] void reject_raster(const std::string& message) {
   throw Error(ErrorKind::file, message);
@@ -82,11 +85,19 @@ RasterFile::Dataset RasterFile::open(const std::string& path) {
 }
 
 RasterFile::RasterFile(const std::string& path, const std::string& variable)
-    : name_("'" + path + "'"), dataset_(open(path)) {
+    : path_(path), variable_(variable) {
+  open_band();
+}
+
+void RasterFile::open_band() {
+  name_ = "'" + path_ + "'";
+  process_ = ::getpid();
+  band_ = nullptr;
+  dataset_ = open(path_);
   if (GDALGetRasterCount(dataset_.get()) == 0)
-    open_variable(path, variable);
+    open_variable(path_, variable_);
   else
-    choose_band(variable);
+    choose_band(variable_);
 }
 
 void RasterFile::open_variable(const std::string& path, const std::string& variable) {
@@ -139,29 +150,74 @@ ReferenceSystem RasterFile::system() const {
                                           : ReferenceSystem();
 }
 
-std::vector<double> RasterFile::read(std::int64_t column, std::int64_t row, std::int64_t columns,
-                                     std::int64_t rows) const {
-  if (columns > max_values / rows)
-    reject_raster(name_ + " has " + std::to_string(columns) + " x " + std::to_string(rows) +
-                  " values where the domain is, expected at most " + std::to_string(max_values) +
-                  ": make it coarser, with gdalwarp -tr, say");
-  std::vector<double> values(static_cast<std::size_t>(columns * rows));
-  const GdalMessages messages;
-  if (GDALRasterIO(band_, GF_Read, static_cast<int>(column), static_cast<int>(row),
-                   static_cast<int>(columns), static_cast<int>(rows), values.data(),
-                   static_cast<int>(columns), static_cast<int>(rows), GDT_Float64, 0, 0) != CE_None)
-    reject_raster("cannot read " + name_ + ": " + messages.failure());
+// The blocks of the file are tiles, or a few rows each. Of small tiles some are read at once, of
+// short rows many; and of blocks that are too large parts.
+std::array<std::int64_t, 2> RasterFile::shape_of_blocks() const {
+  constexpr std::int64_t side = 512, many = std::int64_t{1} << 19, too_many = std::int64_t{1} << 22;
+  int columns = 0, rows = 0;
+  GDALGetBlockSize(band_, &columns, &rows);
+  const std::int64_t across = std::clamp<std::int64_t>(columns, 1, this->columns()),
+                     down = std::clamp<std::int64_t>(rows, 1, this->rows());
+  if (across * down > too_many) return {side, side};
+  const std::int64_t width = across * std::max<std::int64_t>(1, side / across);
+  return {width, down * std::max<std::int64_t>(1, many / (width * down))};
+}
+
+RasterMeaning RasterFile::meaning() const {
+  RasterMeaning meaning;
   int has_no_data = 0, has_scale = 0, has_offset = 0;
-  const double no_data = GDALGetRasterNoDataValue(band_, &has_no_data);
+  meaning.no_data = GDALGetRasterNoDataValue(band_, &has_no_data);
+  meaning.has_no_data = has_no_data != 0;
   const double scale = GDALGetRasterScale(band_, &has_scale);
   const double offset = GDALGetRasterOffset(band_, &has_offset);
-  for (double& value : values) {
-    if ((has_no_data && value == no_data) || !std::isfinite(value))
-      value = std::numeric_limits<double>::quiet_NaN();
-    else
-      value = (has_scale ? scale : 1) * value + (has_offset ? offset : 0);
+  if (has_scale) meaning.scale = scale;
+  if (has_offset) meaning.offset = offset;
+  return meaning;
+}
+
+void RasterFile::read_numbers(const CellBox& cells, void* numbers, GDALDataType type) const {
+  const auto column = static_cast<int>(cells.column), row = static_cast<int>(cells.row),
+             columns = static_cast<int>(cells.columns), rows = static_cast<int>(cells.rows);
+  const GdalMessages messages;
+  if (GDALRasterIO(band_, GF_Read, column, row, columns, rows, numbers, columns, rows, type, 0,
+                   0) != CE_None)
+    reject_raster("cannot read " + name_ + ": " + messages.failure());
+}
+
+// A cache for all that a process reads has a limit of its own, which is not ours to set.
+void RasterFile::limit_cache_of_gdal(const CellBox& read) {
+  if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr)) return;
+  int columns = 1, rows = 1;
+  GDALGetBlockSize(band_, &columns, &rows);
+  const Tiling blocks({0, 0, this->columns(), this->rows()}, columns, rows);
+  std::int64_t count = 0;
+  blocks.for_each_in(read, [&](auto...) { ++count; });
+  bytes_in_gdal_ += count * columns * rows * GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band_));
+  if (bytes_in_gdal_ < max_bytes_in_gdal) return;
+  GDALFlushRasterCache(band_);
+  bytes_in_gdal_ = 0;
+}
+
+RasterBlock RasterFile::read(const CellBox& cells) {
+  // A process that was forked has the place in the file, where the next read begins, in common with
+  // its parent.
+  if (::getpid() != process_) {
+    static_cast<void>(dataset_.release());
+    open_band();
   }
-  return values;
+  const auto is_part_of = [type = GDALGetRasterDataType(band_)](GDALDataType wider) {
+    return GDALDataTypeUnion(type, wider) == wider;
+  };
+  const auto numbers_of = [&](auto number, GDALDataType type) {
+    std::vector<decltype(number)> numbers(static_cast<std::size_t>(cells.count()));
+    read_numbers(cells, numbers.data(), type);
+    return RasterBlock::Numbers(std::move(numbers));
+  };
+  RasterBlock::Numbers numbers = is_part_of(GDT_Int16)     ? numbers_of(std::int16_t{}, GDT_Int16)
+                                 : is_part_of(GDT_Float32) ? numbers_of(float{}, GDT_Float32)
+                                                           : numbers_of(double{}, GDT_Float64);
+  limit_cache_of_gdal(cells);
+  return {cells, std::move(numbers), meaning()};
 }
 
 }  // namespace pnpbs::geo

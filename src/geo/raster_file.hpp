@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One band of a raster file, as GDAL reads it.
+// One band of a raster file, as GDAL reads it. The file stays open.
 #pragma once
 
 #include <gdal.h>
+#include <sys/types.h>
 
 #include <array>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "geo/raster_block.hpp"
 #include "geo/reference_system.hpp"
 
 namespace pnpbs::geo {
@@ -26,9 +28,10 @@ class RasterFile {
   std::int64_t rows() const;
   std::array<double, 6> to_plane() const;  // GDAL's. Throws Error if there is none
   ReferenceSystem system() const;          // none if the file names none
-  // Without data: not a number. Row by row, from the first of the file on. Throws Error.
-  std::vector<double> read(std::int64_t column, std::int64_t row, std::int64_t columns,
-                           std::int64_t rows) const;
+  // Columns and rows that are read together at little more cost than any part of them.
+  std::array<std::int64_t, 2> shape_of_blocks() const;
+  // Throws Error.
+  RasterBlock read(const CellBox& cells);
 
  private:
   struct Close {
@@ -37,12 +40,19 @@ class RasterFile {
   using Dataset = std::unique_ptr<std::remove_pointer_t<GDALDatasetH>, Close>;
 
   static Dataset open(const std::string& path);
+  void open_band();
   void open_variable(const std::string& path, const std::string& variable);
   void choose_band(const std::string& variable);
+  RasterMeaning meaning() const;
+  void read_numbers(const CellBox& cells, void* numbers, GDALDataType type) const;
+  void limit_cache_of_gdal(const CellBox& read);
 
+  std::string path_, variable_;
   std::string name_;  // for messages
+  pid_t process_ = 0;
   Dataset dataset_;
   GDALRasterBandH band_ = nullptr;
+  std::int64_t bytes_in_gdal_ = 0;  // at most
 };
 
 }  // namespace pnpbs::geo

@@ -3,8 +3,11 @@
  * Values on grids in files, asked for in another projection; and what is said of files that have
  * none. A value is 3 longitude + 2 latitude, which interpolation meets exactly in degrees.
  */
+#include <cpl_string.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "geo_support.h"
 
@@ -46,6 +49,47 @@ static const char* write_grid(const char* name, int bands, int with_system, int 
                                   GDT_Float32, 0, 0),
                      CE_None);
   }
+  GDALClose(dataset);
+  return path;
+}
+
+enum { across = 2400, down = 1200, first_empty = 1000, last_empty = 1100 };
+static const double degree = 360.0 / across;
+
+static int number_at(int column, int row) { return (7 * column + 13 * row) % 30011; }
+
+/* The Earth, in tiles, of which some columns have no data; a number stands for half of it and 100.
+ */
+static const char* write_earth(const char* name) {
+  static char path[1024];
+  static short numbers[down][across];
+  double transform[6] = {-180, 0, 0, 90, 0, 0};
+  char** options = CSLSetNameValue(NULL, "TILED", "YES");
+  OGRSpatialReferenceH system = OSRNewSpatialReference(NULL);
+  GDALDatasetH dataset;
+  GDALRasterBandH band;
+  int i, j;
+  transform[1] = degree, transform[5] = -degree;
+  snprintf(path, sizeof path, "%s/%s", PNPBS_TEST_WORK_DIR, name);
+  GDALAllRegister();
+  options = CSLSetNameValue(options, "COMPRESS", "DEFLATE");
+  dataset = GDALCreate(GDALGetDriverByName("GTiff"), path, across, down, 1, GDT_Int16, options);
+  ck_assert_ptr_nonnull(dataset);
+  CSLDestroy(options);
+  ck_assert_int_eq(OSRImportFromEPSG(system, 4326), OGRERR_NONE);
+  GDALSetSpatialRef(dataset, system);
+  OSRRelease(system);
+  GDALSetGeoTransform(dataset, transform);
+  band = GDALGetRasterBand(dataset, 1);
+  GDALSetRasterNoDataValue(band, -32768);
+  GDALSetRasterScale(band, 0.5);
+  GDALSetRasterOffset(band, 100);
+  for (j = 0; j < down; ++j)
+    for (i = 0; i < across; ++i)
+      numbers[j][i] = (short)(i >= first_empty && i <= last_empty ? -32768 : number_at(i, j));
+  ck_assert_int_eq(
+      GDALRasterIO(band, GF_Write, 0, 0, across, down, numbers[0], across, down, GDT_Int16, 0, 0),
+      CE_None);
   GDALClose(dataset);
   return path;
 }
@@ -119,6 +163,57 @@ START_TEST(bands_and_gaps) {
 }
 END_TEST
 
+/* In one call, all over the file, and to and fro: the longitudes differ by turns around the Earth.
+ */
+START_TEST(of_many_blocks) {
+  enum { n = 5000 };
+  static double places[2 * n], values[n];
+  const double low[2] = {-180, -90}, high[2] = {180, 90};
+  pnpbs_geo_grid grid = NULL;
+  int i;
+  GEO_MUST(pnpbs_geo_grid_read(write_earth("earth.tif"), NULL, NULL, low, high, &grid));
+  for (i = 0; i < n; ++i) {
+    const int column = (i * 1777) % across, row = (i * 733) % down;
+    places[2 * i] = -180 + degree * (column + 0.5) + 360 * (i % 3 - 1);
+    places[2 * i + 1] = 90 - degree * (row + 0.5);
+  }
+  GEO_MUST(pnpbs_geo_grid_values(grid, n, places, values, NULL));
+  for (i = 0; i < n; ++i) {
+    const int column = (i * 1777) % across, row = (i * 733) % down;
+    int nearest = column;
+    if (column >= first_empty && column <= last_empty)
+      nearest = column - first_empty <= last_empty - column ? first_empty - 1 : last_empty + 1;
+    ck_assert_msg(fabs(values[i] - 0.5 * number_at(nearest, row) - 100) < 1e-6,
+                  "column %d, row %d: %g", column, row, values[i]);
+  }
+  GEO_MUST(pnpbs_geo_grid_destroy(&grid));
+}
+END_TEST
+
+/* Reads of a child process do not disturb those of its parent. */
+START_TEST(in_a_forked_process) {
+  const double low[2] = {-180, -90}, high[2] = {180, 90};
+  pnpbs_geo_grid grid = NULL;
+  int k, status = 1;
+  pid_t child;
+  GEO_MUST(pnpbs_geo_grid_read(write_earth("forked.tif"), NULL, NULL, low, high, &grid));
+  child = fork();
+  ck_assert_int_ge(child, 0);
+  for (k = 0; k < 400; ++k) {
+    const int column = (131 * k) % 900, row = (257 * k) % down;
+    const double found =
+        value_of(grid, -180 + degree * (column + 0.5), 90 - degree * (row + 0.5), NULL);
+    const int right = fabs(found - 0.5 * number_at(column, row) - 100) < 1e-6;
+    if (child == 0 && !right) _exit(2);
+    if (child != 0) ck_assert_msg(right, "column %d, row %d: %g", column, row, found);
+  }
+  if (child == 0) _exit(0);
+  ck_assert_int_eq(waitpid(child, &status, 0), child);
+  ck_assert_int_eq(status, 0);
+  GEO_MUST(pnpbs_geo_grid_destroy(&grid));
+}
+END_TEST
+
 START_TEST(what_cannot_be_read) {
   const double far_low[2] = {30, 50}, far_high[2] = {31, 51}, south[2] = {18, 53},
                north_of_it[2] = {19, 54.9};
@@ -161,6 +256,8 @@ int main(void) {
   tcase_add_test(cases, in_its_own_system);
   tcase_add_test(cases, projected);
   tcase_add_test(cases, bands_and_gaps);
+  tcase_add_test(cases, of_many_blocks);
+  tcase_add_test(cases, in_a_forked_process);
   tcase_add_test(cases, what_cannot_be_read);
   suite_add_tcase(suite, cases);
   return run_suite(suite);

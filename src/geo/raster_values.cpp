@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geo/raster_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "geo/gaps.hpp"
+
+namespace pnpbs::geo {
+namespace {
+
+// Columns and rows of what is filled at once: a few milliseconds' work.
+constexpr std::int64_t kTile = 256;
+
+// Tiles have a column and a row of those that follow, so that what is between their cells and the
+// next ones is in one of them. Blocks have not: a file's own blocks would be decoded several times.
+constexpr std::int64_t kShared = 1;
+
+// The cells around a place, row by row: those with the higher numbers are the next ones, or the
+// last again.
+struct Corners {
+  std::int64_t column[2], row[2];
+  Corners(const Between& place, const CellBox& window)
+      : column{place.column, std::min(place.column + 1, window.column_end() - 1)},
+        row{place.row, std::min(place.row + 1, window.row_end() - 1)} {}
+};
+
+// Not a number if one of the cells has no data.
+double value_between(const Between& place, const std::array<double, 4>& corners) {
+  // lerp(NaN, b, t) is b.
+  for (const double value : corners)
+    if (std::isnan(value)) return value;
+  return std::lerp(std::lerp(corners[0], corners[1], place.right),
+                   std::lerp(corners[2], corners[3], place.right), place.down);
+}
+
+template <class Cells>
+double value_between(const Between& place, const CellBox& window, const Cells& cells) {
+  const auto& [column, row] = Corners(place, window);
+  return value_between(place, {cells.at(column[0], row[0]), cells.at(column[1], row[0]),
+                               cells.at(column[0], row[1]), cells.at(column[1], row[1])});
+}
+
+// What a place, the number `place`, asks of a piece: its value, or one corner's that others are not
+// with.
+struct Wish {
+  std::int64_t piece;
+  std::size_t place;
+  int corner;
+  static constexpr int all = -1;
+  bool operator<(const Wish& other) const { return piece < other.piece; }
+};
+
+CellBox grown(const CellBox& box, std::int64_t steps, const CellBox& whole) {
+  return common_part(
+      whole, {box.column - steps, box.row - steps, box.columns + 2 * steps, box.rows + 2 * steps});
+}
+
+// What the outer box has and the inner one has not: above, below, and to both sides.
+std::vector<CellBox> frame_of(const CellBox& outer, const CellBox& inner) {
+  return {{outer.column, outer.row, outer.columns, inner.row - outer.row},
+          {outer.column, inner.row_end(), outer.columns, outer.row_end() - inner.row_end()},
+          {outer.column, inner.row, inner.column - outer.column, inner.rows},
+          {inner.column_end(), inner.row, outer.column_end() - inner.column_end(), inner.rows}};
+}
+
+}  // namespace
+
+RasterValues::RasterValues(Read read, const CellBox& window, std::int64_t columns,
+                           std::int64_t rows, const Memory& memory)
+    : read_(std::move(read)),
+      blocks_(window, columns, rows),
+      tiles_(window, kTile, kTile),
+      blocks_in_memory_(memory.blocks),
+      tiles_in_memory_(memory.filled),
+      tile_data_(static_cast<std::size_t>(tiles_.count()), Data::unknown) {}
+
+const RasterBlock& RasterValues::block(std::int64_t number) {
+  return blocks_in_memory_.get(number, [&] { return read_(blocks_.box_of(number)); });
+}
+
+// take(column, row, value): of cells with data, row by row in each block.
+template <class Take>
+void RasterValues::read_part(const CellBox& part, const Take& take) {
+  blocks_.for_each_in(part, [&](std::int64_t number, const CellBox& cells) {
+    const RasterBlock& its = block(number);
+    for (std::int64_t row = cells.row; row < cells.row_end(); ++row)
+      for (std::int64_t column = cells.column; column < cells.column_end(); ++column) {
+        const double value = its.at(column, row);
+        if (!std::isnan(value)) take(column, row, value);
+      }
+  });
+}
+
+// The middle, above all.
+bool RasterValues::has_data() {
+  const std::int64_t count = blocks_.count();
+  for (std::int64_t k = 0; k < count; ++k) {
+    bool found = false;
+    read_part(blocks_.box_of((count / 2 + k) % count), [&](auto...) { found = true; });
+    if (found) return true;
+  }
+  return false;
+}
+
+bool RasterValues::tile_has_data(std::int64_t tile) {
+  Data& data = tile_data_[static_cast<std::size_t>(tile)];
+  if (data == Data::unknown) {
+    data = Data::none;
+    read_part(tiles_.box_of(tile), [&](auto...) { data = Data::some; });
+  }
+  return data == Data::some;
+}
+
+// Looks around the tile no farther than the nearest data may be.
+RasterValues::Filled RasterValues::fill(std::int64_t tile) {
+  const CellBox box = tiles_.box_of(tile, kShared), &whole = tiles_.whole();
+  std::vector<double> own(static_cast<std::size_t>(box.count()), std::nan(""));
+  read_part(box, [&](std::int64_t column, std::int64_t row, double value) {
+    own[box.place_of(column, row)] = value;
+  });
+  Gaps gaps(box, own);
+  CellBox covered = box;
+  for (std::int64_t ring = 1; covered != whole; ++ring) {
+    const std::int64_t steps = gaps.steps_beyond(covered, whole);
+    if (steps == 0) break;
+    const CellBox wider = grown(box, std::min(steps, ring * kTile), whole);
+    for (const CellBox& side : frame_of(wider, covered))
+      tiles_.for_each_in(side, [&](std::int64_t there, const CellBox& cells) {
+        if (tile_has_data(there)) read_part(cells, [&](auto... data) { gaps.offer(data...); });
+      });
+    covered = wider;
+  }
+  return {box, gaps.filled()};
+}
+
+const RasterValues::Filled& RasterValues::filled(std::int64_t tile) {
+  return tiles_in_memory_.get(tile, [&] { return fill(tile); });
+}
+
+void RasterValues::interpolate(const std::vector<Between>& places, double* values) {
+  const CellBox& window = blocks_.whole();
+  std::vector<Wish> wishes;
+  std::vector<std::size_t> apart;  // places with corners in several blocks
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [column, row] = Corners(places[i], window);
+    const std::int64_t first = blocks_.number_of(column[0], row[0]);
+    if (first == blocks_.number_of(column[1], row[1])) {
+      wishes.push_back({first, i, Wish::all});
+      continue;
+    }
+    for (int k = 0; k < 4; ++k)
+      wishes.push_back({blocks_.number_of(column[k % 2], row[k / 2]), apart.size(), k});
+    apart.push_back(i);
+  }
+  if (blocks_.count() > 1) std::sort(wishes.begin(), wishes.end());
+  std::vector<std::array<double, 4>> corners(apart.size());
+  const RasterBlock* its = nullptr;
+  for (std::size_t w = 0; w < wishes.size(); ++w) {
+    const auto& [number, i, corner] = wishes[w];
+    if (w == 0 || number != wishes[w - 1].piece) its = &block(number);
+    if (corner == Wish::all) {
+      values[i] = value_between(places[i], window, *its);
+    } else {
+      const auto& [column, row] = Corners(places[apart[i]], window);
+      corners[i][static_cast<std::size_t>(corner)] = its->at(column[corner % 2], row[corner / 2]);
+    }
+  }
+  for (std::size_t k = 0; k < apart.size(); ++k)
+    values[apart[k]] = value_between(places[apart[k]], corners[k]);
+  interpolate_in_gaps(places, values);
+}
+
+// Where values are not numbers yet.
+void RasterValues::interpolate_in_gaps(const std::vector<Between>& places, double* values) {
+  std::vector<Wish> wishes;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (std::isnan(values[i]))
+      wishes.push_back({tiles_.number_of(places[i].column, places[i].row), i, Wish::all});
+  std::sort(wishes.begin(), wishes.end());
+  for (const auto& [number, i, corner] : wishes)
+    values[i] = value_between(places[i], tiles_.whole(), filled(number));
+}
+
+}  // namespace pnpbs::geo
