@@ -16,7 +16,7 @@ module pnpbs_geo
   private
 
   public :: pnpbs_geo_shapes, pnpbs_geo_grid
-  public :: pnpbs_geo_last_error, pnpbs_geo_build_info
+  public :: pnpbs_geo_last_error, pnpbs_geo_build_info, pnpbs_geo_depth_spacing
 
   !> Shapes of one layer of a file, projected.
   type :: pnpbs_geo_shapes
@@ -45,6 +45,7 @@ module pnpbs_geo
     procedure :: read => grid_read
     procedure :: destroy => grid_destroy
     procedure :: values => grid_values
+    procedure :: slopes => grid_slopes
     procedure :: extent => grid_extent
   end type
 
@@ -299,6 +300,74 @@ contains
       status = c_geo_grid_values(self%c, size(values, kind=c_int64_t), coordinates, values, within)
     if (present(inside) .and. .not. given%is_wrong()) inside = within /= 0
     call conclude_grid('values', status, stat, errmsg, given)
+  end subroutine
+
+  !> Computes how steep the grid is at points: the change of its values per unit of length. Local.
+  !>   coordinates  (2, n)
+  !>   slopes       (n)
+  !>   radius       optional: of the sphere along which lengths are, if the points are longitude and
+  !>                latitude in degrees; default: lengths are those of the plane of the points
+  subroutine grid_slopes(self, coordinates, slopes, radius, stat, errmsg)
+    class(pnpbs_geo_grid), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    real(c_double), intent(out) :: slopes(:)
+    real(c_double), intent(in), optional :: radius
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    real(c_double) :: of_sphere
+    integer(c_int) :: status
+    slopes = 0
+    of_sphere = 0
+    if (present(radius)) of_sphere = radius
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
+    call given%check_rows('slopes', size(slopes), size(coordinates, 2))
+    status = given%found()
+    if (.not. given%is_wrong()) &
+      status = c_geo_grid_slopes(self%c, of_sphere, size(slopes, kind=c_int64_t), coordinates, slopes)
+    call conclude_grid('slopes', status, stat, errmsg, given)
+  end subroutine
+
+  !> Returns the d of models of tides and surges by the depth of the water: so many nodes per length
+  !> of a long wave, and per 2 pi h / |grad h|. Shallower water than least, and land, count as flat
+  !> at that depth. Local.
+  !>   depths  (n), metres, positive down: elevations must be negated
+  !>   d       (n)
+  !>   metres  per unit of length: 1000 for kilometres
+  !>   slopes  optional: (n), of the depths, metres per unit of length, as from grid%slopes
+  !>   wave    optional: nodes per wavelength; default: 30; 0: no such rule
+  !>   period  optional: of the wave, seconds; default: 44712, of the tide M2
+  !>   slope   optional: nodes per 2 pi h / |grad h|; default: 0, no such rule
+  !>   least   optional: metres; default: 10
+  subroutine pnpbs_geo_depth_spacing(depths, d, metres, slopes, wave, period, slope, least, stat, &
+                                     errmsg)
+    real(c_double), intent(in) :: depths(:)
+    real(c_double), intent(out) :: d(:)
+    real(c_double), intent(in) :: metres
+    real(c_double), intent(in), optional :: slopes(:), wave, period, slope, least
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    real(c_double), allocatable :: steep(:)
+    real(c_double) :: rule(4)
+    integer(c_int) :: status
+    d = 0
+    rule = [30d0, 44712d0, 0d0, 10d0]
+    if (present(wave)) rule(1) = wave
+    if (present(period)) rule(2) = period
+    if (present(slope)) rule(3) = slope
+    if (present(least)) rule(4) = least
+    call given%check_rows('d', size(d), size(depths))
+    if (present(slopes)) call given%check_rows('slopes', size(slopes), size(depths))
+    if (rule(3) > 0 .and. .not. present(slopes)) call given%check_rows('slopes', 0, size(depths))
+    status = given%found()
+    allocate (steep(size(depths)))
+    steep = 0
+    if (present(slopes) .and. .not. given%is_wrong()) steep = slopes
+    if (.not. given%is_wrong()) &
+      status = c_geo_depth_spacing(size(depths, kind=c_int64_t), depths, steep, rule(1), rule(2), &
+                                   rule(3), rule(4), metres, d)
+    call conclude('depth_spacing', status, stat, errmsg, given, pnpbs_geo_last_error())
   end subroutine
 
   !> Returns the bounding box of the whole grid in the file, in the projection of the points. Local.

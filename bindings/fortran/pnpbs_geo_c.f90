@@ -154,6 +154,29 @@ module pnpbs_geo_c
       integer(c_int) :: c_geo_grid_values
     end function
 
+    function c_geo_grid_slopes(grid, radius, n, coordinates, slopes) bind(C, &
+      name="pnpbs_geo_grid_slopes")
+      import
+      implicit none
+      type(c_ptr), value :: grid
+      real(c_double), value :: radius
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*)
+      real(c_double), intent(inout) :: slopes(*)
+      integer(c_int) :: c_geo_grid_slopes
+    end function
+
+    function c_geo_depth_spacing(n, depths, slopes, nodes_per_wave, period, nodes_per_slope, &
+      least_depth, metres, d) bind(C, name="pnpbs_geo_depth_spacing")
+      import
+      implicit none
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: depths(*), slopes(*)
+      real(c_double), value :: nodes_per_wave, period, nodes_per_slope, least_depth, metres
+      real(c_double), intent(inout) :: d(*)
+      integer(c_int) :: c_geo_depth_spacing
+    end function
+
     function c_geo_grid_extent(grid, low, high) bind(C, name="pnpbs_geo_grid_extent")
       import
       implicit none

@@ -185,6 +185,36 @@ PNPBS_API pnpbs_status pnpbs_geo_grid_values(pnpbs_geo_grid grid, int64_t n,
                                              const double *coordinates, double *values,
                                              int32_t *inside);
 
+/** Computes how steep the grid is at points: the change of its values per length, which between the
+ *  centres of the cells is that of the values there, linear in each direction. Local. Errors as of
+ *  pnpbs_geo_grid_values.
+ *  @param[in] radius       of the sphere along which lengths are, if the points are longitude and
+ *                          latitude in degrees; 0: lengths are those of the plane of the points
+ *  @param[in] coordinates  [n][2]
+ *  @param[out] slopes      [n] values per unit of length */
+PNPBS_API pnpbs_status pnpbs_geo_grid_slopes(pnpbs_geo_grid grid, double radius, int64_t n,
+                                             const double *coordinates, double *slopes);
+
+/** Returns the d of models of tides and surges by the depth h of the water: the least of sqrt(g h)
+ *  T / nodes_per_wave / metres, with g = 9.81 m/s2, and of 2 pi h / |grad h| / nodes_per_slope. In
+ *  water that is shallower than least_depth, and on land, the bottom counts as flat at that depth.
+ *  d is infinite where neither rule bounds it. For use in a pnpbs_spacing_fn. Local. Errors:
+ *  PNPBS_ERROR_SPACING for a depth or a slope that is not a number (the message has its index);
+ *  PNPBS_ERROR_ARGUMENT.
+ *  @param[in] depths           [n] metres, positive down: elevations must be negated
+ *  @param[in] slopes           [n] of the depths, metres per unit of length, as from
+ *                              pnpbs_geo_grid_slopes; or NULL if nodes_per_slope is 0
+ *  @param[in] nodes_per_wave   30, say; 0: no such rule
+ *  @param[in] period           T in seconds; 44712 of the tide M2
+ *  @param[in] nodes_per_slope  20, say; 0: no such rule
+ *  @param[in] least_depth      metres, greater than 0; 10, say
+ *  @param[in] metres           per unit of length: 1000 for kilometres
+ *  @param[out] d               [n] */
+PNPBS_API pnpbs_status pnpbs_geo_depth_spacing(int64_t n, const double *depths,
+                                               const double *slopes, double nodes_per_wave,
+                                               double period, double nodes_per_slope,
+                                               double least_depth, double metres, double *d);
+
 /** Returns the bounding box of the whole grid in the file, in the projection of the points. Local.
  *  @param[out] low   [2]
  *  @param[out] high  [2] */

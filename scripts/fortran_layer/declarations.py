@@ -20,7 +20,7 @@ ADDRESS = "type(c_ptr)"
 BY_ADDRESS = {"pnpbs_placement_get_adjacency", "pnpbs_placement_get_exchange",
               "pnpbs_placement_get_stars"}
 # What it always passes, though it may be NULL.
-BY_REFERENCE = {("pnpbs_geo_grid_values", "inside")}
+BY_REFERENCE = {("pnpbs_geo_grid_values", "inside"), ("pnpbs_geo_depth_spacing", "slopes")}
 
 MAY_BE_NULL = re.compile(r"\b(arrays?|outputs?) may be NULL")
 

@@ -15,7 +15,9 @@
 #include "api/floating_point.hpp"
 #include "base/error.hpp"
 #include "geo/grid.hpp"
+#include "geo/grid_slopes.hpp"
 #include "geo/shapes.hpp"
+#include "spacing/depth_rule.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::geo;
@@ -161,8 +163,18 @@ void write_text(const std::string& path, const std::string& text) {
     throw Error(ErrorKind::file, "cannot write '" + path + "'");
 }
 
-std::vector<Point<2>> points_from(std::int64_t n, const double* coordinates) {
+void require_count(std::int64_t n) {
   if (n < 0) throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + " is negative");
+}
+
+void require_number(const char* argument, double value, bool fits) {
+  if (!fits || !std::isfinite(value))
+    throw Error(ErrorKind::argument, std::string("argument ") + argument + " = " +
+                                         number_text(value) + " is out of range");
+}
+
+std::vector<Point<2>> points_from(std::int64_t n, const double* coordinates) {
+  require_count(n);
   if (n > 0) require_pointer(coordinates, "coordinates");
   std::vector<Point<2>> points(static_cast<std::size_t>(n));
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -333,6 +345,39 @@ pnpbs_status pnpbs_geo_grid_values(pnpbs_geo_grid grid, int64_t n, const double*
     const std::vector<Point<2>> points = points_from(n, coordinates);
     if (n > 0) require_pointer(values, "values");
     object.evaluate(points, values, inside);
+  });
+}
+
+pnpbs_status pnpbs_geo_grid_slopes(pnpbs_geo_grid grid, double radius, int64_t n,
+                                   const double* coordinates, double* slopes) {
+  return guarded(grid, [&](Grid& object) {
+    require_number("radius", radius, radius >= 0);
+    const std::vector<Point<2>> points = points_from(n, coordinates);
+    if (n > 0) require_pointer(slopes, "slopes");
+    evaluate_slopes(object, radius, points, slopes);
+  });
+}
+
+pnpbs_status pnpbs_geo_depth_spacing(int64_t n, const double* depths, const double* slopes,
+                                     double nodes_per_wave, double period, double nodes_per_slope,
+                                     double least_depth, double metres, double* d) {
+  return guarded([&] {
+    require_number("nodes_per_wave", nodes_per_wave, nodes_per_wave >= 0);
+    require_number("period", period, period > 0);
+    require_number("nodes_per_slope", nodes_per_slope, nodes_per_slope >= 0);
+    require_number("least_depth", least_depth, least_depth > 0);
+    require_number("metres", metres, metres > 0);
+    require_count(n);
+    if (n > 0) require_pointer(depths, "depths"), require_pointer(d, "d");
+    if (n > 0 && nodes_per_slope > 0) require_pointer(slopes, "slopes");
+    const DepthRule rule{nodes_per_wave, period, nodes_per_slope, least_depth, metres};
+    for (std::int64_t i = 0; i < n; ++i) {
+      const double slope = nodes_per_slope > 0 ? slopes[i] : 0;
+      if (std::isnan(depths[i]) || std::isnan(slope))
+        throw Error(ErrorKind::spacing, (std::isnan(slope) ? "slopes[" : "depths[") +
+                                            std::to_string(i) + "] is not a number");
+      d[i] = rule.spacing(depths[i], slope);
+    }
   });
 }
 

@@ -58,7 +58,7 @@ Spacing::Spacing(const Arguments& arguments, int dimension)
     fields.push_back({grid->name(), [grid](std::int64_t n, const double* x, double* values) {
                         grid->evaluate(n, x, values, nullptr);
                       }});
-    if (asks_for_slope(arguments.spacing, grid->name()))
+    if (mentions(arguments.spacing, slope_name(grid->name())))
       fields.push_back(
           {slope_name(grid->name()), [this, grid](std::int64_t n, const double* x, double* values) {
              evaluate_slope(*grid, dimension_, sphere_, n, x, values);

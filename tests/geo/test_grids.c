@@ -214,6 +214,62 @@ START_TEST(in_a_forked_process) {
 }
 END_TEST
 
+/* Of 3 longitude + 2 latitude: in the plane of degrees, and along a sphere. */
+START_TEST(slopes) {
+  const double places[4] = {18.731, 55.117, 19.413, 54.822}, radius = 6371.22, pi = acos(-1);
+  const double length = pi / 180 * radius; /* of a degree */
+  pnpbs_geo_grid grid = NULL;
+  double found[2];
+  int i;
+  GEO_MUST(pnpbs_geo_grid_read(write_grid("slopes.tif", 1, 1, rows), NULL, NULL, everywhere_low,
+                               everywhere_high, &grid));
+  GEO_MUST(pnpbs_geo_grid_slopes(grid, 0, 2, places, found));
+  for (i = 0; i < 2; ++i) ck_assert_double_eq_tol(found[i], hypot(3, 2), 1e-3);
+  GEO_MUST(pnpbs_geo_grid_slopes(grid, radius, 2, places, found));
+  for (i = 0; i < 2; ++i) {
+    const double east = 3 / (length * cos(pi / 180 * places[2 * i + 1])), north = 2 / length;
+    ck_assert_double_eq_tol(found[i], hypot(east, north), 1e-5);
+  }
+  GEO_MUST(pnpbs_geo_grid_slopes(grid, 0, 0, NULL, NULL));
+  GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_geo_grid_slopes(grid, -1, 2, places, found), "radius",
+                "-1");
+  GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_geo_grid_slopes(grid, 0, 2, places, NULL), "slopes",
+                "NULL");
+  GEO_MUST(pnpbs_geo_grid_destroy(&grid));
+}
+END_TEST
+
+START_TEST(spacing_by_depth) {
+  const double depths[5] = {4000, 200, 10, 2, -300}, steep[5] = {0, 50, 50, 50, 900}, pi = acos(-1);
+  double d[5], unknown[2];
+  int i;
+  GEO_MUST(pnpbs_geo_depth_spacing(5, depths, NULL, 30, 44712, 0, 10, 1000, d));
+  for (i = 0; i < 5; ++i)
+    ck_assert_double_eq_tol(d[i], sqrt(9.81 * fmax(depths[i], 10)) * 44.712 / 30, 1e-9);
+  GEO_MUST(pnpbs_geo_depth_spacing(5, depths, steep, 0, 44712, 20, 10, 1000, d));
+  ck_assert(isinf(d[0]));
+  ck_assert_double_eq_tol(d[1], 2 * pi * 200 / (20 * 50), 1e-12);
+  for (i = 2; i < 5; ++i) ck_assert(isinf(d[i])); /* flat */
+  GEO_MUST(pnpbs_geo_depth_spacing(2, depths, steep, 30, 44712, 20, 10, 1000, d));
+  ck_assert_double_eq_tol(d[0], sqrt(9.81 * 4000) * 44.712 / 30, 1e-9);
+  ck_assert_double_eq_tol(d[1], 2 * pi * 200 / (20 * 50), 1e-12);
+  unknown[0] = 5, unknown[1] = nan("");
+  GEO_MUST_FAIL(PNPBS_ERROR_SPACING,
+                pnpbs_geo_depth_spacing(2, unknown, NULL, 30, 44712, 0, 10, 1, d), "depths[1]",
+                "not a number");
+  GEO_MUST_FAIL(PNPBS_ERROR_SPACING,
+                pnpbs_geo_depth_spacing(2, depths, unknown, 30, 44712, 20, 10, 1, d), "slopes[1]",
+                "not a number");
+  GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+                pnpbs_geo_depth_spacing(2, depths, NULL, 30, 44712, 20, 10, 1, d), "slopes",
+                "NULL");
+  GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_geo_depth_spacing(2, depths, NULL, 30, 0, 0, 10, 1, d),
+                "period", "0");
+  GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_geo_depth_spacing(2, depths, NULL, 30, 1, 0, 0, 1, d),
+                "least_depth", "0");
+}
+END_TEST
+
 START_TEST(what_cannot_be_read) {
   const double far_low[2] = {30, 50}, far_high[2] = {31, 51}, south[2] = {18, 53},
                north_of_it[2] = {19, 54.9};
@@ -258,6 +314,8 @@ int main(void) {
   tcase_add_test(cases, bands_and_gaps);
   tcase_add_test(cases, of_many_blocks);
   tcase_add_test(cases, in_a_forked_process);
+  tcase_add_test(cases, slopes);
+  tcase_add_test(cases, spacing_by_depth);
   tcase_add_test(cases, what_cannot_be_read);
   suite_add_tcase(suite, cases);
   return run_suite(suite);

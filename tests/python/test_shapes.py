@@ -80,11 +80,32 @@ class Shapes(unittest.TestCase):
                                projection=shapes.projection.wkt) as depth:
                 np.testing.assert_allclose(depth(corners), [108, 114, 115, 109], rtol=1e-6)
                 self.assertEqual(list(depth.inside([corners[0], corners[0] + 1e6])), [True, False])
+                x = corners.mean(axis=0)[None]
+                beside = [depth(x + np.multiply(step, 1e3)) - depth(x - np.multiply(step, 1e3))
+                          for step in ([[1, 0]], [[0, 1]])]
+                np.testing.assert_allclose(depth.slopes(x), np.hypot(*beside) / 2e3, rtol=1e-3)
                 low, high = depth.extent
                 self.assertTrue(np.all(low < corners) and np.all(corners < high))
         self.assertFalse(depth.is_open)
+        with pnpbs.GeoGrid(path, (17, 53), (21, 56)) as depth:
+            degree = 6371 * np.pi / 180
+            np.testing.assert_allclose(depth.slopes([(19.1, 55.1)], radius=6371),
+                                       np.hypot(3 / np.cos(np.radians(55.1)), 1) / degree, rtol=1e-4)
         with self.assertRaisesRegex(PNPBSError, "outside of the domain"):
             pnpbs.GeoGrid(path, (50, 10), (51, 11))
+
+    def test_spacing_by_depth(self):
+        h, steep = np.array([3000, 100, 1, -50.0]), np.array([0, 40, 40, 0.0])
+        wave = np.sqrt(9.81 * np.maximum(h, 10)) * 44.712 / 30
+        np.testing.assert_allclose(pnpbs.depth_spacing(h, metres=1000), wave)
+        d = pnpbs.depth_spacing(h, steep, slope=20, metres=1000)
+        np.testing.assert_allclose(d, [wave[0], min(wave[1], 2 * np.pi * 100 / 800), *wave[2:]])
+        with self.assertRaisesRegex(PNPBSError, r"depths\[0\] is not a number"):
+            pnpbs.depth_spacing([np.nan])
+        with self.assertRaisesRegex(ValueError, "slopes of the depths are missing"):
+            pnpbs.depth_spacing(h, slope=20)
+        with self.assertRaisesRegex(ValueError, "one number of values"):
+            pnpbs.depth_spacing(h, [1.0])
 
     def test_errors(self):
         for arguments, status, words in (

@@ -29,7 +29,7 @@ from .placement import Estimate, Placement, PopulationChange
 from .results import (CellBands, EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering,
                       Stars)
 from .rows import CompressedRows
-from .shapes import GeoGrid, Projection, ShapeCounts, Shapes, geo_build_info
+from .shapes import GeoGrid, Projection, ShapeCounts, Shapes, depth_spacing, geo_build_info
 from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unfinished_files,
                      file_dimension, format_table, library_version, mpi_library, option_table,
                      shutdown, statistic_table)
@@ -40,7 +40,8 @@ __all__ = [
     "Estimate", "ExchangePattern", "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut",
     "MeshArrays", "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError", "Particles",
     "Placement", "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars",
-    "StatisticRow", "Status", "Transfer", "VoronoiCells", "build_info", "discard_unfinished_files", "file_dimension",
-    "format_table", "geo_build_info", "library_path", "library_version", "mpi_library",
-    "option_table", "shutdown", "sphere_degrees", "sphere_points", "statistic_table",
+    "StatisticRow", "Status", "Transfer", "VoronoiCells", "build_info", "depth_spacing",
+    "discard_unfinished_files", "file_dimension", "format_table", "geo_build_info",
+    "library_path", "library_version", "mpi_library", "option_table", "shutdown",
+    "sphere_degrees", "sphere_points", "statistic_table",
 ]

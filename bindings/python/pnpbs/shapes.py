@@ -46,6 +46,11 @@ pnpbs_status pnpbs_geo_grid_read(const char *path, const char *variable, const c
 pnpbs_status pnpbs_geo_grid_destroy(pnpbs_geo_grid *grid);
 pnpbs_status pnpbs_geo_grid_values(pnpbs_geo_grid grid, int64_t n, const double *coordinates,
     double *values, int32_t *inside);
+pnpbs_status pnpbs_geo_grid_slopes(pnpbs_geo_grid grid, double radius, int64_t n,
+    const double *coordinates, double *slopes);
+pnpbs_status pnpbs_geo_depth_spacing(int64_t n, const double *depths, const double *slopes,
+    double nodes_per_wave, double period, double nodes_per_slope, double least_depth, double metres,
+    double *d);
 pnpbs_status pnpbs_geo_grid_extent(pnpbs_geo_grid grid, double *low, double *high);
 """
 
@@ -207,6 +212,8 @@ class GeoGrid(Handle):
 
         depth = pnpbs.GeoGrid("depth.tif", low, high, projection=shapes.projection.wkt)
         placement.set_spacing(lambda x: np.clip(0.02 * depth(x), 0.5, 20))
+
+    The file stays open, and blocks of it are read where values are requested.
     """
 
     def __init__(self, path: Path, low: ArrayLike, high: ArrayLike,
@@ -239,6 +246,15 @@ class GeoGrid(Handle):
         edge."""
         return np.asarray(self._asked(points)[1] != 0)
 
+    def slopes(self, points: ArrayLike, radius: float = 0.0) -> Doubles:
+        """Returns how steep the grid is at points, (n, 2): the change of its values per unit of
+        length. `radius` is that of the sphere along which lengths are, if the points are longitude
+        and latitude in degrees; with 0, lengths are those of the plane of the points."""
+        x = as_points(points, 2, "points")
+        slopes = np.zeros(len(x))
+        _check(_library().pnpbs_geo_grid_slopes(self._live(), radius, len(x), x, slopes))
+        return slopes
+
     def _asked(self, points: ArrayLike) -> Tuple[Doubles, "np.ndarray[Any, np.dtype[np.int32]]"]:
         x = as_points(points, 2, "points")
         values, inside = np.zeros(len(x)), np.zeros(len(x), np.int32)
@@ -251,3 +267,29 @@ class GeoGrid(Handle):
         low, high = np.zeros(2), np.zeros(2)
         _check(_library().pnpbs_geo_grid_extent(self._live(), low, high))
         return low, high
+
+
+def depth_spacing(depths: ArrayLike, slopes: Optional[ArrayLike] = None, *, wave: float = 30,
+                  period: float = 44712, slope: float = 0, least: float = 10,
+                  metres: float = 1) -> Doubles:
+    """Returns the d of models of tides and surges by the depth of the water in metres, positive down
+    (elevations must be negated): `wave` nodes per length of a long wave of this `period` in seconds,
+    and `slope` nodes per 2 pi h / |grad h|, each with 0 not at all. Shallower water than `least`,
+    and land, count as flat at that depth. `slopes` are those of the depths, in metres per unit of
+    length, as from `GeoGrid.slopes`; a unit of length is so many `metres`.
+
+        placement.set_spacing(lambda x: np.clip(
+            pnpbs.depth_spacing(depth(x), depth.slopes(x), slope=20, metres=1000), 0.5, 20))
+    """
+    if slope > 0 and slopes is None:
+        raise ValueError(f"slope = {slope}: the slopes of the depths are missing")
+    h = np.ascontiguousarray(np.atleast_1d(depths), float)
+    steep = np.zeros_like(h) if slopes is None else np.ascontiguousarray(np.atleast_1d(slopes),
+                                                                         float)
+    if h.ndim != 1 or steep.shape != h.shape:
+        raise ValueError(f"depths and slopes have shapes {h.shape} and {steep.shape}, expected one "
+                         "number of values")
+    d = np.zeros_like(h)
+    _check(_library().pnpbs_geo_depth_spacing(len(h), h, steep, wave, period, slope, least, metres,
+                                              d))
+    return d

@@ -99,6 +99,18 @@ pnpbs_geo_grid_values(grid, n, coordinates, values, inside) =
         grid::pnpbs_geo_grid, n::Int64, coordinates::Ptr{Cdouble}, values::Ptr{Cdouble},
         inside::Ptr{Int32})::pnpbs_status
 
+pnpbs_geo_grid_slopes(grid, radius, n, coordinates, slopes) =
+    @ccall $(symbol(:pnpbs_geo_grid_slopes))(
+        grid::pnpbs_geo_grid, radius::Cdouble, n::Int64, coordinates::Ptr{Cdouble},
+        slopes::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_geo_depth_spacing(n, depths, slopes, nodes_per_wave, period, nodes_per_slope, least_depth,
+                        metres, d) =
+    @ccall $(symbol(:pnpbs_geo_depth_spacing))(
+        n::Int64, depths::Ptr{Cdouble}, slopes::Ptr{Cdouble}, nodes_per_wave::Cdouble,
+        period::Cdouble, nodes_per_slope::Cdouble, least_depth::Cdouble, metres::Cdouble,
+        d::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_geo_grid_extent(grid, low, high) =
     @ccall $(symbol(:pnpbs_geo_grid_extent))(
         grid::pnpbs_geo_grid, low::Ptr{Cdouble}, high::Ptr{Cdouble})::pnpbs_status

@@ -49,7 +49,7 @@ export statistic, statistics, edge_bands, cell_bands, warnings, write_file, writ
 export add_output_field, clear_output_fields
 export write_checkpoint, read_checkpoint!
 export Shapes, add_shapes!, shape_counts, projection, notes, write_prj, to_degrees, from_degrees
-export GeoGrid, grid_values, inside_grid, grid_extent
+export GeoGrid, grid_values, inside_grid, grid_slopes, depth_spacing, grid_extent
 export explain, geo_build_info
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
 

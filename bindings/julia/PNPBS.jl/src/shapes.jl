@@ -238,6 +238,44 @@ function asked_grid(grid, points)
 end
 
 """
+    grid_slopes(grid, points; radius = 0) -> slopes
+
+Returns how steep the grid is at points, `2 x n`: the change of its values per unit of length.
+`radius` is that of the sphere along which lengths are, if the points are longitude and latitude in
+degrees; with 0, lengths are those of the plane of the points.
+"""
+function grid_slopes(grid::GeoGrid, points::AbstractMatrix; radius::Real = 0)
+    size(points, 1) == 2 || throw(DimensionMismatch("points have x and y: 2 rows"))
+    x = Matrix{Float64}(points)
+    slopes = zeros(size(x, 2))
+    check_geo(LibPNPBSGeo.pnpbs_geo_grid_slopes(live(grid), radius, size(x, 2), x, slopes))
+    return slopes
+end
+
+"""
+    depth_spacing(depths; slopes = nothing, wave = 30, period = 44712, slope = 0, least = 10,
+                  metres = 1) -> d
+
+Returns the d of models of tides and surges by the depth of the water in metres, positive down
+(elevations must be negated): `wave` nodes per length of a long wave of this `period` in seconds, and
+`slope` nodes per 2 pi h / |grad h|, each with 0 not at all. Shallower water than `least`, and land,
+count as flat at that depth. `slopes` are those of the depths, in metres per unit of length, as from
+[`grid_slopes`](@ref); a unit of length is so many `metres`.
+
+    set_spacing!(placement, x -> clamp.(depth_spacing(grid_values(depth, x); metres = 1000), 0.5, 20))
+"""
+function depth_spacing(depths::AbstractVector{<:Real}; slopes = nothing, wave::Real = 30,
+                       period::Real = 44712, slope::Real = 0, least::Real = 10, metres::Real = 1)
+    slope > 0 && slopes === nothing && throw(ArgumentError("the slopes of the depths are missing"))
+    h, n = Vector{Float64}(depths), length(depths)
+    steep = slopes === nothing ? zeros(n) : Vector{Float64}(slopes)
+    length(steep) == n || throw(DimensionMismatch("as many slopes as depths are expected"))
+    d = zeros(n)
+    check_geo(LibPNPBSGeo.pnpbs_geo_depth_spacing(n, h, steep, wave, period, slope, least, metres, d))
+    return d
+end
+
+"""
     grid_extent(grid) -> (low, high)
 
 Returns the bounding box of the whole grid in the file, in the projection of the points.

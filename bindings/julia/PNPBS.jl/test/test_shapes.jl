@@ -68,11 +68,18 @@ function test_grids_of(folder)
         @test inside_grid(depth, [corners[:, 1] corners[:, 1] .+ 1e6]) == [true, false]
         @test all(grid_extent(depth)[1] .< low) && all(high .< grid_extent(depth)[2])
         @test_throws DimensionMismatch grid_values(depth, zeros(3, 2))
+        @test all(1e-5 .< grid_slopes(depth, corners) .< 1e-4)  # 3 and 1 per degree
+        @test_throws DimensionMismatch grid_slopes(depth, zeros(3, 2))
         close(depth)
         @test repr(depth) == "PNPBS.GeoGrid(closed)"
         @test fails(() -> grid_extent(depth), :error_handle, "closed")
     end
     @test fails(() -> GeoGrid(path, (50, 10), (51, 11)), :error_spacing, "outside of the domain")
+    wave = sqrt.(9.81 .* [4000, 10]) .* 44.712 ./ 30
+    @test depth_spacing([4000, 1]; metres = 1000) ≈ wave
+    @test depth_spacing([200]; slopes = [50], slope = 20, metres = 1000) ≈ [0.4pi]
+    @test_throws ArgumentError depth_spacing([200]; slope = 20)
+    @test fails(() -> depth_spacing([NaN]), :error_spacing, "depths[0]")
 end
 
 @testset "shapes" begin
