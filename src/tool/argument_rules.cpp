@@ -35,6 +35,16 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
            " places particles, and --region gives tags to elements, which they have none of");
 }
 
+void require_depth_rule_that_fits(const Arguments& arguments) {
+  const DepthWish& wish = *arguments.depth_rule;
+  const std::string option = DepthWish::option;
+  if (arguments.spacing == "auto" || spacing_file(arguments.spacing))
+    refuse(option + " and a --spacing that is no formula exclude each other");
+  if (wish.rule.wave == 0 && arguments.spacing.empty() && !arguments.max_spacing)
+    refuse(option + ": with wave=0 nothing bounds d where the bottom is flat: --max-spacing");
+  if (arguments.sphere) metres_per_unit(wish, "");
+}
+
 void require_what_spheres_have(const Arguments& arguments) {
   if (!arguments.sphere) {
     if (arguments.view) refuse("--view is how pictures show a sphere: give --sphere as well");
@@ -74,15 +84,20 @@ void require_arguments_that_fit(const Arguments& arguments) {
   if (arguments.domain.empty() && !arguments.sphere)
     refuse("--domain is missing (without it, --sphere RADIUS is the whole sphere)");
   const std::size_t grids = arguments.spacing_grids.size();
-  if (arguments.spacing.empty() && grids == 0) refuse("--spacing or --spacing-grid is missing");
-  if (arguments.spacing.empty() && grids > 1)
-    refuse("several --spacing-grid need a formula that combines them: --spacing");
+  const bool by_depth = arguments.depth_rule.has_value();
+  if (arguments.spacing.empty() && grids == 0 && !by_depth)
+    refuse("--spacing or --spacing-grid is missing");
+  if (arguments.spacing.empty() && grids + (by_depth ? 1 : 0) > 1)
+    refuse(by_depth ? "--depth-rule and --spacing-grid need a formula that combines them: --spacing"
+                    : "several --spacing-grid need a formula that combines them: --spacing");
+  if (by_depth) require_depth_rule_that_fits(arguments);
   if (grids > 0 && (arguments.spacing == "auto" || spacing_file(arguments.spacing)))
     refuse("--spacing-grid and a --spacing that is no formula exclude each other");
-  if (arguments.spacing != "auto" && (arguments.min_spacing || arguments.max_spacing)) {
+  const bool has_formula = arguments.spacing != "auto" && !(by_depth && arguments.spacing.empty());
+  if (has_formula && (arguments.min_spacing || arguments.max_spacing)) {
     refuse(
-        "--min-spacing and --max-spacing are for --spacing auto; in a formula, min(...) and "
-        "max(...) do it");
+        "--min-spacing and --max-spacing are for --spacing auto and --depth-rule; in a formula, "
+        "min(...) and max(...) do it");
   }
   if (arguments.min_spacing && arguments.max_spacing &&
       *arguments.min_spacing > *arguments.max_spacing) {

@@ -30,7 +30,7 @@ void add_spacing_bounds(CLI::App& app, Arguments& arguments) {
          [&arguments](const std::string& text) {
            take_bound("--min-spacing", text, arguments.min_spacing);
          },
-         "with --spacing auto: d is at least this")
+         "with --spacing auto or --depth-rule: d is at least this")
       ->type_name("D")
       ->group(group);
   app.add_option_function<std::string>(
@@ -38,7 +38,7 @@ void add_spacing_bounds(CLI::App& app, Arguments& arguments) {
          [&arguments](const std::string& text) {
            take_bound("--max-spacing", text, arguments.max_spacing);
          },
-         "with --spacing auto: d is at most this")
+         "with --spacing auto or --depth-rule: d is at most this")
       ->type_name("D")
       ->group(group);
   app.add_option_function<std::string>(
@@ -79,6 +79,16 @@ void add_input(CLI::App& app, Arguments& arguments) {
                  "(.tif, .nc and others), projected like the domain; may be given\n"
                  "several times");
   app.get_option("--spacing-grid")->type_name("[NAME=]FILE[:VARIABLE]")->group(group);
+  app.add_option_function<std::string>(
+         "--depth-rule",
+         [&arguments](const std::string& text) { arguments.depth_rule = depth_wish_in(text); },
+         "d by the depth on such a grid, in metres: 30 nodes per length of a\n"
+         "tide wave, or wave=NODES and period=SECONDS; with slope=NODES also\n"
+         "on slopes; with up for elevations; no depth is below 10, or\n"
+         "least=DEPTH; with metres=NUMBER, the unit of length is so long; in\n"
+         "--spacing it is by_depth")
+      ->type_name("[NAME=]FILE[:VARIABLE][,WORD]...")
+      ->group(group);
   app.add_option_function<std::string>(
          "--feature-angle",
          [&arguments](const std::string& text) {

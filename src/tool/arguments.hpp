@@ -11,6 +11,7 @@
 #include "base/types.hpp"
 #include "picture/element_colour.hpp"
 #include "tool/checkpoints.hpp"
+#include "tool/depth_wish.hpp"
 
 namespace pnpbs::tool {
 
@@ -36,10 +37,11 @@ struct ViewWish {
 };
 
 struct Arguments {
-  std::string domain;                              // a file, "-", or a body in words
-  std::string spacing;                             // a formula; may be empty with a grid
-  std::vector<std::string> spacing_grids;          // files, or NAME=FILE
-  std::optional<double> min_spacing, max_spacing;  // of --spacing auto
+  std::string domain;                      // a file, "-", or a body in words
+  std::string spacing;                     // a formula; may be empty with a grid
+  std::vector<std::string> spacing_grids;  // files, or NAME=FILE
+  std::optional<DepthWish> depth_rule;
+  std::optional<double> min_spacing, max_spacing;  // of d that no formula gives
   std::vector<std::string> outputs;
   std::string format;               // of standard output and of unknown extensions
   std::string report;               // a file, "-", or empty

@@ -232,7 +232,7 @@ struct Expression::Parser {
     for (FieldInFormula& each : fields) {
       const std::vector<std::string> known = known_names(parser);
       if (std::ranges::find(known, each.field.name) != known.end())
-        throw BadInput("--spacing-grid: '" + each.field.name +
+        throw BadInput(each.field.option + ": '" + each.field.name +
                        "' means something else in formulas, or is given twice: choose another "
                        "name");
       parser.DefineVar(each.field.name, &each.value);
@@ -242,8 +242,8 @@ struct Expression::Parser {
     const auto& used = parser.GetUsedVar();
     for (const FieldInFormula& each : fields)
       if (!used.contains(each.field.name) && !used.contains(slope_name(each.field.name)))
-        throw BadInput("--spacing-grid: the formula of --spacing does not use '" + each.field.name +
-                       "'");
+        throw BadInput(each.field.option + ": the formula of --spacing does not use '" +
+                       each.field.name + "'");
   }
   void go_to(const double* there) {
     std::copy_n(there, dimension, place);
@@ -368,7 +368,7 @@ std::string expression_help() {
          "; in --spacing also dist, the distance to the boundary, dist(TAG) and dist(NAME), to "
          "what has "
          "the tag or the group's name, the names of --spacing-grid and, with _slope after it, how "
-         "steep a grid is, "
+         "steep a grid is, by_depth of --depth-rule, "
          "seglen, the length of the input's edges, curvature(N), the d for N nodes per turn, and "
          "gap(N), the d for N nodes across, which grow by 0.15 per unit of distance";
 }

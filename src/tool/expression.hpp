@@ -20,6 +20,7 @@ class Expression {
   struct Field {
     std::string name;
     std::function<void(std::int64_t n, const double* coordinates, double* values)> values;
+    std::string option = "--spacing-grid";  // that gives it
   };
 
   // `option` is the one that it was given by. Throws BadInput with the text and a mark below the

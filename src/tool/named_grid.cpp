@@ -35,10 +35,10 @@ bool is_name(const std::string& text) {
 }
 
 struct GridWords {
-  std::string name = "grid", path, variable;
+  std::string name, path, variable;
 };
 
-GridWords words_of(const std::string& text) {
+GridWords words_of(const std::string& text, const std::string& option = "--spacing-grid") {
   GridWords words;
   words.path = text;
   const std::size_t equals = text.find('=');
@@ -52,7 +52,7 @@ GridWords words_of(const std::string& text) {
     words.path.resize(colon);
   }
   if (words.path.empty())
-    throw BadInput("--spacing-grid: expected FILE or NAME=FILE, found '" + text + "'");
+    throw BadInput(option + ": expected FILE or NAME=FILE, found '" + text + "'");
   return words;
 }
 
@@ -65,10 +65,12 @@ bool has_reference_beside(const std::string& path) {
 
 std::string path_of_grid(const std::string& text) { return words_of(text).path; }
 
-NamedGrid::NamedGrid(const std::string& text, int dimension, bool on_sphere)
-    : dimension_(on_sphere ? 2 : dimension), on_sphere_(on_sphere) {
-  const GridWords words = words_of(text);
-  name_ = words.name, path_ = words.path, variable_ = words.variable;
+NamedGrid::NamedGrid(const std::string& text, int dimension, bool on_sphere,
+                     const std::string& option, const std::string& other_name)
+    : dimension_(on_sphere ? 2 : dimension), on_sphere_(on_sphere), option_(option) {
+  const GridWords words = words_of(text, option);
+  name_ = words.name.empty() ? other_name : words.name;
+  path_ = words.path, variable_ = words.variable;
   if (!is_for_gdal(path_)) text_ = std::make_unique<Grid>(read_grid(path_, dimension_));
 }
 
@@ -79,7 +81,7 @@ NamedGrid::~NamedGrid() {
 void NamedGrid::check(pnpbs_status status) const {
   if (status < 0)
     throw Failure(exit_code_of(status),
-                  "--spacing-grid " + path_ + ": " + std::string(library_->last_error()));
+                  option_ + " " + path_ + ": " + std::string(library_->last_error()));
 }
 
 void NamedGrid::open(const std::string& projection, const Box<3>& domain) {
@@ -93,7 +95,7 @@ void NamedGrid::open(const std::string& projection, const Box<3>& domain) {
   const Box<3> box = extent();
   const Box<2> given{{box.low[0], box.low[1]}, {box.high[0], box.high[1]}};
   const Box<2> plane{{domain.low[0], domain.low[1]}, {domain.high[0], domain.high[1]}};
-  const std::string what = "--spacing-grid " + path_ + ": its cells";
+  const std::string what = option_ + " " + path_ + ": its cells";
   try {
     require_meeting_boxes<2>(what, given, plane);
     if (dimension_ == 3) require_meeting_boxes<3>(what, box, domain);

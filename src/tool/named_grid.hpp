@@ -15,9 +15,10 @@ namespace pnpbs::tool {
 
 class NamedGrid {
  public:
-  // "FILE" is called "grid". Reads what needs no GDAL. Throws BadInput.
+  // "FILE" has the other name. Reads what needs no GDAL. Throws BadInput.
   // On a sphere its values are at longitudes and latitudes.
-  NamedGrid(const std::string& text, int dimension, bool on_sphere);
+  NamedGrid(const std::string& text, int dimension, bool on_sphere,
+            const std::string& option = "--spacing-grid", const std::string& other_name = "grid");
   ~NamedGrid();
   NamedGrid(const NamedGrid&) = delete;
   NamedGrid& operator=(const NamedGrid&) = delete;
@@ -44,7 +45,7 @@ class NamedGrid {
 
   int dimension_;  // of its places
   bool on_sphere_;
-  std::string name_, path_, variable_;
+  std::string option_, name_, path_, variable_;
   std::unique_ptr<Grid> text_;
   std::unique_ptr<GeoLibrary> library_;
   pnpbs_geo_grid grid_ = nullptr;

@@ -69,6 +69,7 @@ Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
   std::vector<std::string> inputs{arguments.domain, file_of_spacing(arguments),
                                   arguments.projection};
   for (const std::string& grid : arguments.spacing_grids) inputs.push_back(path_of_grid(grid));
+  if (arguments.depth_rule) inputs.push_back(path_of_grid(arguments.depth_rule->grid));
   for (const Output& output : outputs_)
     for (const std::string& input : inputs) refuse_to_replace(input, output.file.path());
   for (const std::string& path : {arguments.checkpoint, arguments.restart}) refuse_checkpoint(path);

@@ -127,6 +127,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
     report["spacing_grid"] = arguments.spacing_grids[0];
   else if (!arguments.spacing_grids.empty())
     report["spacing_grid"] = arguments.spacing_grids;
+  if (arguments.depth_rule) report["depth_rule"] = arguments.depth_rule->text;
   report["options"] = options_of(arguments);
   for (const auto& [name, value] : statistics.all())
     insert(report, name, std::visit(AsJson(), value));

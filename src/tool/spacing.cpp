@@ -47,29 +47,62 @@ Spacing::Spacing(const Arguments& arguments, int dimension)
     : dimension_(dimension),
       sphere_(arguments.sphere.has_value()),
       min_(arguments.min_spacing.value_or(0)),
-      max_(arguments.max_spacing.value_or(0)) {
+      max_(arguments.max_spacing.value_or(0)),
+      depth_(arguments.depth_rule) {
   if (arguments.spacing == "auto") return;
   file_ = spacing_file(arguments.spacing);
   if (file_) return;
-  std::vector<Expression::Field> fields;
-  for (const std::string& text : arguments.spacing_grids) {
-    grids_.push_back(std::make_unique<NamedGrid>(text, dimension, sphere_));
-    const NamedGrid* grid = grids_.back().get();
-    fields.push_back({grid->name(), [grid](std::int64_t n, const double* x, double* values) {
-                        grid->evaluate(n, x, values, nullptr);
-                      }});
-    if (mentions(arguments.spacing, slope_name(grid->name())))
-      fields.push_back(
-          {slope_name(grid->name()), [this, grid](std::int64_t n, const double* x, double* values) {
-             evaluate_slope(*grid, dimension_, sphere_, n, x, values);
-           }});
-  }
   const bool alone = arguments.spacing.empty();
-  if (!sphere_ && alone && grids_.size() == 1 && grids_[0]->text_grid()) return;
+  const std::string formula = alone && depth_
+                                  ? formula_by_depth(arguments.min_spacing, arguments.max_spacing)
+                                  : arguments.spacing;
+  std::vector<Expression::Field> fields = fields_for(formula, arguments);
+  if (!sphere_ && alone && !depth_ && grids_[0]->text_grid()) return;
   expression_ = std::make_unique<Expression>(
-      alone ? grids_[0]->name() : arguments.spacing, dimension, "--spacing",
+      formula.empty() ? grids_[0]->name() : formula, dimension, "--spacing",
       sphere_ ? Expression::Names::shape_on_sphere : Expression::Names::shape_too,
       std::move(fields));
+}
+
+// Opens the grids. Of that of the depth a formula may have the values as well.
+std::vector<Expression::Field> Spacing::fields_for(const std::string& formula,
+                                                   const Arguments& arguments) {
+  std::vector<Expression::Field> fields;
+  const auto add = [&](const NamedGrid* grid, bool values) {
+    if (values)
+      fields.push_back({grid->name(), [grid](std::int64_t n, const double* x, double* there) {
+                          grid->evaluate(n, x, there, nullptr);
+                        }});
+    if (mentions(formula, slope_name(grid->name())))
+      fields.push_back(
+          {slope_name(grid->name()), [this, grid](std::int64_t n, const double* x, double* slopes) {
+             evaluate_slope(*grid, dimension_, sphere_, n, x, slopes);
+           }});
+  };
+  for (const std::string& text : arguments.spacing_grids) {
+    grids_.push_back(std::make_unique<NamedGrid>(text, dimension_, sphere_));
+    add(grids_.back().get(), true);
+  }
+  if (depth_) {
+    grids_.push_back(
+        std::make_unique<NamedGrid>(depth_->grid, dimension_, sphere_, DepthWish::option, "depth"));
+    const NamedGrid* grid = grids_.back().get();
+    add(grid, mentions(formula, grid->name()));
+    fields.push_back(field_by_depth(grid));
+  }
+  return fields;
+}
+
+Expression::Field Spacing::field_by_depth(const NamedGrid* grid) {
+  const auto values = [this, grid](std::int64_t n, const double* x, double* d) {
+    const auto count = static_cast<std::size_t>(n);
+    std::vector<double> depths(count), slopes(count);
+    grid->evaluate(n, x, depths.data(), nullptr);
+    if (depth_->rule.slope > 0) evaluate_slope(*grid, dimension_, sphere_, n, x, slopes.data());
+    for (std::size_t i = 0; i < count; ++i)
+      d[i] = depth_->rule.spacing(depth_->elevations ? -depths[i] : depths[i], slopes[i]);
+  };
+  return {DepthWish::name, values, DepthWish::option};
 }
 
 const Grid* Spacing::grid() const {
@@ -80,6 +113,8 @@ void Spacing::read_grids(pnpbs_domain domain, pnpbs_context context, const GeoFi
   if (grids_.empty()) return;
   const std::string projection = sphere_ ? "EPSG:4326" : geo ? geo->projection().wkt : "";
   const Box<3> bounds = sphere_ ? all_degrees : bounds_of(domain, context);
+  if (depth_)
+    depth_->rule.metres = metres_per_unit(*depth_, !sphere_ && geo ? geo->projection().unit : "");
   for (const auto& each : grids_) {
     each->open(projection, bounds);
     if (expression_ || each->text_grid()) continue;

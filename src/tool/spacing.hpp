@@ -59,10 +59,14 @@ class Spacing {
   const Grid* grid() const;     // that the library takes as it is, or nullptr
   pnpbs_status set_grid(pnpbs_placement placement) const;
 
+  std::vector<Expression::Field> fields_for(const std::string& formula, const Arguments& arguments);
+  Expression::Field field_by_depth(const NamedGrid* grid);
+
   int dimension_;
   bool sphere_;
   double min_, max_;  // of auto, 0: none
   std::vector<std::unique_ptr<NamedGrid>> grids_;
+  std::optional<DepthWish> depth_;
   std::unique_ptr<Expression> expression_;  // neither this nor a grid nor a file: auto
   std::optional<SpacingFile> file_;
   std::optional<Multiplied> bubbles_;  // if their spacing is not d

@@ -23,8 +23,7 @@ class Without(GridsTest):
         self.assertIn("libgdal-dev", message)
 
 
-@unittest.skipUnless(BUILT, "built without GDAL")
-class Rasters(GridsTest):
+class BayTest(GridsTest):
     """A bay from 18 to 20 degrees east and 54 to 55 north; depths that are linear in the degrees."""
 
     def setUp(self):
@@ -59,6 +58,9 @@ class Rasters(GridsTest):
         expected = 10 + 5 * (longitude - 18) + 4 * (latitude - 54)
         np.testing.assert_allclose(table["spacing"], expected, rtol=0.01)
 
+
+@unittest.skipUnless(BUILT, "built without GDAL")
+class Rasters(BayTest):
     def test_geotiff_in_degrees(self):
         write_geotiff(self.folder / "d.tif", self.depths(17.5, 55.5, 0.05, 60, 40), 17.5, 55.5,
                       0.05, 4326)
