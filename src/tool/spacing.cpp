@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
+#include "base/places_in_text.hpp"
+#include "base/point_text.hpp"
 #include "spacing/beside_domain.hpp"
+#include "sphere/degrees.hpp"
 #include "tool/grid_slope.hpp"
 
 namespace pnpbs::tool {
@@ -12,6 +16,8 @@ namespace {
 
 // What --spacing auto asks for.
 constexpr double nodes_per_turn = 20, nodes_across = 3, nodes_per_edge = 1, growth = 0.15;
+
+constexpr double no_place = std::numeric_limits<double>::infinity();
 
 constexpr Box<3> all_degrees{{-180, -90, 0}, {180, 90, 0}};
 
@@ -201,6 +207,11 @@ pnpbs_status Spacing::set_grid(pnpbs_placement placement) const {
                                           grid()->values.data());
 }
 
+std::string Spacing::place_text(const Point<3>& x) const {
+  if (sphere_) return "(" + degrees_text(degrees_of(x)) + ")";
+  return dimension_ == 2 ? point_text(Point<2>{x[0], x[1]}) : point_text(x);
+}
+
 std::vector<std::string> Spacing::warnings(pnpbs_placement placement, pnpbs_domain domain,
                                            pnpbs_context context, const Ranks& ranks) const {
   std::vector<std::string> warnings;
@@ -218,21 +229,33 @@ std::vector<std::string> Spacing::warnings(pnpbs_placement placement, pnpbs_doma
   });
   for (const auto& each : grids_) {
     ranks.agreed([&] { each->evaluate(own, coordinates.data(), values.data(), inside.data()); });
-    const auto beyond = static_cast<std::int64_t>(std::count(inside.begin(), inside.end(), 0));
-    std::int64_t nodes = 0, outside = 0;
-    for (const auto& [its_nodes, its_outside] :
-         ranks.gather(std::vector<std::array<std::int64_t, 2>>{{own, beyond}}))
-      nodes += its_nodes, outside += its_outside;
+    // How many nodes there are, how many beyond the edge, and the first place of these.
+    std::array<double, 5> found{static_cast<double>(own), 0, no_place, no_place, no_place};
+    for (std::int64_t i = 0; i < own; ++i) {
+      if (inside[static_cast<std::size_t>(i)] != 0) continue;
+      Point<3> place{};
+      std::copy_n(coordinates.data() + dimension_ * i, dimension_, place.begin());
+      ++found[1];
+      if (place < Point<3>{found[2], found[3], found[4]})
+        std::copy_n(place.begin(), 3, found.begin() + 2);
+    }
+    Point<3> first{no_place, no_place, no_place};
+    double nodes = 0, outside = 0;
+    for (const auto& its : ranks.gather(std::vector<std::array<double, 5>>{found})) {
+      nodes += its[0], outside += its[1];
+      first = std::min(first, Point<3>{its[2], its[3], its[4]});
+    }
     if (outside > 0)
-      warnings.push_back(
-          "the grid '" + each->name() + "' (" + each->path() +
-          ") covers only a part of the domain: of " + std::to_string(nodes) + " nodes, " +
-          std::to_string(outside) +
-          " lie beyond its edge; there its values are those at the edge. The grid reaches " +
-          (dimension_ == 2 || sphere_
-               ? extents_in<2>
-               : extents_in<3>)(each->extent(),
-                                sphere_ ? all_degrees : bounds_of(domain, context)));
+      warnings.push_back("the grid '" + each->name() + "' (" + each->path() +
+                         ") covers only a part of the domain: of " +
+                         std::to_string(static_cast<std::int64_t>(nodes)) + " nodes, " +
+                         std::to_string(static_cast<std::int64_t>(outside)) +
+                         " lie beyond its edge, one of them at " + place_text(first) +
+                         "; there its values are those at the edge. The grid reaches " +
+                         (dimension_ == 2 || sphere_
+                              ? extents_in<2>
+                              : extents_in<3>)(each->extent(),
+                                               sphere_ ? all_degrees : bounds_of(domain, context)));
   }
   return warnings;
 }

@@ -61,6 +61,7 @@ class Spacing {
 
   std::vector<Expression::Field> fields_for(const std::string& formula, const Arguments& arguments);
   Expression::Field field_by_depth(const NamedGrid* grid);
+  std::string place_text(const Point<3>& x) const;  // for people: degrees on a sphere
 
   int dimension_;
   bool sphere_;

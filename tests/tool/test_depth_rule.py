@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """--depth-rule: d by the depth, against numpy on the same values."""
 
+import re
 import unittest
 
 import numpy as np
@@ -113,7 +114,15 @@ class InThePlane(BayTest):
         write_geotiff(self.folder / "e.tif", self.depths(19, 55.5, 0.05, 60, 40), 19, 55.5, 0.05,
                       4326)
         _, _, err = self.table(*self.ask, "--depth-rule", "e.tif,wave=60")
-        self.assertRegex(err, r"covers only a part of the domain: of \d+ nodes, \d+ lie beyond its edge")
+        found = re.search(r"covers only a part of the domain: of (\d+) nodes, (\d+) lie beyond its edge, "
+                          r"one of them at \((.*), (.*)\); .* from \(", err)
+        nodes, beyond, x, y = map(float, found.groups())
+        table = np.genfromtxt(self.folder / "nodes.csv", delimiter=",", names=True)
+        longitude = self.degrees(table)[0]
+        self.assertEqual(nodes, len(table))
+        self.assertEqual(beyond, np.sum(longitude < 18.975))
+        self.assertLess(self.degrees({"x": np.array([x]), "y": np.array([y])})[0][0], 18.975)
+        self.assertTrue(np.any(np.hypot(table["x"] - x, table["y"] - y) == 0))
 
 
 @unittest.skipUnless(BUILT, "built without GDAL")
@@ -175,6 +184,16 @@ class OnASphere(GridsTest):
         clear &= (abs(lon - 120) > 22) | (abs(lat) < 25)  # by other rows, nearer
         self.assertGreater(np.sum(clear & (abs(lon - 120) < 19)), 100)
         np.testing.assert_allclose(table["spacing"][clear], by_waves(depth, 20)[clear], rtol=1e-5)
+
+    def test_places_are_in_degrees(self):
+        write_netcdf(self.folder / "n.nc", self.longitudes, self.latitudes[95:],
+                     height=self.elevations[95:])
+        _, _, err = self.table(*self.ask, "n.nc,up,metres=1000", "--min-spacing", "200")
+        found = re.search(r"one of them at \(longitude (.*), latitude (.*)\); there", err)
+        self.assertLess(float(found[2]), 6)
+        message = self.refuse(*self.ask, "e.nc,up,metres=1000", "--spacing", "by_depth*sqrt(lat-50)")
+        found = re.search(r"the spacing at \(longitude (.*), latitude (.*)\) is -?nan", message)
+        self.assertLess(float(found[2]), 50)
 
     def test_the_unit_must_be_given(self):
         message = self.refuse(*self.ask, "e.nc,up")
