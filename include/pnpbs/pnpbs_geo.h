@@ -204,11 +204,11 @@ PNPBS_API pnpbs_status pnpbs_geo_grid_slopes(pnpbs_geo_grid grid, double radius,
  *  @param[in] depths           [n] metres, positive down: elevations must be negated
  *  @param[in] slopes           [n] of the depths, metres per unit of length, as from
  *                              pnpbs_geo_grid_slopes; or NULL if nodes_per_slope is 0
- *  @param[in] nodes_per_wave   30, say; 0: no such rule
- *  @param[in] period           T in seconds; 44712 of the tide M2
- *  @param[in] nodes_per_slope  20, say; 0: no such rule
+ *  @param[in] nodes_per_wave   at least 0; 30, say; 0: no such rule
+ *  @param[in] period           T in seconds, greater than 0; 44712 of the tide M2
+ *  @param[in] nodes_per_slope  at least 0; 20, say; 0: no such rule
  *  @param[in] least_depth      metres, greater than 0; 10, say
- *  @param[in] metres           per unit of length: 1000 for kilometres
+ *  @param[in] metres           per unit of length, greater than 0: 1000 for kilometres
  *  @param[out] d               [n] */
 PNPBS_API pnpbs_status pnpbs_geo_depth_spacing(int64_t n, const double *depths,
                                                const double *slopes, double nodes_per_wave,

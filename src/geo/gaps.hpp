@@ -19,7 +19,7 @@ class Gaps {
   void offer(std::int64_t column, std::int64_t row, double value);
   // After offers: so many steps beyond the box are cells which may be nearer to one of its gaps
   // than the nearest that is known, where all in `covered` are known; beyond `whole` there are
-  // none. 0: none may, and no end: nothing is known.
+  // none. Returns 0 if none may be nearer, and no_end if no value is known.
   static constexpr std::int64_t no_end = std::int64_t{1} << 40;
   std::int64_t steps_beyond(const CellBox& covered, const CellBox& whole);
   std::vector<double> filled();

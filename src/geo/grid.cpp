@@ -18,6 +18,8 @@ Point<2> applied(const std::array<double, 6>& affine, const Point<2>& p) {
           affine[3] + affine[4] * p[0] + affine[5] * p[1]};
 }
 
+constexpr double kSameLongitude = 1e-6;  // degrees
+
 bool is_somewhere(const Point<2>& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); }
 
 Box<2> box_around_finite(const std::vector<Point<2>>& points) {
@@ -58,6 +60,9 @@ Grid::Grid(const GridRequest& request) : file_(request.path, request.variable) {
   choose_system(request, file_.system());
   measure_extent();
   window_ = window_for(request);
+  const double around = static_cast<double>(columns_) * std::fabs(to_plane_[1]);
+  goes_around_ = wraps_ && to_plane_[2] == 0 && window_.columns == columns_ &&
+                 std::fabs(around - 360) < kSameLongitude;
   const auto [columns, rows] = file_.shape_of_blocks();
   values_ =
       std::make_unique<RasterValues>([this](const CellBox& cells) { return file_.read(cells); },
@@ -121,6 +126,11 @@ void Grid::evaluate(const std::vector<Point<2>>& points, double* values,
   const double counts[2] = {static_cast<double>(columns_), static_cast<double>(rows_)};
   const std::int64_t first[2] = {window_.column, window_.row};
   const std::int64_t size[2] = {window_.columns, window_.rows};
+  struct OverSeam {
+    std::size_t point;
+    double part;  // of the way from the last column to the first
+  };
+  std::vector<OverSeam> over_seam;
   std::vector<Between> places;
   places.reserve(points.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -137,10 +147,24 @@ void Grid::evaluate(const std::vector<Point<2>>& points, double* values,
       cell[k] = static_cast<std::int64_t>(at);
       fraction[k] = at - static_cast<double>(cell[k]);
     }
+    const double last = counts[0] - 1;
+    if (goes_around_ && (cells[i][0] < 0 || cells[i][0] > last)) {
+      over_seam.push_back({i, cells[i][0] < 0 ? 1 + cells[i][0] : cells[i][0] - last});
+      cell[0] = columns_ - 1, fraction[0] = 0;
+    }
     places.push_back({first[0] + cell[0], first[1] + cell[1], fraction[0], fraction[1]});
     if (inside) inside[i] = within ? 1 : 0;
   }
-  values_->interpolate(places, values);
+  if (over_seam.empty()) return values_->interpolate(places, values);
+  for (const OverSeam& at : over_seam)
+    places.push_back({0, places[at.point].row, 0, places[at.point].down});
+  std::vector<double> found(places.size());
+  values_->interpolate(places, found.data());
+  std::copy_n(found.begin(), points.size(), values);
+  for (std::size_t k = 0; k < over_seam.size(); ++k) {
+    const auto& [point, part] = over_seam[k];
+    values[point] = std::lerp(values[point], found[points.size() + k], part);
+  }
 }
 
 }  // namespace pnpbs::geo

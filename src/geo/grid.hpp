@@ -49,6 +49,7 @@ class Grid {
   std::array<double, 6> to_plane_{}, to_cells_{};     // GDAL's affine transformations
   std::optional<Transformation> forward_, backward_;  // from the points' plane to the grid's
   bool wraps_ = false;  // the grid is in degrees, its longitudes may be any of those 360 apart
+  bool goes_around_ = false;  // its last column is beside the first one
   Box<2> extent_{};
   CellBox window_{};
   RasterFile file_;

@@ -91,13 +91,13 @@ RasterFile::RasterFile(const std::string& path, const std::string& variable)
 
 void RasterFile::open_band() {
   name_ = "'" + path_ + "'";
-  process_ = ::getpid();
   band_ = nullptr;
   dataset_ = open(path_);
   if (GDALGetRasterCount(dataset_.get()) == 0)
     open_variable(path_, variable_);
   else
     choose_band(variable_);
+  process_ = ::getpid();
 }
 
 void RasterFile::open_variable(const std::string& path, const std::string& variable) {

@@ -2,6 +2,7 @@
 // What has been used last, within a number of bytes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <list>
 #include <unordered_map>

@@ -104,9 +104,9 @@ void stay_unless_coarser(IncomingNode<Dim>& node, double d) {
 
 void append_surface_midpoints(const Level<2>&, const View<double>&, IncomingNodes<2>&) {}
 
-// With one where the spacing was `before` and will be d. Cutting edges in space may bring more than
-// d asks for.
 IncomingNode<2> new_node(const Point<2>& x, double, double) { return {x, -1}; }
+// Where the spacing was `before` and will be d. Cutting edges in space may bring more nodes than d
+// asks for.
 IncomingNode<3> new_node(const Point<3>& x, double before, double d) {
   IncomingNode<3> node{x, -1};
   const double cuts = pieces_of<3>(before, d) - 1;

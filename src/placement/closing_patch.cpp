@@ -26,8 +26,8 @@ constexpr double kRadius = 12, kRadiusOfDisc = 17;
 constexpr double kMostOfSphere = 1.6, kMostOfSphereForDisc = 2.4;  // radians
 // Free nodes may come so far between the patch's last ones.
 constexpr double kSeam = 0.5;  // spacings
-// Of the patch, about the point, its nodes stay in the finish as well, where the chart grows by more
-// than a third from node to node.
+// Of the patch, about the point, its nodes stay in the finish as well, where the chart grows by
+// more than a third from node to node.
 constexpr double kFixed = 0.5;  // of its radius
 constexpr double kSameSpacing = 0.02;
 // To the point, at which the chart has no place for d.
@@ -63,7 +63,15 @@ class FromOtherSide : public Spacing<2> {
   }
 
   KnownValues<2> known_values() const override {
+    constexpr double kMostStretch = 1e12;  // else the other chart has no place for it
     KnownValues<2> known = spacing_.known_values();
+    const auto has_no_place = [this](const Point<2>& u) {
+      return !(other_.stretch(other_.in_chart(chart_.on_sphere(u))) < kMostStretch);
+    };
+    const auto is_nowhere = [&](const GrowthSource<2>& value) { return has_no_place(value.x); };
+    std::erase_if(known.values, is_nowhere);
+    std::erase_if(known.in_domain, is_nowhere);
+    std::erase_if(known.slopes, [&](const auto& slope) { return has_no_place(slope.at); });
     const auto turn = [this](Point<2>& u, double& d) {
       const Point<2> v = other_.in_chart(chart_.on_sphere(u));
       d *= other_.stretch(v) / chart_.stretch(u);

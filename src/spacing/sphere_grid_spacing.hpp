@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The spacing from values on a grid of longitudes and latitudes: linear in both between grid
-// points, in latitude constant beyond the grid. Columns that go all around are joined, and where
-// the grid comes within a step of a pole, the pole has the mean of the row next to it: so d has no
-// jump at the meridian where the grid begins, nor at poles.
+// points, and beyond the grid that of its nearer edge. Columns that go all around are joined, and
+// where the grid comes within a step of a pole, the pole has the mean of the row next to it: so d
+// has no jump at the meridian where such a grid begins, nor at poles.
 #pragma once
 
 #include <cstdint>

@@ -46,11 +46,12 @@ void take_word(const std::string& word, DepthWish& wish) {
   const std::string name = word.substr(0, equals);
   const std::string option = DepthWish::option;
   for (const Key& key : keys) {
-    if (key.name != name || equals == std::string::npos) continue;
-    const auto numbers = numbers_between_commas(word.substr(equals + 1));
+    if (key.name != name) continue;
+    const auto numbers =
+        numbers_between_commas(equals == std::string::npos ? "" : word.substr(equals + 1));
     if (!numbers || numbers->size() != 1 ||
         !(numbers->front() > 0 || (key.may_be_zero && numbers->front() == 0)))
-      tool::refuse(option + ": " + name + ": expected a number " +
+      tool::refuse(option + ": " + name + ": expected " + name + "= and a number " +
                    (key.may_be_zero ? "that is not negative" : "greater than 0") + ", found '" +
                    word + "'");
     *key.value = numbers->front();

@@ -74,26 +74,29 @@ Spacing::Spacing(const Arguments& arguments, int dimension)
 std::vector<Expression::Field> Spacing::fields_for(const std::string& formula,
                                                    const Arguments& arguments) {
   std::vector<Expression::Field> fields;
-  const auto add = [&](const NamedGrid* grid, bool values) {
+  const auto add = [&](const NamedGrid* grid, bool values, const std::string& option) {
     if (values)
-      fields.push_back({grid->name(), [grid](std::int64_t n, const double* x, double* there) {
+      fields.push_back({grid->name(),
+                        [grid](std::int64_t n, const double* x, double* there) {
                           grid->evaluate(n, x, there, nullptr);
-                        }});
+                        },
+                        option});
     if (mentions(formula, slope_name(grid->name())))
-      fields.push_back(
-          {slope_name(grid->name()), [this, grid](std::int64_t n, const double* x, double* slopes) {
-             evaluate_slope(*grid, dimension_, sphere_, n, x, slopes);
-           }});
+      fields.push_back({slope_name(grid->name()),
+                        [this, grid](std::int64_t n, const double* x, double* slopes) {
+                          evaluate_slope(*grid, dimension_, sphere_, n, x, slopes);
+                        },
+                        option});
   };
   for (const std::string& text : arguments.spacing_grids) {
     grids_.push_back(std::make_unique<NamedGrid>(text, dimension_, sphere_));
-    add(grids_.back().get(), true);
+    add(grids_.back().get(), true, "--spacing-grid");
   }
   if (depth_) {
     grids_.push_back(
         std::make_unique<NamedGrid>(depth_->grid, dimension_, sphere_, DepthWish::option, "depth"));
     const NamedGrid* grid = grids_.back().get();
-    add(grid, mentions(formula, grid->name()));
+    add(grid, mentions(formula, grid->name()), DepthWish::option);
     fields.push_back(field_by_depth(grid));
   }
   return fields;

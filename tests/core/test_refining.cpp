@@ -61,7 +61,7 @@ START_TEST(half_the_spacing_halves_every_edge) {
   ck_assert_int_eq(nodes.size() - born.size(), level.n);
   for (const IncomingNode& node : born) {
     quick_assert(halves_a_pair(nodes, node.position, 0.05));
-    quick_assert(node.inner && node.d == 0.025);
+    quick_assert(node.inner && node.d == 0);  // none is too many
   }
 }
 END_TEST
@@ -87,6 +87,8 @@ START_TEST(only_where_it_is_finer) {
     const IncomingNodes nodes = pnpbs::refined(*level.run.level, *spacing_of(constant(d)));
     ck_assert_int_eq(nodes.size(), level.n);
     ck_assert_uint_eq(new_ones(nodes).size(), 0);
+    // Those that were placed for a smaller d say so, to be thinned.
+    for (const IncomingNode& node : nodes) quick_assert((node.d > 0) == (d > 0.1));
   }
   // Edges are their end's with the lesser id: so much is not sure beside the line.
   const IncomingNodes born = new_ones(pnpbs::refined(
@@ -94,6 +96,18 @@ START_TEST(only_where_it_is_finer) {
   ck_assert_double_ge(static_cast<double>(born.size()),
                       0.9 * static_cast<double>(3 * level.n - 3 - 2 * level.b) / 2);
   for (const IncomingNode& node : born) quick_assert(node.position[0] < 0.5 + 0.03);
+}
+END_TEST
+
+// Within a leaf d grows by more than what tells that it has grown since the nodes were placed.
+START_TEST(growth_of_d_thins_none) {
+  const auto grows = [](double scale) {
+    return [scale](double x, double y) { return scale * (0.02 + 0.1 * std::hypot(x, y)); };
+  };
+  Rested coarse(grows(2));
+  LevelRun fine(square, grows(1));
+  const IncomingNodes nodes = pnpbs::refined(*coarse.run.level, *spacing_of(grows(1)));
+  ck_assert_int_eq(pnpbs::take(*fine.level, nodes, coarse.run.level->next_id).thinned, 0);
 }
 END_TEST
 
@@ -124,7 +138,7 @@ END_TEST
 }  // namespace
 
 int main() {
-  return run_kernel_suite("refining",
-                          {half_the_spacing_halves_every_edge, a_third_fills_triangles_too,
-                           only_where_it_is_finer, a_refined_level_is_nearly_right});
+  return run_kernel_suite("refining", {half_the_spacing_halves_every_edge,
+                                       a_third_fills_triangles_too, only_where_it_is_finer,
+                                       growth_of_d_thins_none, a_refined_level_is_nearly_right});
 }

@@ -163,6 +163,24 @@ START_TEST(bands_and_gaps) {
 }
 END_TEST
 
+/* The last column is beside the first one: no value jumps, and no slope is that of a jump. */
+START_TEST(around_the_earth) {
+  const double low[2] = {-180, -90}, high[2] = {180, 90};
+  pnpbs_geo_grid grid = NULL;
+  int k;
+  GEO_MUST(pnpbs_geo_grid_read(write_earth("around.tif"), NULL, NULL, low, high, &grid));
+  for (k = 0; k <= 8; ++k) {
+    const int row = 100 * k + 50;
+    const double part = k / 8.0, last = number_at(across - 1, row), first = number_at(0, row),
+                 expected = 100 + 0.5 * (last + part * (first - last)),
+                 x = 180 + degree * (part - 0.5), y = 90 - degree * (row + 0.5);
+    ck_assert_double_eq_tol(value_of(grid, x, y, NULL), expected, 1e-6);
+    ck_assert_double_eq_tol(value_of(grid, x - 360, y, NULL), expected, 1e-6);
+  }
+  GEO_MUST(pnpbs_geo_grid_destroy(&grid));
+}
+END_TEST
+
 /* In one call, all over the file, and to and fro: the longitudes differ by turns around the Earth.
  */
 START_TEST(of_many_blocks) {
@@ -312,6 +330,7 @@ int main(void) {
   tcase_add_test(cases, in_its_own_system);
   tcase_add_test(cases, projected);
   tcase_add_test(cases, bands_and_gaps);
+  tcase_add_test(cases, around_the_earth);
   tcase_add_test(cases, of_many_blocks);
   tcase_add_test(cases, in_a_forked_process);
   tcase_add_test(cases, slopes);
