@@ -152,13 +152,15 @@ IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
       std::size_t place = begin[static_cast<std::size_t>(chunk)];
       for_owned_in(chunk, [&](std::int64_t i) {
         const double before = level.ground.spacing_at(nodes, i);
-        refined[place] = kept_node(nodes, i);
-        leave_patch(level, refined[place]);
-        stay_unless_coarser(refined[place++], spacing(i));
-        for_new_nodes(level, i, spacing(i), [&](const Point<Dim>& x) {
-          refined[place] = new_node(x, before, spacing(i));
-          stay_unless_coarser(refined[place++], spacing(i));
-        });
+        const auto put = [&](IncomingNode<Dim> node) {
+          stay_unless_coarser(node, spacing(i));
+          refined[place++] = node;
+        };
+        IncomingNode<Dim> kept = kept_node(nodes, i);
+        leave_patch(level, kept);
+        put(kept);
+        for_new_nodes(level, i, spacing(i),
+                      [&](const Point<Dim>& x) { put(new_node(x, before, spacing(i))); });
       });
     });
     append_surface_midpoints(level, spacing, refined);

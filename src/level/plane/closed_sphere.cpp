@@ -26,8 +26,8 @@ void close_sphere(Level<2>& level) {
 }
 
 void free_margin(Level<2>& level) {
+  if (!is_closed_sphere(level)) return;
   const PlaneDomain& domain = level.ground.domain();
-  if (!domain.closing()) return;
   Nodes<2>& nodes = level.nodes;
   for_each("pnpbs::free_margin", nodes.count, [&](std::int64_t i) {
     if (nodes.boundary_node(i) < 0 || !domain.is_in_margin(nodes.position(i))) return;
