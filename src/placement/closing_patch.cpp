@@ -63,27 +63,31 @@ class FromOtherSide : public Spacing<2> {
   }
 
   KnownValues<2> known_values() const override {
-    constexpr double kMostStretch = 1e12;  // else the other chart has no place for it
     KnownValues<2> known = spacing_.known_values();
-    const auto has_no_place = [this](const Point<2>& u) {
-      return !(other_.stretch(other_.in_chart(chart_.on_sphere(u))) < kMostStretch);
-    };
-    const auto is_nowhere = [&](const GrowthSource<2>& value) { return has_no_place(value.x); };
-    std::erase_if(known.values, is_nowhere);
-    std::erase_if(known.in_domain, is_nowhere);
-    std::erase_if(known.slopes, [&](const auto& slope) { return has_no_place(slope.at); });
-    const auto turn = [this](Point<2>& u, double& d) {
-      const Point<2> v = other_.in_chart(chart_.on_sphere(u));
-      d *= other_.stretch(v) / chart_.stretch(u);
-      u = v;
-    };
-    for (GrowthSource<2>& value : known.values) turn(value.x, value.d);
-    for (GrowthSource<2>& value : known.in_domain) turn(value.x, value.d);
-    for (auto& slope : known.slopes) turn(slope.at, slope.d);
+    turn_all(known.values, [](auto& value) -> Point<2>& { return value.x; });
+    turn_all(known.in_domain, [](auto& value) -> Point<2>& { return value.x; });
+    turn_all(known.slopes, [](auto& slope) -> Point<2>& { return slope.at; });
     return known;
   }
 
  private:
+  // To the other chart, but for those for which it has no place.
+  template <class Known, class PlaceOf>
+  void turn_all(std::vector<Known>& all, const PlaceOf& place_of) const {
+    constexpr double kMostStretch = 1e12;
+    std::size_t kept = 0;
+    for (Known& known : all) {
+      Point<2>& u = place_of(known);
+      const Point<2> v = other_.in_chart(chart_.on_sphere(u));
+      const double stretch = other_.stretch(v);
+      if (!(stretch < kMostStretch)) continue;
+      known.d *= stretch / chart_.stretch(u);
+      u = v;
+      all[kept++] = known;
+    }
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(kept), all.end());
+  }
+
   Point<2> not_too_near(const Point<2>& v) const {
     const double r = std::hypot(v[0], v[1]);
     if (r >= least_) return v;
