@@ -61,8 +61,7 @@ Settings settings_of_level(Settings settings, bool coarsest) {
   settings.population_share = method::kCoarserPopulationShare;
   settings.defects.bad_below = 0;  // no triangle is handed on
   settings.tolerance_mean *= more_rest;
-  if (settings.dimension == 3)
-    settings.population.mean_distance *= method::kCoarserDistanceInSpace;
+  if (settings.dimension == 3) settings.population.mean_distance *= method::kCoarserDistanceInSpace;
   return settings;
 }
 

@@ -63,7 +63,8 @@ void VolumeNodeCheck::check_feature_nodes() const {
     if (is_feature_node(i)) ++times[static_cast<std::size_t>(nodes_.boundary_node(i))];
   });
   check_laid_come_once(
-      std::move(times), [this](std::size_t n) { return laid(n); }, [](std::size_t) { return false; });
+      std::move(times), [this](std::size_t n) { return laid(n); },
+      [](std::size_t) { return false; });
 }
 
 double VolumeNodeCheck::max_gap(const std::array<Point<3>, 3>& corners) const {
