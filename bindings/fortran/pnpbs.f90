@@ -2782,7 +2782,7 @@ contains
   end subroutine
 
   !> Returns the shape of the arrays of a transfer. Local; all are optional.
-  !>   dim         2: in the plane, 3: in space
+  !>   dim         2: in the plane, 3: in space and on a sphere
   !>   components  numbers at each node
   subroutine transfer_sizes(self, dim, components, stat, errmsg)
     class(pnpbs_transfer), intent(in) :: self
@@ -2802,7 +2802,7 @@ contains
   !> and threads, at creation and now. A node at the position of an earlier one gets its value
   !> unchanged. The placement may be another one of the same context, in the same dimension.
   !> Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT
-  !> for a placement of another context or dimension.
+  !> for a placement of another context or dimension, or not on the same sphere.
   !>   values    (nodes), or (components, nodes), in the order of get_nodes; for those of ghosts use
   !>             update_ghosts
   !>   conserve  optional: if true, adds the same number to the values of each component, so that
@@ -2811,7 +2811,8 @@ contains
   !>             Where both fill the same domain, the number is of second order in d, and rounding
   !>             for a linear field; next to curved boundaries, where they do not, it also
   !>             compensates for the difference in what they fill. Values may leave their previous
-  !>             range
+  !>             range. On a sphere the integral is the sum, over the triangles, of the area along
+  !>             the sphere times the mean of the values at the corners
   subroutine transfer_at_nodes(self, placement, values, conserve, stat, errmsg)
     class(pnpbs_transfer), intent(in) :: self
     type(pnpbs_placement), intent(in) :: placement

@@ -239,8 +239,8 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
  *  no boundary edges.
  *  Placements have triangles and boundary edges, as in the plane; options have the same meaning as
  *  there. Points are taken along the ray from the origin, and lie on the sphere then. Not on a
- *  sphere yet: conserved integrals, particles and offsets, arcs, parametric curves,
- *  graphs, holes of a whole sphere, and files of curves other than those of geographic shapes.
+ *  sphere yet: particles and offsets, arcs, parametric curves, graphs, holes of a whole sphere, and
+ *  files of curves other than those of geographic shapes.
  *  Local.
  *  @param[in] radius   > 0
  *  @param[in] outside  [3], any length but 0: its direction counts */
@@ -1158,7 +1158,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
  *  boundaries, it is extrapolated from the one at the nearest point of that boundary. Linear fields
  *  are thus preserved, and others change by a term of second order in d. On surfaces alone it is
  *  linear on each triangle between their nodes, and elsewhere equal to the value at the nearest
- *  point of these. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for
+ *  point of these. On a sphere the value at a point is that of the plane triangle on the ray to it
+ *  from the centre. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for
  *  another n, fewer than one component, or a value that is not finite: the message names the rank,
  *  the component and the node's id.
  *  @param[in] placement   whose nodes have the values
@@ -1193,7 +1194,7 @@ PNPBS_API pnpbs_status pnpbs_transfer_order(pnpbs_transfer transfer, int32_t *or
 PNPBS_API pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer *transfer);
 
 /** Returns the shape of the arrays of a transfer; outputs may be NULL. Local.
- *  @param[out] dim         2: in the plane, 3: in space
+ *  @param[out] dim         2: in the plane, 3: in space and on a sphere
  *  @param[out] components  numbers at each node */
 PNPBS_API pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t *dim,
                                             int32_t *components);
@@ -1202,14 +1203,16 @@ PNPBS_API pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t *di
  *  and threads, at creation and now. A node at the position of an earlier one gets its value
  *  unchanged. The placement may be another one of the same context, in the same dimension.
  *  Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT
- *  for a placement of another context or dimension.
+ *  for a placement of another context or dimension, or not on the same sphere.
  *  @param[in] conserve  nonzero: adds the same number to the values of each component, so that the
  *                       integral of the field that is linear on the current triangles or tetrahedra
  *                       (on surfaces alone, triangles) equals its integral on the previous ones, to
  *                       rounding. Where both fill the same domain, the number is of second order in
  *                       d, and rounding for a linear field; next to curved boundaries, where they
  *                       do not, it also compensates for the difference in what they fill. Values
- *                       may leave their previous range.
+ *                       may leave their previous range. On a sphere the integral is the sum, over
+ *                       the triangles, of the area along the sphere times the mean of the values at
+ *                       the corners.
  *  @param[in] capacity  nodes the array has room for, at least those of this rank
  *  @param[out] values   [nodes][components] in the order of pnpbs_placement_get_nodes; for those of
  *                       ghosts use pnpbs_placement_update_ghosts */
@@ -1219,7 +1222,7 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_pl
 /** Evaluates the field at arbitrary points; each rank passes its own, 0 or more. Collective.
  *  Errors: PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
  *  @param[in] n            points of this rank
- *  @param[in] coordinates  [n][dim]
+ *  @param[in] coordinates  [n][dim]; on a sphere points are taken along the ray from the origin
  *  @param[out] values      [n][components] */
 PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n,
                                                 const double *coordinates, double *values);

@@ -10,6 +10,7 @@
 
 #include "api/guard.hpp"
 #include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
 #include "sphere/stereographic_chart.hpp"
 
 namespace pnpbs::api {
@@ -45,6 +46,13 @@ inline std::vector<double> in_chart(const StereographicChart& chart,
     if (!std::isfinite(u[0]) || !std::isfinite(u[1])) u = {kFarOut * chart.radius(), 0};
     coordinates.insert(coordinates.end(), u.begin(), u.end());
   }
+  return coordinates;
+}
+
+inline std::vector<double> put_on_sphere(double radius, const std::vector<Point<3>>& points) {
+  std::vector<double> coordinates;
+  for (const Point<3>& x : points)
+    for (const double part : unit_vector(x)) coordinates.push_back(radius * part);
   return coordinates;
 }
 

@@ -115,10 +115,11 @@ pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n, const 
     if (n > 0) require_pointer(coordinates, "coordinates");
     if (n > 0) require_pointer(values, "values");
     require_kokkos();
-    std::vector<double> charted;
+    std::vector<double> on_sphere;
     if (object.chart) {
-      charted = in_chart(*object.chart, require_directions("coordinates", n, coordinates));
-      coordinates = charted.data();
+      on_sphere =
+          put_on_sphere(object.chart->radius(), require_directions("coordinates", n, coordinates));
+      coordinates = on_sphere.data();
     }
     object.transfer->evaluate(n, coordinates, values);
   });
@@ -142,8 +143,6 @@ pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement pl
                                              std::to_string(results.dimension()) +
                                              " dimensions; the transfer's nodes had " +
                                              std::to_string(object.transfer->dimension()));
-      if (conserve != 0)
-        require_no_sphere(target->placement->chart(), "placement", "integrals are conserved");
       results.prepare_order();
       require_capacity(capacity, results.count());
       if (results.count() > 0) require_pointer(values, "values");

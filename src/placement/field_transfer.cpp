@@ -10,49 +10,27 @@
 #include "base/exact_sum.hpp"
 #include "base/execution.hpp"
 #include "base/point_text.hpp"
-#include "base/space_vectors.hpp"
 #include "comm/records.hpp"
 #include "placement/ghost_values.hpp"
-#include "placement/nodal_values.hpp"
-#include "placement/parabolic_fits.hpp"
 #include "placement/results.hpp"
+#include "placement/transfer_spaces.hpp"
 #include "spacing/nodal_search.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-double measure(const std::array<Point<2>, 3>& c) {
-  return std::fabs((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) -
-                   (c[1][1] - c[0][1]) * (c[2][0] - c[0][0])) /
-         2;
-}
-
-Point<3> cross_from(const Point<3>& origin, const Point<3>& a, const Point<3>& b) {
-  return cross(difference(a, origin), difference(b, origin));
-}
-
-double measure(const std::array<Point<3>, 3>& c) {
-  const auto [x, y, z] = cross_from(c[0], c[1], c[2]);
-  return std::sqrt(x * x + y * y + z * z) / 2;
-}
-
-double measure(const std::array<Point<3>, 4>& c) {
-  const auto [x, y, z] = cross_from(c[0], c[1], c[2]);
-  return std::fabs(x * (c[3][0] - c[0][0]) + y * (c[3][1] - c[0][1]) + z * (c[3][2] - c[0][2])) / 6;
-}
-
 // Of a field that is linear on each element: integrals of its components, and last of 1.
-template <int Dim, std::size_t Corners>
-std::vector<ExactSum> integrals_here(const Patch<Dim>& patch,
+template <class Space, std::size_t Corners>
+std::vector<ExactSum> integrals_here(const Space& space, const typename Space::Data& patch,
                                      const std::vector<std::array<std::int32_t, Corners>>& elements,
                                      std::int64_t components, const std::vector<double>& values) {
   std::vector<ExactSum> sums(static_cast<std::size_t>(components) + 1);
   for (const auto& element : elements) {
-    std::array<Point<Dim>, Corners> corners;
+    std::array<Point<Space::kIn>, Corners> corners;
     for (std::size_t k = 0; k < Corners; ++k)
       corners[k] = patch.nodes[static_cast<std::size_t>(element[k])].x;
-    const double size = measure(corners);
+    const double size = space.measure(corners);
     for (std::int64_t c = 0; c < components; ++c) {
       double sum = 0;
       for (const std::int32_t node : element)
@@ -65,16 +43,17 @@ std::vector<ExactSum> integrals_here(const Patch<Dim>& patch,
 }
 
 // Over the elements of all ranks, by exact sums: in any order they come out the same. Collective.
-template <int Dim>
-std::vector<double> integrals(const Communicator& comm, const Patch<Dim>& patch, bool on_border,
+template <class Space>
+std::vector<double> integrals(const Communicator& comm, const Space& space,
+                              const typename Space::Data& patch, bool on_border,
                               std::int64_t components, const std::vector<double>& values) {
   std::vector<ExactSum> sums;
   std::vector<std::int64_t> entries;
   agreed(comm, [&] {
-    if constexpr (Dim == 3) {
-      if (on_border) sums = integrals_here(patch, patch.border, components, values);
+    if constexpr (Space::kDim == 3) {
+      if (on_border) sums = integrals_here(space, patch, patch.border, components, values);
     }
-    if (!on_border) sums = integrals_here(patch, patch.simplices, components, values);
+    if (!on_border) sums = integrals_here(space, patch, patch.simplices, components, values);
     for (ExactSum& sum : sums) {
       sum.carry();
       entries.insert(entries.end(), sum.entries().begin(), sum.entries().end());
@@ -91,18 +70,21 @@ std::vector<double> integrals(const Communicator& comm, const Patch<Dim>& patch,
   return results;
 }
 
-template <int Dim>
+template <class Space>
 class FieldTransferOf : public FieldTransfer {
  public:
+  static constexpr int Dim = Space::kDim, In = Space::kIn;
+
   FieldTransferOf(Results<Dim>& results, TransferOrder order, std::int64_t components,
                   const double* values)
-      : search_(results.ranks(), patch_of(results)),
+      : space_(results),
+        search_(results.ranks(), space_.searched(space_.patch(results))),
         values_(with_ghosts(results, components, values)),
-        integrals_(integrals(results.communicator(), search_.patch().patch(),
+        integrals_(integrals(results.communicator(), space_, search_.patch().patch(),
                              results.surfaces_alone(), components, values_)) {
     components_ = components;
     if (order == TransferOrder::second)
-      fits_.emplace(results, search_.patch().patch(), components, values_);
+      fits_.emplace(results, search_.patch().patch().nodes, components, values_);
   }
 
   int dimension() const override { return Dim; }
@@ -113,25 +95,26 @@ class FieldTransferOf : public FieldTransfer {
  private:
   // A place on a simplex or facet of the rank that is asked.
   struct Question {
-    Point<Dim> x;
+    Point<In> x;
     std::int64_t row;
   };
 
   std::vector<Message> answered(const std::vector<Message>& asked) const;
   void answer(const Question& question, double* values) const;
-  void add_curvature(const Point<Dim>& x, const PatchWeights<Dim>& w, double* values) const;
+  void add_curvature(const Point<In>& x, const PatchWeights<Dim>& w, double* values) const;
   void conserve_integrals(Results<Dim>& results, double* values) const;
 
-  NodalSearch<Dim> search_;
+  Space space_;
+  NodalSearch<typename Space::Searched> search_;
   std::vector<double> values_;     // at the nodes of the patch
   std::vector<double> integrals_;  // of the components, and the size of all elements
-  std::optional<ParabolicFits<Dim>> fits_;
+  std::optional<typename Space::Fits> fits_;
 };
 
 // Between the values of the corners inside of a simplex, whatever is rounded; beyond the border the
 // simplex behind it goes on.
-template <int Dim>
-void FieldTransferOf<Dim>::answer(const Question& question, double* values) const {
+template <class Space>
+void FieldTransferOf<Space>::answer(const Question& question, double* values) const {
   const PatchWeights<Dim> w =
       search_.patch().weights(question.x, static_cast<std::int32_t>(question.row));
   for (std::int64_t c = 0; c < components_; ++c) {
@@ -152,25 +135,22 @@ void FieldTransferOf<Dim>::answer(const Question& question, double* values) cons
 
 // From what is linear to the corners' polynomials, each of which counts as its corner does; so the
 // field is continuous, and one of second order is met. A corner without one stays linear.
-template <int Dim>
-void FieldTransferOf<Dim>::add_curvature(const Point<Dim>& x, const PatchWeights<Dim>& w,
-                                         double* values) const {
+template <class Space>
+void FieldTransferOf<Space>::add_curvature(const Point<In>& x, const PatchWeights<Dim>& w,
+                                           double* values) const {
   for (std::int64_t c = 0; c < components_; ++c) {
     double sum = 0;
     for (std::size_t k = 0; k <= Dim; ++k) {
       if (w.weights[k] == 0 || !fits_->has(w.nodes[k])) continue;
-      Point<Dim> way;
-      for (std::size_t i = 0; i < Dim; ++i)
-        way[i] = x[i] - search_.patch().patch().nodes[static_cast<std::size_t>(w.nodes[k])].x[i];
       const double at_corner = values_[static_cast<std::size_t>(w.nodes[k] * components_ + c)];
-      sum += w.weights[k] * (at_corner - values[c] + fits_->rise(w.nodes[k], c, way));
+      sum += w.weights[k] * (at_corner - values[c] + fits_->rise(w.nodes[k], c, x));
     }
     values[c] += sum;
   }
 }
 
-template <int Dim>
-std::vector<Message> FieldTransferOf<Dim>::answered(const std::vector<Message>& asked) const {
+template <class Space>
+std::vector<Message> FieldTransferOf<Space>::answered(const std::vector<Message>& asked) const {
   std::vector<Message> answers;
   for (const Message& message : asked) {
     const std::size_t n = message.bytes.size() / sizeof(Question);
@@ -187,21 +167,21 @@ std::vector<Message> FieldTransferOf<Dim>::answered(const std::vector<Message>& 
   return answers;
 }
 
-template <int Dim>
-void FieldTransferOf<Dim>::evaluate(std::int64_t n, const double* x, double* values) const {
+template <class Space>
+void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* values) const {
   const Communicator& comm = search_.communicator();
-  std::vector<Point<Dim>> points;
+  std::vector<Point<In>> points;
   agreed(comm, [&] {
     points.resize(static_cast<std::size_t>(n));
     for (std::int64_t i = 0; i < n; ++i) {
-      Point<Dim>& point = points[static_cast<std::size_t>(i)];
-      std::copy_n(x + Dim * i, Dim, point.begin());
+      Point<In>& point = points[static_cast<std::size_t>(i)];
+      std::copy_n(x + In * i, In, point.begin());
       if (!std::all_of(point.begin(), point.end(), [](double c) { return std::isfinite(c); }))
         throw Error(ErrorKind::argument, "argument coordinates: point " + std::to_string(i) +
                                              " is " + point_text(point) + ", which is nowhere");
     }
   });
-  const std::vector<PatchAnswer<Dim>> found = search_.find(n, points.data());
+  const auto found = search_.find(n, points.data());
   Outbox questions;
   agreed(comm, [&] {
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -225,12 +205,12 @@ void FieldTransferOf<Dim>::evaluate(std::int64_t n, const double* x, double* val
   });
 }
 
-template <int Dim>
-void FieldTransferOf<Dim>::conserve_integrals(Results<Dim>& results, double* values) const {
+template <class Space>
+void FieldTransferOf<Space>::conserve_integrals(Results<Dim>& results, double* values) const {
   const Communicator& comm = search_.communicator();
   const std::vector<double> all = with_ghosts(results, components_, values);
   const std::vector<double> now =
-      integrals(comm, patch_of(results), results.surfaces_alone(), components_, all);
+      integrals(comm, space_, space_.patch(results), results.surfaces_alone(), components_, all);
   const std::int64_t owned = results.count();
   for (std::int64_t c = 0; c < components_; ++c) {
     const auto k = static_cast<std::size_t>(c);
@@ -239,16 +219,16 @@ void FieldTransferOf<Dim>::conserve_integrals(Results<Dim>& results, double* val
   }
 }
 
-template <int Dim>
-void FieldTransferOf<Dim>::evaluate_at_nodes(NodalResults& results, bool conserve,
-                                             double* values) const {
+template <class Space>
+void FieldTransferOf<Space>::evaluate_at_nodes(NodalResults& results, bool conserve,
+                                               double* values) const {
   auto& in = static_cast<Results<Dim>&>(results);
   std::vector<double> x;
   agreed(search_.communicator(), [&] {
     in.prepare_order();
     const std::int64_t owned = in.count();
     for (std::int64_t p = 0; p < owned; ++p) {
-      const Point<Dim> at = in.level().nodes.position(in.node_at(p));
+      const Point<In> at = space_.position(in, in.node_at(p));
       x.insert(x.end(), at.begin(), at.end());
     }
   });
@@ -260,11 +240,13 @@ void FieldTransferOf<Dim>::evaluate_at_nodes(NodalResults& results, bool conserv
 
 std::unique_ptr<FieldTransfer> make_field_transfer(NodalResults& results, TransferOrder order,
                                                    std::int64_t components, const double* values) {
-  if (results.dimension() == 2)
-    return std::make_unique<FieldTransferOf<2>>(static_cast<Results<2>&>(results), order,
-                                                components, values);
-  return std::make_unique<FieldTransferOf<3>>(static_cast<Results<3>&>(results), order, components,
-                                              values);
+  const auto made = [&]<class Space>(auto& in) -> std::unique_ptr<FieldTransfer> {
+    return std::make_unique<FieldTransferOf<Space>>(in, order, components, values);
+  };
+  if (results.dimension() == 3)
+    return made.operator()<FlatSpace<3>>(static_cast<Results<3>&>(results));
+  auto& in = static_cast<Results<2>&>(results);
+  return in.chart() ? made.operator()<SphereSpace>(in) : made.operator()<FlatSpace<2>>(in);
 }
 
 }  // namespace pnpbs

@@ -22,11 +22,13 @@ class FieldTransfer {
   // Of a transfer of second order: nodes, on all ranks, about which it is linear. Otherwise -1.
   virtual std::int64_t nodes_of_first_order() const = 0;
 
-  // x: [n][dimension], values: [n][components]. Collective; each rank asks what it wants.
+  // x: [n][coordinates of a node, as it is handed out], on a sphere of points of it; values:
+  // [n][components]. Collective; each rank asks what it wants.
   virtual void evaluate(std::int64_t n, const double* x, double* values) const = 0;
   // At this rank's nodes, in places. With `conserve` the field that is linear on the placement's
   // elements has the integral that the old one had on the old elements: every value is changed by
-  // the same number. Collective.
+  // the same number. On a sphere an integral is the sum, over the triangles, of the area along the
+  // sphere times the mean of the corners' values. Collective.
   virtual void evaluate_at_nodes(NodalResults& results, bool conserve, double* values) const = 0;
 
  protected:

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
 #include "base/error.hpp"
 #include "level/plane/closed_sphere.hpp"
@@ -59,6 +58,53 @@ void for_rim_facets(const Results<3>& results, const Visit& visit) {
   });
 }
 
+// Those of the values.
+template <int Dim>
+void prepare_same_stars(Results<Dim>& results) {
+  const auto ids = [&] {
+    std::vector<std::int64_t> all;
+    const std::int64_t owned = results.count();
+    for (std::int64_t p = 0; p < owned; ++p)
+      all.push_back(results.level().nodes.id(results.node_at(p)));
+    return all;
+  };
+  results.prepare_order();
+  const std::vector<std::int64_t> before = ids();
+  results.prepare_stars();
+  if (ids() != before)
+    throw Error(ErrorKind::state,
+                "nodes have changed their ranks since the computation before failed: ask for the "
+                "nodes again, and give the values at them");
+}
+
+template <int Dim, class Position, int In>
+void add_nodes(const Results<Dim>& results, const Position& position, Patch<Dim, In>& patch) {
+  const Nodes<Dim>& nodes = results.level().nodes;
+  for (std::int64_t p = 0; p < nodes.count; ++p) {
+    const std::int64_t i = results.node_at(p);
+    patch.nodes.push_back({position(i), nodes.id(i), 0});
+  }
+}
+
+template <int In, std::size_t Corners>
+std::array<std::int32_t, Corners> by_ids(const std::vector<PatchNode<In>>& nodes,
+                                         const std::array<std::int64_t, Corners>& places) {
+  std::array<std::int32_t, Corners> corners;
+  std::copy(places.begin(), places.end(), corners.begin());
+  std::sort(corners.begin(), corners.end(), [&](std::int32_t a, std::int32_t b) {
+    return nodes[static_cast<std::size_t>(a)].id < nodes[static_cast<std::size_t>(b)].id;
+  });
+  return corners;
+}
+
+template <int Dim, int In>
+void add_rim(const Results<Dim>& results, Patch<Dim, In>& patch) {
+  for_rim_facets(results, [&](const auto& places, std::int64_t behind) {
+    patch.border.push_back(by_ids(patch.nodes, places));
+    patch.behind.push_back(static_cast<std::int32_t>(behind));
+  });
+}
+
 // The triangle that closes a whole sphere is no part of the chart: it is a border.
 template <class Row>
 bool add_what_closes(const Results<2>& results, const std::array<std::int64_t, 3>& places,
@@ -80,40 +126,26 @@ bool add_what_closes(const Results<3>&, const std::array<std::int64_t, 4>&, cons
 
 template <int Dim>
 Patch<Dim> patch_of(Results<Dim>& results) {
-  const auto ids = [&] {
-    std::vector<std::int64_t> all;
-    const std::int64_t owned = results.count();
-    for (std::int64_t p = 0; p < owned; ++p)
-      all.push_back(results.level().nodes.id(results.node_at(p)));
-    return all;
-  };
-  results.prepare_order();
-  const std::vector<std::int64_t> before = ids();
-  results.prepare_stars();
-  if (ids() != before)
-    throw Error(ErrorKind::state,
-                "nodes have changed their ranks since the computation before failed: ask for the "
-                "nodes again, and give the values at them");
-  const Nodes<Dim>& nodes = results.level().nodes;
+  prepare_same_stars(results);
   Patch<Dim> patch;
-  for (std::int64_t p = 0; p < nodes.count; ++p)
-    patch.nodes.push_back({nodes.position(results.node_at(p)), nodes.id(results.node_at(p)), 0});
-  const auto row = [&](const auto& places) {
-    std::array<std::int32_t, std::tuple_size_v<std::decay_t<decltype(places)>>> corners;
-    std::copy(places.begin(), places.end(), corners.begin());
-    std::sort(corners.begin(), corners.end(), [&](std::int32_t a, std::int32_t b) {
-      return patch.nodes[static_cast<std::size_t>(a)].id <
-             patch.nodes[static_cast<std::size_t>(b)].id;
-    });
-    return corners;
-  };
+  add_nodes(
+      results, [&](std::int64_t i) { return results.level().nodes.position(i); }, patch);
+  const auto row = [&](const auto& places) { return by_ids(patch.nodes, places); };
   results.for_elements([&](const auto& places) {
     if (!add_what_closes(results, places, row, patch)) patch.simplices.push_back(row(places));
   });
-  for_rim_facets(results, [&](const auto& places, std::int64_t behind) {
-    patch.border.push_back(row(places));
-    patch.behind.push_back(static_cast<std::int32_t>(behind));
-  });
+  add_rim(results, patch);
+  return patch;
+}
+
+Patch<2, 3> sphere_patch_of(Results<2>& results) {
+  prepare_same_stars(results);
+  Patch<2, 3> patch;
+  add_nodes(
+      results, [&](std::int64_t i) { return results.place_in_space(i); }, patch);
+  results.for_elements(
+      [&](const auto& places) { patch.simplices.push_back(by_ids(patch.nodes, places)); });
+  add_rim(results, patch);
   return patch;
 }
 

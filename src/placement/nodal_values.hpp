@@ -15,6 +15,9 @@ namespace pnpbs {
 template <int Dim>
 Patch<Dim> patch_of(Results<Dim>& results);
 
+// The same in space, of nodes on a sphere. Collective.
+Patch<2, 3> sphere_patch_of(Results<2>& results);
+
 // d by its values at this rank's nodes, in places. Collective.
 template <int Dim>
 std::shared_ptr<const Spacing<Dim>> spacing_from(Results<Dim>& results, std::vector<double> values);

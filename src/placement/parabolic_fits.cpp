@@ -127,9 +127,9 @@ class Fitting {
   using M = Monomials<Dim>;
   static constexpr int kOfField = M::up_to(2);
 
-  Fitting(const Results<Dim>& results, const Patch<Dim>& patch, std::int64_t components,
-          const std::vector<double>& values)
-      : results_(results), patch_(patch), components_(components), values_(values) {
+  Fitting(const Results<Dim>& results, const std::vector<PatchNode<Dim>>& nodes,
+          std::int64_t components, const std::vector<double>& values)
+      : results_(results), nodes_(nodes), components_(components), values_(values) {
     monomials_.prepare_shifts();
   }
 
@@ -170,16 +170,15 @@ class Fitting {
     results_.level().stars.for_neighbours(
         results_.node_at(p), [&](std::int64_t j) { places.push_back(results_.place_of(j)); });
     std::sort(places.begin(), places.end(), [&](std::int64_t a, std::int64_t b) {
-      return patch_.nodes[static_cast<std::size_t>(a)].id <
-             patch_.nodes[static_cast<std::size_t>(b)].id;
+      return nodes_[static_cast<std::size_t>(a)].id < nodes_[static_cast<std::size_t>(b)].id;
     });
     places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
   }
 
   Point<Dim> way(std::int64_t p, std::int64_t q) const {
-    const Point<Dim>&from = patch_.nodes[static_cast<std::size_t>(p)].x,
-          &to = patch_.nodes[static_cast<std::size_t>(q)].x;
+    const Point<Dim>&from = nodes_[static_cast<std::size_t>(p)].x,
+          &to = nodes_[static_cast<std::size_t>(q)].x;
     Point<Dim> way;
     for (int k = 0; k < Dim; ++k) way[k] = to[k] - from[k];
     return way;
@@ -216,7 +215,7 @@ class Fitting {
   }
 
   const Results<Dim>& results_;
-  const Patch<Dim>& patch_;
+  const std::vector<PatchNode<Dim>>& nodes_;
   std::int64_t components_;
   const std::vector<double>& values_;
   Monomials<Dim> monomials_;
@@ -225,10 +224,11 @@ class Fitting {
 }  // namespace
 
 template <int Dim>
-ParabolicFits<Dim>::ParabolicFits(Results<Dim>& results, const Patch<Dim>& patch,
-                                  std::int64_t components, const std::vector<double>& values) {
+ParabolicFits<Dim>::ParabolicFits(Results<Dim>& results, std::vector<PatchNode<Dim>> nodes,
+                                  std::int64_t components, const std::vector<double>& values)
+    : nodes_(std::move(nodes)) {
   const Communicator& comm = results.communicator();
-  const Fitting<Dim> fitting(results, patch, components, values);
+  const Fitting<Dim> fitting(results, nodes_, components, values);
   std::vector<double> sums, fits;
   agreed(comm, [&] { sums = fitting.sums(); });
   sums = with_ghosts(results, fitting.sum_columns(), sums.data());
@@ -248,9 +248,18 @@ ParabolicFits<Dim>::ParabolicFits(Results<Dim>& results, const Patch<Dim>& patch
 }
 
 template <int Dim>
+Point<Dim> ParabolicFits<Dim>::way_from(std::int32_t place, const Point<Dim>& x) const {
+  const Point<Dim>& from = nodes_[static_cast<std::size_t>(place)].x;
+  Point<Dim> way;
+  for (int k = 0; k < Dim; ++k) way[k] = x[k] - from[k];
+  return way;
+}
+
+template <int Dim>
 double ParabolicFits<Dim>::rise(std::int32_t place, std::int64_t component,
-                                const Point<Dim>& way) const {
+                                const Point<Dim>& x) const {
   using M = Monomials<Dim>;
+  const Point<Dim> way = way_from(place, x);
   const double* c = fit(place) + 1 + component * M::kFitted;
   double rise = 0;
   for (int k = 0; k < Dim; ++k) rise += *c++ * way[k];

@@ -19,23 +19,25 @@ namespace pnpbs {
 template <int Dim>
 class ParabolicFits {
  public:
-  // values: [places][components]. Collective.
-  ParabolicFits(Results<Dim>& results, const Patch<Dim>& patch, std::int64_t components,
+  // nodes: at all places; values: [places][components]. Collective.
+  ParabolicFits(Results<Dim>& results, std::vector<PatchNode<Dim>> nodes, std::int64_t components,
                 const std::vector<double>& values);
 
   // Is there one? Not where the neighbours are too few, or lie on a curve of second order, as those
   // of nodes that are on surfaces alone may.
   bool has(std::int32_t place) const { return fit(place)[0] != 0; }
-  // What is to be added to the node's own value at this distance from it.
-  double rise(std::int32_t place, std::int64_t component, const Point<Dim>& way) const;
+  // What is to be added to the node's own value at x.
+  double rise(std::int32_t place, std::int64_t component, const Point<Dim>& x) const;
   // On all ranks.
   std::int64_t nodes_without() const { return nodes_without_; }
 
  private:
+  Point<Dim> way_from(std::int32_t place, const Point<Dim>& x) const;
   const double* fit(std::int32_t place) const {
     return fits_.data() + static_cast<std::int64_t>(place) * columns_;
   }
 
+  std::vector<PatchNode<Dim>> nodes_;
   std::int64_t columns_ = 0;  // 1 if there is one, then coefficients by component
   std::vector<double> fits_;  // [places][columns]
   std::int64_t nodes_without_ = 0;

@@ -1,58 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spacing/mesh_spacing.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/started_execution.hpp"
+#include "spacing/mesh_patch.hpp"
 #include "spacing/simplex_slope.hpp"
 
 namespace pnpbs {
 
-namespace {
-
-// Those of one simplex alone. Where neighbours do not share whole facets, some inside are among
-// them: as these are within the mesh, they are the nearest to no point beyond it.
-template <int Dim>
-std::vector<std::array<std::int32_t, Dim>> open_facets(
-    const std::vector<std::array<std::int32_t, Dim + 1>>& simplices) {
-  std::vector<std::array<std::int32_t, Dim>> facets;
-  facets.reserve(simplices.size() * (Dim + 1));
-  for (const auto& simplex : simplices)
-    for (std::size_t without = 0; without <= Dim; ++without) {
-      std::array<std::int32_t, Dim> facet;
-      std::copy_n(simplex.begin(), without, facet.begin());
-      std::copy(simplex.begin() + static_cast<std::ptrdiff_t>(without) + 1, simplex.end(),
-                facet.begin() + static_cast<std::ptrdiff_t>(without));
-      facets.push_back(facet);
-    }
-  std::sort(facets.begin(), facets.end());
-  std::vector<std::array<std::int32_t, Dim>> open;
-  for (auto facet = facets.begin(); facet != facets.end();) {
-    const auto next = std::find_if(facet, facets.end(), [&](const auto& f) { return f != *facet; });
-    if (next - facet == 1) open.push_back(*facet);
-    facet = next;
-  }
-  return open;
-}
-
-template <int Dim>
-Patch<Dim> patch_of(const GivenField<Dim>& field) {
-  Patch<Dim> patch;
-  patch.nodes.reserve(field.points.size());
-  for (std::size_t i = 0; i < field.points.size(); ++i)
-    patch.nodes.push_back({field.points[i], static_cast<std::int64_t>(i), field.values[i]});
-  patch.simplices = field.elements;
-  for (auto& simplex : patch.simplices) std::sort(simplex.begin(), simplex.end());
-  patch.border = open_facets<Dim>(patch.simplices);
-  return patch;
-}
-
-}  // namespace
-
 template <int Dim>
 MeshSpacing<Dim>::MeshSpacing(const GivenField<Dim>& field)
-    : mesh_(patch_of(field)), box_(box_of(field)) {}
+    : mesh_(patch_of_mesh<Dim, Dim>(field)), box_(box_of(field)) {}
 
 template <int Dim>
 PatchAnswer<Dim> MeshSpacing<Dim>::answer_at(const Point<Dim>& x) const {

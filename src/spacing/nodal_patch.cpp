@@ -6,6 +6,7 @@
 #include "geometry/volume/triangles.hpp"
 #include "predicates/plane.hpp"
 #include "predicates/space.hpp"
+#include "spacing/patch_weights.hpp"
 
 namespace pnpbs {
 
@@ -158,44 +159,14 @@ void NodalPatch<Dim>::extend(const Point<Dim>& x, PatchAnswer<Dim>& best) const 
 
 template <int Dim>
 PatchWeights<Dim> NodalPatch<Dim>::weights(const Point<Dim>& x, std::int32_t row) const {
-  PatchWeights<Dim> result;
-  result.inside = row >= 0;
-  const auto facet = static_cast<std::size_t>(-1 - row);  // if it is one
-  bool simplex = result.inside;
-  if (result.inside) {
-    result.nodes = patch_.simplices[static_cast<std::size_t>(row)];
-  } else {
-    std::copy_n(patch_.border[facet].begin(), Dim, result.nodes.begin());
-    simplex = !patch_.behind.empty() && patch_.behind[facet] >= 0;
-    result.nodes[Dim] = simplex ? patch_.behind[facet] : result.nodes[0];
-    // In the order of ids, as everywhere, so that rounding is the same.
-    if (simplex)
-      std::sort(result.nodes.begin(), result.nodes.end(), [&](std::int32_t a, std::int32_t b) {
-        return patch_.nodes[static_cast<std::size_t>(a)].id <
-               patch_.nodes[static_cast<std::size_t>(b)].id;
+  return weights_in(
+      patch_, x, row,
+      [&](const std::array<std::int32_t, Dim + 1>& simplex) {
+        return shares(Corners<Dim, Dim + 1>(patch_.nodes, simplex).x, x);
+      },
+      [&](const std::array<std::int32_t, Dim>& facet) {
+        return nearest_point(Corners<Dim, Dim>(patch_.nodes, facet).x, x).along;
       });
-  }
-  // What was a node keeps its value as it was.
-  for (std::size_t k = 0; k <= Dim; ++k)
-    if (patch_.nodes[static_cast<std::size_t>(result.nodes[k])].x == x) {
-      result.weights[k] = 1;
-      result.inside = true;
-      return result;
-    }
-  if (simplex) {
-    const auto share = shares(Corners<Dim, Dim + 1>(patch_.nodes, result.nodes).x, x);
-    double all = 0;
-    for (const double part : share) all += part;
-    for (std::size_t k = 0; k <= Dim; ++k) result.weights[k] = share[k] / all;
-  } else {
-    const auto foot = nearest_point(Corners<Dim, Dim>(patch_.nodes, patch_.border[facet]).x, x);
-    result.weights[0] = 1;
-    for (std::size_t k = 1; k < Dim; ++k) {
-      result.weights[k] = foot.along[k - 1];
-      result.weights[0] -= foot.along[k - 1];
-    }
-  }
-  return result;
 }
 
 template class NodalPatch<2>;

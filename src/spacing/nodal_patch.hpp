@@ -20,9 +20,10 @@ struct PatchNode {
   double value;
 };
 
-template <int Dim>
+// In: the coordinates of its nodes, more than Dim on a surface.
+template <int Dim, int In = Dim>
 struct Patch {
-  std::vector<PatchNode<Dim>> nodes;
+  std::vector<PatchNode<In>> nodes;
   // Indices of nodes, by increasing id in each row.
   std::vector<std::array<std::int32_t, Dim + 1>> simplices;
   std::vector<std::array<std::int32_t, Dim>> border;  // facets with nothing on one side
@@ -55,6 +56,8 @@ struct PatchAnswer {
 template <int Dim>
 class NodalPatch {
  public:
+  static constexpr int kDim = Dim, kIn = Dim;
+
   NodalPatch() = default;
   explicit NodalPatch(Patch<Dim> patch);
 

@@ -31,9 +31,9 @@ struct OwnerQuestion {
   std::int32_t asker, asked;
 };
 
-template <int Dim>
+template <class Answer>
 struct Reply {
-  PatchAnswer<Dim> answer;
+  Answer answer;
   std::int64_t index;
   std::int64_t asker;
 };
@@ -55,29 +55,29 @@ void sort_once(std::vector<std::int32_t>& ranks) {
 
 }  // namespace
 
-template <int Dim>
-NodalSearch<Dim>::NodalSearch(std::shared_ptr<const Communicator> comm, Patch<Dim> patch)
+template <class Searched>
+NodalSearch<Searched>::NodalSearch(std::shared_ptr<const Communicator> comm, Searched patch)
     : comm_(std::move(comm)),
       patch_(std::move(patch)),
       simplices_(gather_boxes(patch_.simplices_cover(kBoxesPerRank))),
       borders_(gather_boxes(patch_.border_cover(kBoxesPerRank))) {}
 
-template <int Dim>
-typename NodalSearch<Dim>::Directory NodalSearch<Dim>::gather_boxes(
-    const std::vector<Box<Dim>>& mine) const {
+template <class Searched>
+typename NodalSearch<Searched>::Directory NodalSearch<Searched>::gather_boxes(
+    const std::vector<Box<kIn>>& mine) const {
   Bytes bytes;
-  for (const Box<Dim>& box : mine) pack(bytes, OwnedBox<Dim>{box, comm_->rank()});
+  for (const Box<kIn>& box : mine) pack(bytes, OwnedBox<kIn>{box, comm_->rank()});
   Directory directory;
-  for_records<OwnedBox<Dim>>({comm_->allgather(bytes)}, [&](const OwnedBox<Dim>& entry) {
+  for_records<OwnedBox<kIn>>({comm_->allgather(bytes)}, [&](const OwnedBox<kIn>& entry) {
     directory.boxes.push_back(entry.box);
     directory.ranks.push_back(static_cast<std::int32_t>(entry.rank));
   });
-  directory.tree = BoxTree<Dim>(directory.boxes);
+  directory.tree = BoxTree<kIn>(directory.boxes);
   return directory;
 }
 
-template <int Dim>
-std::vector<std::int32_t> NodalSearch<Dim>::ranks_holding(const Point<Dim>& x) const {
+template <class Searched>
+std::vector<std::int32_t> NodalSearch<Searched>::ranks_holding(const Point<kIn>& x) const {
   std::vector<std::int32_t> ranks;
   simplices_.tree.for_holding(
       x, [&](std::int32_t b) { ranks.push_back(simplices_.ranks[static_cast<std::size_t>(b)]); });
@@ -87,16 +87,16 @@ std::vector<std::int32_t> NodalSearch<Dim>::ranks_holding(const Point<Dim>& x) c
 
 // No facet of the border is nearer than its box, and some facet in a box is no farther than the
 // box's far corner.
-template <int Dim>
-std::vector<std::int32_t> NodalSearch<Dim>::ranks_nearest(const Point<Dim>& x) const {
+template <class Searched>
+std::vector<std::int32_t> NodalSearch<Searched>::ranks_nearest(const Point<kIn>& x) const {
   constexpr double kRounding = 1 + 1e-6;
   double bound = std::numeric_limits<double>::infinity();
   std::vector<std::int32_t> near;
   borders_.tree.for_near(
       x, [&] { return bound; },
       [&](std::int32_t b) {
-        const Box<Dim>& box = borders_.boxes[static_cast<std::size_t>(b)];
-        bound = std::min(bound, kRounding * squared_distance_to_far_corner<Dim>(box, x));
+        const Box<kIn>& box = borders_.boxes[static_cast<std::size_t>(b)];
+        bound = std::min(bound, kRounding * squared_distance_to_far_corner<kIn>(box, x));
         near.push_back(b);
       });
   std::vector<std::int32_t> ranks;
@@ -108,73 +108,75 @@ std::vector<std::int32_t> NodalSearch<Dim>::ranks_nearest(const Point<Dim>& x) c
 }
 
 // Asks for all points without an answer.
-template <int Dim>
+template <class Searched>
 template <class Ranks>
-void NodalSearch<Dim>::look(std::int64_t n, const Point<Dim>* x, bool same, const Ranks& ranks_for,
-                            Find how, std::vector<PatchAnswer<Dim>>& answers) const {
+void NodalSearch<Searched>::look(std::int64_t n, const Point<kIn>* x, bool same,
+                                 const Ranks& ranks_for, Find how,
+                                 std::vector<Answer>& answers) const {
   const std::int32_t me = comm_->rank();
-  std::vector<OwnerQuestion<Dim>> questions;
+  std::vector<OwnerQuestion<kIn>> questions;
   for (std::int64_t i = 0; i < n; ++i) {
     if (answers[static_cast<std::size_t>(i)].found()) continue;
     for (const std::int32_t rank : ranks_for(x[i]))
       if (!same || rank == me) questions.push_back({x[i], i, me, rank});
   }
   if (!same)
-    questions = redistribute<OwnerQuestion<Dim>>(
-        *comm_, questions, [](const OwnerQuestion<Dim>& q) { return static_cast<int>(q.asked); });
+    questions = redistribute<OwnerQuestion<kIn>>(
+        *comm_, questions, [](const OwnerQuestion<kIn>& q) { return static_cast<int>(q.asked); });
 
-  std::vector<Reply<Dim>> replies(questions.size());
+  std::vector<Reply<Answer>> replies(questions.size());
   for_each("pnpbs::NodalSearch::look", static_cast<std::int64_t>(questions.size()),
            [&](std::int64_t k) {
-             const OwnerQuestion<Dim>& question = questions[static_cast<std::size_t>(k)];
-             Reply<Dim>& reply = replies[static_cast<std::size_t>(k)];
+             const OwnerQuestion<kIn>& question = questions[static_cast<std::size_t>(k)];
+             Reply<Answer>& reply = replies[static_cast<std::size_t>(k)];
              reply.index = question.index;
              reply.asker = question.asker;
              (patch_.*how)(question.x, reply.answer);
              reply.answer.rank = comm_->rank();
            });
-  std::erase_if(replies, [](const Reply<Dim>& reply) { return !reply.answer.found(); });
+  std::erase_if(replies, [](const Reply<Answer>& reply) { return !reply.answer.found(); });
 
-  const auto take = [&](const Reply<Dim>& reply) {
-    PatchAnswer<Dim>& best = answers[static_cast<std::size_t>(reply.index)];
+  const auto take = [&](const Reply<Answer>& reply) {
+    Answer& best = answers[static_cast<std::size_t>(reply.index)];
     if (reply.answer < best) best = reply.answer;
   };
   if (!same) {
-    replies = redistribute<Reply<Dim>>(
-        *comm_, replies, [](const Reply<Dim>& r) { return static_cast<int>(r.asker); });
-    for (const Reply<Dim>& reply : replies) take(reply);
+    replies = redistribute<Reply<Answer>>(
+        *comm_, replies, [](const Reply<Answer>& r) { return static_cast<int>(r.asker); });
+    for (const Reply<Answer>& reply : replies) take(reply);
   } else {
     Bytes bytes;
-    for (const Reply<Dim>& reply : replies) pack(bytes, reply);
-    for_records<Reply<Dim>>({comm_->allgather(bytes)}, take);
+    for (const Reply<Answer>& reply : replies) pack(bytes, reply);
+    for_records<Reply<Answer>>({comm_->allgather(bytes)}, take);
   }
 }
 
-template <int Dim>
-std::int64_t NodalSearch<Dim>::open_on_all(const std::vector<PatchAnswer<Dim>>& answers) const {
+template <class Searched>
+std::int64_t NodalSearch<Searched>::open_on_all(const std::vector<Answer>& answers) const {
   const auto open = std::count_if(answers.begin(), answers.end(),
-                                  [](const PatchAnswer<Dim>& answer) { return !answer.found(); });
+                                  [](const Answer& answer) { return !answer.found(); });
   return static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(open)));
 }
 
-template <int Dim>
-std::vector<PatchAnswer<Dim>> NodalSearch<Dim>::find(std::int64_t n, const Point<Dim>* x) const {
-  const bool same = same_points<Dim>(*comm_, n, x);
-  std::vector<PatchAnswer<Dim>> answers(static_cast<std::size_t>(n));
+template <class Searched>
+auto NodalSearch<Searched>::find(std::int64_t n, const Point<kIn>* x) const -> std::vector<Answer> {
+  const bool same = same_points<kIn>(*comm_, n, x);
+  std::vector<Answer> answers(static_cast<std::size_t>(n));
   look(
-      n, x, same, [this](const Point<Dim>& p) { return ranks_holding(p); },
-      &NodalPatch<Dim>::interpolate, answers);
+      n, x, same, [this](const Point<kIn>& p) { return ranks_holding(p); }, &Searched::interpolate,
+      answers);
   if (open_on_all(answers) > 0)
     look(
-        n, x, same, [this](const Point<Dim>& p) { return ranks_nearest(p); },
-        &NodalPatch<Dim>::extend, answers);
+        n, x, same, [this](const Point<kIn>& p) { return ranks_nearest(p); }, &Searched::extend,
+        answers);
   for (std::int64_t i = 0; i < n; ++i)
     if (!answers[static_cast<std::size_t>(i)].found())
       throw Error(ErrorKind::internal, "the values at nodes say nothing about " + point_text(x[i]));
   return answers;
 }
 
-template class NodalSearch<2>;
-template class NodalSearch<3>;
+template class NodalSearch<NodalPatch<2>>;
+template class NodalSearch<NodalPatch<3>>;
+template class NodalSearch<SpherePatch>;
 
 }  // namespace pnpbs

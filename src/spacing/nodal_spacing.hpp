@@ -19,7 +19,7 @@ class NodalSpacing : public Spacing<Dim> {
   // In the chart of a sphere, values are those along the sphere. Collective.
   NodalSpacing(std::shared_ptr<const Communicator> comm, Patch<Dim> patch,
                const StereographicChart* chart = nullptr)
-      : search_(std::move(comm), std::move(patch)) {
+      : search_(std::move(comm), NodalPatch<Dim>(std::move(patch))) {
     if (chart) chart_ = *chart;
   }
 
@@ -36,7 +36,7 @@ class NodalSpacing : public Spacing<Dim> {
   const Patch<Dim>& patch() const { return search_.patch().patch(); }  // of this rank
 
  private:
-  NodalSearch<Dim> search_;
+  NodalSearch<NodalPatch<Dim>> search_;
   std::optional<StereographicChart> chart_;
 };
 

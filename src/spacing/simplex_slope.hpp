@@ -14,24 +14,25 @@ namespace pnpbs {
 
 // The gradient of what is linear on a simplex: by edges that are made orthogonal, one by one, to
 // those before. What is left of the values along them are its components.
-template <int Dim, std::size_t Corners>
-typename KnownValues<Dim>::Slope slope_of(const Patch<Dim>& patch,
-                                          const std::array<std::int32_t, Corners>& simplex) {
-  const auto node = [&](std::size_t k) -> const PatchNode<Dim>& {
+template <int Dim, int In>
+typename KnownValues<In>::Slope slope_of(const Patch<Dim, In>& patch,
+                                         const std::array<std::int32_t, Dim + 1>& simplex) {
+  constexpr std::size_t kCorners = Dim + 1;
+  const auto node = [&](std::size_t k) -> const PatchNode<In>& {
     return patch.nodes[static_cast<std::size_t>(simplex[k])];
   };
-  typename KnownValues<Dim>::Slope slope{0, node(0).value, {}};
-  std::array<Point<Dim>, Corners - 1> edges;
-  std::array<double, Corners - 1> rises, squares;
+  typename KnownValues<In>::Slope slope{0, node(0).value, {}};
+  std::array<Point<In>, kCorners - 1> edges;
+  std::array<double, kCorners - 1> rises, squares;
   double square_of_growth = 0;
-  for (std::size_t k = 0; k + 1 < Corners; ++k) {
+  for (std::size_t k = 0; k + 1 < kCorners; ++k) {
     rises[k] = node(k + 1).value - node(0).value;
-    for (std::size_t c = 0; c < Dim; ++c) edges[k][c] = node(k + 1).x[c] - node(0).x[c];
+    for (std::size_t c = 0; c < In; ++c) edges[k][c] = node(k + 1).x[c] - node(0).x[c];
     for (std::size_t before = 0; before < k; ++before) {
       double along = 0;
-      for (std::size_t c = 0; c < Dim; ++c) along += edges[k][c] * edges[before][c];
+      for (std::size_t c = 0; c < In; ++c) along += edges[k][c] * edges[before][c];
       along /= squares[before];
-      for (std::size_t c = 0; c < Dim; ++c) edges[k][c] -= along * edges[before][c];
+      for (std::size_t c = 0; c < In; ++c) edges[k][c] -= along * edges[before][c];
       rises[k] -= along * rises[before];
     }
     squares[k] = 0;
@@ -41,9 +42,9 @@ typename KnownValues<Dim>::Slope slope_of(const Patch<Dim>& patch,
     squares[k] = std::max(squares[k], std::numeric_limits<double>::min());
   }
   slope.growth = std::sqrt(square_of_growth);
-  for (std::size_t k = 0; k < Corners; ++k) {
+  for (std::size_t k = 0; k < kCorners; ++k) {
     slope.d = std::min(slope.d, node(k).value);
-    for (std::size_t c = 0; c < Dim; ++c) slope.at[c] += node(k).x[c] / Corners;
+    for (std::size_t c = 0; c < In; ++c) slope.at[c] += node(k).x[c] / kCorners;
   }
   return slope;
 }

@@ -148,7 +148,8 @@ class Transfer(Handle):
     def at_nodes(self, placement: Placement, conserve: bool = False) -> Doubles:
         """Evaluates the field at the current nodes of a placement: the same bits for any number of
         ranks, at creation and now. With `conserve` the same number is added everywhere, so that the
-        integral is unchanged, to rounding. Collective."""
+        integral is unchanged, to rounding; on a sphere that is the sum of the triangles' areas
+        along it times the means of their corners' values. Collective."""
         n = placement.node_count
         values = np.zeros((n, *self._shape))
         self.context._check(library().pnpbs_transfer_at_nodes(

@@ -78,7 +78,8 @@ of ranks and threads, at creation and now. A node at the position of an earlier 
 unchanged. The placement may be another one of the same context, in the same dimension. With
 `conserve` the same number is added to the values of each component, so that the integral of the
 field that is linear on the current triangles or tetrahedra equals its integral on the previous
-ones. Collective.
+ones; on a sphere that is the sum of the triangles' areas along it times the means of their corners'
+values. Collective.
 """
 function at_nodes(transfer::Transfer, placement::Placement; conserve::Bool = false)
     n = node_count(placement)

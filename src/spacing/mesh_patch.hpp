@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A background mesh that a rank has whole as a patch.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "spacing/given_field.hpp"
+#include "spacing/nodal_patch.hpp"
+
+namespace pnpbs {
+
+// Those of one simplex alone. Where neighbours do not share whole facets, some inside are among
+// them: as these are within the mesh, they are the nearest to no point beyond it.
+template <int Dim>
+std::vector<std::array<std::int32_t, Dim>> open_facets(
+    const std::vector<std::array<std::int32_t, Dim + 1>>& simplices) {
+  std::vector<std::array<std::int32_t, Dim>> facets;
+  facets.reserve(simplices.size() * (Dim + 1));
+  for (const auto& simplex : simplices)
+    for (std::size_t without = 0; without <= Dim; ++without) {
+      std::array<std::int32_t, Dim> facet;
+      std::copy_n(simplex.begin(), without, facet.begin());
+      std::copy(simplex.begin() + static_cast<std::ptrdiff_t>(without) + 1, simplex.end(),
+                facet.begin() + static_cast<std::ptrdiff_t>(without));
+      facets.push_back(facet);
+    }
+  std::sort(facets.begin(), facets.end());
+  std::vector<std::array<std::int32_t, Dim>> open;
+  for (auto facet = facets.begin(); facet != facets.end();) {
+    const auto next = std::find_if(facet, facets.end(), [&](const auto& f) { return f != *facet; });
+    if (next - facet == 1) open.push_back(*facet);
+    facet = next;
+  }
+  return open;
+}
+
+// Simplices that are given twice are there once.
+template <int Dim, int In>
+Patch<Dim, In> patch_of_mesh(const GivenField<In, Dim + 1>& field) {
+  Patch<Dim, In> patch;
+  patch.nodes.reserve(field.points.size());
+  for (std::size_t i = 0; i < field.points.size(); ++i)
+    patch.nodes.push_back({field.points[i], static_cast<std::int64_t>(i), field.values[i]});
+  auto simplices = field.elements;
+  for (auto& simplex : simplices) std::sort(simplex.begin(), simplex.end());
+  std::sort(simplices.begin(), simplices.end());
+  simplices.erase(std::unique(simplices.begin(), simplices.end()), simplices.end());
+  patch.border = open_facets<Dim>(simplices);
+  patch.simplices = std::move(simplices);
+  return patch;
+}
+
+}  // namespace pnpbs
