@@ -46,11 +46,11 @@ pnpbs_status pnpbs_placement_get_numbering(pnpbs_placement placement, int64_t ca
     const auto exchange = results.exchange_pattern();
     const ExchangePattern& pattern = *exchange;
     const std::int64_t owned = results.count(), begin = results.nodes_on_ranks_before();
-    std::vector<std::int64_t> number(static_cast<std::size_t>(results.nodes().count));
+    std::vector<std::int64_t> number(static_cast<std::size_t>(results.held()));
     for (std::int64_t i = 0; i < owned; ++i) number[static_cast<std::size_t>(i)] = begin + i;
     fill_ghosts(results.communicator(), pattern, number);
     if (ghost_numbers) {
-      require_capacity(capacity, results.nodes().count - owned);
+      require_capacity(capacity, results.held() - owned);
       std::copy(number.begin() + owned, number.end(), ghost_numbers);
     }
     if (first) *first = begin;

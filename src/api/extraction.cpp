@@ -135,7 +135,7 @@ pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t* gho
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(ghosts, "ghosts");
     results.prepare_lists();
-    *ghosts = results.nodes().count - results.count();
+    *ghosts = results.held() - results.count();
     return PNPBS_OK;
   });
 }
@@ -145,7 +145,7 @@ pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capac
                                         double* spacing, int32_t* owners) {
   return collective_results(placement, [&](NodalResults& results) {
     results.prepare_lists();
-    const std::int64_t owned = results.count(), ghosts = results.nodes().count - owned;
+    const std::int64_t owned = results.count(), ghosts = results.held() - owned;
     require_capacity(capacity, ghosts);
     copy_nodes(results, owned, ghosts, coordinates, ids, tags, spacing);
     in_its_dimension(results, [&](const auto& in) {

@@ -104,7 +104,7 @@ void OutputFields::require_current(NodalResults& results) const {
 std::vector<OutputField> OutputFields::with_ghosts(NodalResults& results) const {
   if (all_.empty()) return {};
   const auto pattern = results.exchange_pattern();
-  const auto places = static_cast<std::size_t>(results.nodes().count);
+  const auto places = static_cast<std::size_t>(results.held());
   std::vector<OutputField> fields;
   for (const OutputField& field : all_) {
     GhostUpdate update;

@@ -12,7 +12,7 @@ namespace pnpbs {
 
 std::vector<std::int64_t> node_numbers(NodalResults& results, const RankRanges& nodes) {
   const auto pattern = results.exchange_pattern();
-  std::vector<std::int64_t> numbers(static_cast<std::size_t>(results.nodes().count));
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(results.held()));
   for (std::int64_t place = 0; place < nodes.count(); ++place)
     numbers[static_cast<std::size_t>(place)] = nodes.first() + place;
   fill_ghosts(results.communicator(), *pattern, numbers);

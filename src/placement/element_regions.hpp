@@ -18,7 +18,7 @@ class ElementRegions {
   explicit ElementRegions(const Results<Dim>& results)
       : results_(results),
         regions_(results.has_nodes() ? results.level().ground.domain().regions() : nullptr) {
-    if (regions_) of_node_.assign(static_cast<std::size_t>(results.nodes().count), kUnknown);
+    if (regions_) of_node_.assign(static_cast<std::size_t>(results.held()), kUnknown);
   }
 
   bool any() const { return regions_ != nullptr; }

@@ -109,7 +109,7 @@ void NodalResults::add_from_ghosts(std::int64_t n, std::int64_t components, doub
 }
 
 void NodalResults::require_places(std::int64_t n) const {
-  const std::int64_t places = nodes().count;
+  const std::int64_t places = held();
   if (n != places)
     throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
                                          std::to_string(count()) + " nodes and " +

@@ -18,7 +18,7 @@ inline std::vector<double> with_ghosts(NodalResults& results, std::int64_t compo
   GhostUpdate update;
   agreed(comm, [&] {
     all.assign(values, values + results.count() * components);
-    all.resize(static_cast<std::size_t>(results.nodes().count * components));
+    all.resize(static_cast<std::size_t>(results.held() * components));
     update.pack(comm, pattern, components, all.data());
   });
   update.start();

@@ -62,7 +62,8 @@ class NodalResults {
   virtual bool has_nodes() const = 0;
   virtual std::int64_t count() const = 0;  // of this rank
   std::int64_t global_count() const;       // collective
-  virtual NodeColumns nodes() const = 0;   // as they lie in memory, ghosts among them
+  virtual std::int64_t held() const = 0;   // on this rank, ghosts among them
+  virtual NodeColumns nodes() const = 0;   // as they lie in memory, all that are held
   // Memory index of each node in the order of ids, and the inverse. Preparing the lists (at their
   // extraction radius) or the stars prepares the order, too. The order alone changes nothing of
   // the level and may be asked for from a callback.

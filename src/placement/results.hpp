@@ -39,6 +39,7 @@ class Results : public NodalResults {
   const Domain<Dim>& domain() const { return *domain_; }
   // Counts them, unless the order of nodes has.
   std::int64_t count() const override;
+  std::int64_t held() const override { return level_ ? level_->nodes.count : 0; }
   NodeColumns nodes() const override;
   void prepare_order() override;
   void prepare_lists() override;

@@ -145,13 +145,13 @@ const std::vector<StatisticRow>& statistic_table() {
       integer(
           "nodes_held",
           [](P p) {
-            const std::int64_t held = p.results().nodes().count;
+            const std::int64_t held = p.results().held();
             return static_cast<std::int64_t>(
                 p.communicator().allreduce_max(static_cast<double>(held)));
           },
           "maximum number of nodes held by a rank, including its ghosts"),
       integer(
-          "ghosts", [](P p) { return p.results().nodes().count - p.results().count(); },
+          "ghosts", [](P p) { return p.results().held() - p.results().count(); },
           "nodes of other ranks that this rank currently holds"),
       integer(
           "neighbours", [](P p) { return p.results().level_figures().neighbour_ranks; },

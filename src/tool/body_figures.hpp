@@ -12,8 +12,9 @@ namespace pnpbs::tool {
 
 struct BodyFigures {
   Point<3> extent;
-  double volume;               // 0 of surfaces alone
-  std::optional<double> area;  // of its boundary's triangles, when there are nodes
+  double volume;  // 0 of surfaces alone
+  std::optional<double>
+      area;  // of its boundary's triangles, when there are nodes; of a sphere, along it
 };
 
 // Local. Throws Failure.

@@ -277,7 +277,8 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   const GeoFile* geo = wishes.source->geo();
   Statistics statistics(placement);
   if (outputs.has_pictures()) outputs.write_pictures({placement, domain, context, ranks, look});
-  if (body && !arguments.at_centres) body->area = boundary_area(placement, context, ranks);
+  if (body && !arguments.at_centres && !arguments.sphere)
+    body->area = boundary_area(placement, context, ranks);
   const Matter matter(arguments, wishes.density, wishes.source->dimension(), placement,
                       work.body_of_particles(), context, ranks);
   const std::vector<std::string> of_grids =
