@@ -179,8 +179,8 @@ PNPBS_API pnpbs_status pnpbs_geo_grid_destroy(pnpbs_geo_grid *grid);
  *  the file can no longer be read.
  *  @param[in] coordinates  [n][2]
  *  @param[out] values      [n]
- *  @param[out] inside      [n] 0 where a point lies beyond the edge, to half a cell, else 1; or
- *                          NULL */
+ *  @param[out] inside      [n] 0 where a point lies beyond the edge, to half a cell; 2 where no
+ *                          cell around it has data; else 1; or NULL */
 PNPBS_API pnpbs_status pnpbs_geo_grid_values(pnpbs_geo_grid grid, int64_t n,
                                              const double *coordinates, double *values,
                                              int32_t *inside);

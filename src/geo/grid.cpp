@@ -155,16 +155,19 @@ void Grid::evaluate(const std::vector<Point<2>>& points, double* values,
     places.push_back({first[0] + cell[0], first[1] + cell[1], fraction[0], fraction[1]});
     if (inside) inside[i] = within ? 1 : 0;
   }
-  if (over_seam.empty()) return values_->interpolate(places, values);
   for (const OverSeam& at : over_seam)
     places.push_back({0, places[at.point].row, 0, places[at.point].down});
   std::vector<double> found(places.size());
-  values_->interpolate(places, found.data());
+  std::vector<std::int32_t> has_data(inside ? places.size() : 0);
+  values_->interpolate(places, found.data(), inside ? has_data.data() : nullptr);
   std::copy_n(found.begin(), points.size(), values);
   for (std::size_t k = 0; k < over_seam.size(); ++k) {
     const auto& [point, part] = over_seam[k];
     values[point] = std::lerp(values[point], found[points.size() + k], part);
+    if (inside && has_data[points.size() + k] != 0) has_data[point] = 1;
   }
+  for (std::size_t i = 0; inside && i < points.size(); ++i)
+    if (inside[i] != 0 && has_data[i] == 0) inside[i] = 2;
 }
 
 }  // namespace pnpbs::geo

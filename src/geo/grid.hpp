@@ -32,8 +32,9 @@ class Grid {
   explicit Grid(const GridRequest& request);
 
   // Constant beyond the grid's edge, and there inside[i] is 0; cells without data have the value of
-  // the nearest cell that has some. Throws Error where a point has no place in the grid's system,
-  // or the file can no longer be read. Of several threads one at a time.
+  // the nearest cell that has some, and inside[i] is 2 where all around the point are such, else 1.
+  // Throws Error where a point has no place in the grid's system, or the file can no longer be
+  // read. Of several threads one at a time.
   void evaluate(const std::vector<Point<2>>& points, double* values, std::int32_t* inside) const;
   const Box<2>& extent() const { return extent_; }  // around all of it, in the points' plane
 

@@ -43,6 +43,13 @@ double value_between(const Between& place, const CellBox& window, const Cells& c
                                cells.at(column[0], row[1]), cells.at(column[1], row[1])});
 }
 
+template <class Holds>
+bool any_around(const Between& place, const CellBox& window, const Holds& holds) {
+  const auto& [column, row] = Corners(place, window);
+  return holds(column[0], row[0]) || holds(column[1], row[0]) || holds(column[0], row[1]) ||
+         holds(column[1], row[1]);
+}
+
 // What a place, the number `place`, asks of a piece: its value, or one corner's that others are not
 // with.
 struct Wish {
@@ -121,6 +128,8 @@ RasterValues::Filled RasterValues::fill(std::int64_t tile) {
   read_part(box, [&](std::int64_t column, std::int64_t row, double value) {
     own[box.place_of(column, row)] = value;
   });
+  std::vector<bool> has_data;
+  for (const double value : own) has_data.push_back(!std::isnan(value));
   Gaps gaps(box, own);
   CellBox covered = box;
   for (std::int64_t ring = 1; covered != whole; ++ring) {
@@ -133,14 +142,15 @@ RasterValues::Filled RasterValues::fill(std::int64_t tile) {
       });
     covered = wider;
   }
-  return {box, gaps.filled()};
+  return {box, gaps.filled(), std::move(has_data)};
 }
 
 const RasterValues::Filled& RasterValues::filled(std::int64_t tile) {
   return tiles_in_memory_.get(tile, [&] { return fill(tile); });
 }
 
-void RasterValues::interpolate(const std::vector<Between>& places, double* values) {
+void RasterValues::interpolate(const std::vector<Between>& places, double* values,
+                               std::int32_t* has_data) {
   const CellBox& window = blocks_.whole();
   std::vector<Wish> wishes;
   std::vector<std::size_t> apart;  // places with corners in several blocks
@@ -170,18 +180,26 @@ void RasterValues::interpolate(const std::vector<Between>& places, double* value
   }
   for (std::size_t k = 0; k < apart.size(); ++k)
     values[apart[k]] = value_between(places[apart[k]], corners[k]);
-  interpolate_in_gaps(places, values);
+  interpolate_in_gaps(places, values, has_data);
 }
 
 // Where values are not numbers yet.
-void RasterValues::interpolate_in_gaps(const std::vector<Between>& places, double* values) {
+void RasterValues::interpolate_in_gaps(const std::vector<Between>& places, double* values,
+                                       std::int32_t* has_data) {
+  if (has_data) std::fill_n(has_data, places.size(), 1);
   std::vector<Wish> wishes;
   for (std::size_t i = 0; i < places.size(); ++i)
     if (std::isnan(values[i]))
       wishes.push_back({tiles_.number_of(places[i].column, places[i].row), i, Wish::all});
   std::sort(wishes.begin(), wishes.end());
-  for (const auto& [number, i, corner] : wishes)
-    values[i] = value_between(places[i], tiles_.whole(), filled(number));
+  for (const auto& [number, i, corner] : wishes) {
+    const Filled& tile = filled(number);
+    values[i] = value_between(places[i], tiles_.whole(), tile);
+    const auto holds = [&tile](std::int64_t column, std::int64_t row) {
+      return tile.has_data[tile.cells.place_of(column, row)];
+    };
+    if (has_data) has_data[i] = any_around(places[i], tiles_.whole(), holds) ? 1 : 0;
+  }
 }
 
 }  // namespace pnpbs::geo

@@ -33,21 +33,25 @@ class RasterValues {
 
   bool has_data();  // at all: reads until there is some
   // Linear in each direction; constant beyond the middles of the last cells. Each block is read
-  // once at most, but where cells without data ask for others.
-  void interpolate(const std::vector<Between>& places, double* values);
+  // once at most, but where cells without data ask for others. has_data[i], unless nullptr, is 0
+  // where none of the cells around a place has data, else 1.
+  void interpolate(const std::vector<Between>& places, double* values,
+                   std::int32_t* has_data = nullptr);
 
  private:
   struct Filled {
     CellBox cells;
     std::vector<double> values;
-    std::size_t bytes() const { return values.size() * sizeof(double); }
+    std::vector<bool> has_data;
+    std::size_t bytes() const { return values.size() * sizeof(double) + has_data.size() / 8; }
     double at(std::int64_t column, std::int64_t row) const {
       return values[cells.place_of(column, row)];
     }
   };
   enum class Data : char { unknown, none, some };
 
-  void interpolate_in_gaps(const std::vector<Between>& places, double* values);
+  void interpolate_in_gaps(const std::vector<Between>& places, double* values,
+                           std::int32_t* has_data);
   const RasterBlock& block(std::int64_t number);
   const Filled& filled(std::int64_t tile);
   Filled fill(std::int64_t tile);

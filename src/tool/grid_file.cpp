@@ -180,11 +180,12 @@ void fill_gaps(Grid& grid, double no_data, const Words& words) {
   std::deque<std::int64_t> front;
   std::vector<bool> known(grid.values.size());
   for (std::size_t i = 0; i < known.size(); ++i) {
-    known[i] = grid.values[i] != no_data;
+    known[i] = grid.values[i] != no_data && std::isfinite(grid.values[i]);
     if (known[i]) front.push_back(static_cast<std::int64_t>(i));
   }
   if (front.empty()) words.fail("data", "no cell that has any");
   if (front.size() == known.size()) return;
+  grid.has_data = known;
   for (; !front.empty(); front.pop_front()) {
     const std::int64_t layer_size = grid.size[0] * grid.size[1];
     const std::int64_t column = front[0] % grid.size[0];
@@ -205,6 +206,21 @@ void fill_gaps(Grid& grid, double no_data, const Words& words) {
   }
 }
 
+// The grid points around a place, and its part of the way from one to the next.
+struct Around {
+  std::array<std::int64_t, 3> cell{}, next{};
+  std::array<double, 3> fraction{};
+  Around(const Grid& grid, const double* place, int dimension) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+      const double last = static_cast<double>(grid.size[k] - 1);
+      const double at = std::clamp((place[k] - grid.origin[k]) / grid.step[k], 0.0, last);
+      cell[k] = static_cast<std::int64_t>(at);
+      next[k] = std::min(cell[k] + 1, grid.size[k] - 1);
+      fraction[k] = at - static_cast<double>(cell[k]);
+    }
+  }
+};
+
 }  // namespace
 
 Grid read_grid(const std::string& path, int dimension) {
@@ -224,24 +240,28 @@ Grid read_grid(const std::string& path, int dimension) {
 }
 
 double value_at(const Grid& grid, const double* place, int dimension) {
-  std::int64_t cell[3] = {0, 0, 0}, next[3] = {0, 0, 0};
-  double fraction[3] = {0, 0, 0};
-  for (int k = 0; k < dimension; ++k) {
-    const double last = static_cast<double>(grid.size[k] - 1);
-    const double at = std::clamp((place[k] - grid.origin[k]) / grid.step[k], 0.0, last);
-    cell[k] = static_cast<std::int64_t>(at);
-    next[k] = std::min(cell[k] + 1, grid.size[k] - 1);
-    fraction[k] = at - static_cast<double>(cell[k]);
-  }
+  const Around at(grid, place, dimension);
   const auto in_row = [&](std::int64_t j, std::int64_t layer) {
     const double* row = grid.values.data() + grid.size[0] * (j + grid.size[1] * layer);
-    return std::lerp(row[cell[0]], row[next[0]], fraction[0]);
+    return std::lerp(row[at.cell[0]], row[at.next[0]], at.fraction[0]);
   };
   const auto in_layer = [&](std::int64_t layer) {
-    return std::lerp(in_row(cell[1], layer), in_row(next[1], layer), fraction[1]);
+    return std::lerp(in_row(at.cell[1], layer), in_row(at.next[1], layer), at.fraction[1]);
   };
-  const double low = in_layer(cell[2]);
-  return fraction[2] == 0 ? low : std::lerp(low, in_layer(next[2]), fraction[2]);
+  const double low = in_layer(at.cell[2]);
+  return at.fraction[2] == 0 ? low : std::lerp(low, in_layer(at.next[2]), at.fraction[2]);
+}
+
+bool has_data_around(const Grid& grid, const double* place, int dimension) {
+  if (grid.has_data.empty()) return true;
+  const Around around(grid, place, dimension);
+  for (const std::int64_t layer : {around.cell[2], around.next[2]})
+    for (const std::int64_t row : {around.cell[1], around.next[1]})
+      for (const std::int64_t column : {around.cell[0], around.next[0]})
+        if (grid.has_data[static_cast<std::size_t>(column +
+                                                   grid.size[0] * (row + grid.size[1] * layer))])
+          return true;
+  return false;
 }
 
 }  // namespace pnpbs::tool

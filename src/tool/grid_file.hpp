@@ -20,6 +20,7 @@ struct Grid {
   double origin[3] = {0, 0, 0};      // the lowest south-western one
   double step[3] = {1, 1, 1};        // of columns, rows and layers
   std::vector<double> values;        // x fastest, from the south, from below
+  std::vector<bool> has_data;        // of each value: is it in the file? Empty if all are
 };
 
 // Throws BadInput with file, line and what was expected. Cells without data take the value of
@@ -30,5 +31,7 @@ Grid read_grid(const std::string& path, int dimension);
 // Between the grid's points: linear in each direction, constant beyond the border, as
 // pnpbs_placement_set_spacing_grid has it. Of two dimensions: in the lowest layer.
 double value_at(const Grid& grid, const double* place, int dimension);
+// Is any value that it is made of in the file?
+bool has_data_around(const Grid& grid, const double* place, int dimension);
 
 }  // namespace pnpbs::tool

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <functional>
 #include <iostream>
 #include <optional>
 
@@ -119,9 +120,10 @@ std::int64_t statistic(pnpbs_placement placement, const char* key, pnpbs_context
   return value;
 }
 
-// Initialises, or goes on from a checkpoint; warns; runs, unless that was done already; checks.
+// Initialises, or goes on from a checkpoint; looks at what d is made of there; warns; runs, unless
+// that was done already; checks.
 pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Arguments& arguments,
-                   const std::optional<Density>& density, const Ranks& ranks) {
+                   const std::function<void()>& check_wishes, const Ranks& ranks) {
   const bool talk = ranks.is_first() && !arguments.quiet;
   Progress progress(talk, arguments.progress);
   Checkpoints checkpoints(arguments.checkpoint, arguments.checkpoint_interval, placement, context,
@@ -135,7 +137,7 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   else
     check(pnpbs_placement_read_checkpoint(placement, arguments.restart.c_str()), context);
   progress.clear();
-  if (density) density->check_at_nodes_of(placement, context, ranks);
+  check_wishes();
   const std::vector<std::string> warnings = warnings_for(arguments, context, placement);
   if (talk) warn(warnings);
   pnpbs_status status = PNPBS_OK;
@@ -255,6 +257,15 @@ void create(Work& work, Placement& placement) {
   work.wishes.spacing->give_to(placement, work.domain, work.context, work.ranks);
 }
 
+pnpbs_status place(Work& work, pnpbs_placement placement) {
+  const Wishes& wishes = work.wishes;
+  const auto check_wishes = [&] {
+    if (wishes.density) wishes.density->check_at_nodes_of(placement, work.context, work.ranks);
+    wishes.spacing->require_values_of_grids(placement, work.domain, work.context, work.ranks);
+  };
+  return place(work.context, placement, work.arguments, check_wishes, work.ranks);
+}
+
 // Where the elements of a body do not conform in the end, the body is repaired to what d can
 // resolve, if the user wants that. Is there anything to place anew?
 bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) {
@@ -315,11 +326,11 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
     return ExitCode::done;
   }
   work.wishes.outputs->check_with_library(given, work.context);
-  pnpbs_status status = place(work.context, given, arguments, work.wishes.density, ranks);
+  pnpbs_status status = place(work, given);
   if (!repair_if_torn(work, status, given)) return write_results(work, given, status);
   check(pnpbs_placement_destroy(given.out()), work.context);
   create(work, repaired);
-  status = place(work.context, repaired, arguments, work.wishes.density, ranks);
+  status = place(work, repaired);
   return write_results(work, repaired, status);
 }
 

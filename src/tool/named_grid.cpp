@@ -145,11 +145,11 @@ void NamedGrid::evaluate_text(std::int64_t n, const double* coordinates, double*
     const double* place = coordinates + dimension_ * i;
     values[i] = value_at(*text_, place, dimension_);
     if (!inside) continue;
-    inside[i] = 1;
+    inside[i] = has_data_around(*text_, place, dimension_) ? within : without_data;
     for (int k = 0; k < dimension_; ++k)
       if (place[k] < box.low[k] - 0.5 * text_->step[k] ||
           place[k] > box.high[k] + 0.5 * text_->step[k])
-        inside[i] = 0;
+        inside[i] = beyond_edge;
   }
 }
 

@@ -31,7 +31,9 @@ class NamedGrid {
   // Before its values are asked for: reads what GDAL reads, where the domain is. The projection of
   // the domain is "" if that is not known. Throws Failure, also if the grid lies beside the domain.
   void open(const std::string& projection, const Box<3>& domain);
-  // inside[i] is 0 where a point lies beyond the grid's edge, to half a cell; or nullptr.
+  // What inside[i] says of a point, unless it is nullptr, as pnpbs_geo_grid_values has it: it lies
+  // more than half a cell beyond the grid's edge, or where no cell around it has data, or neither.
+  static constexpr std::int32_t beyond_edge = 0, within = 1, without_data = 2;
   void evaluate(std::int64_t n, const double* coordinates, double* values,
                 std::int32_t* inside) const;
   Box<3> extent() const;

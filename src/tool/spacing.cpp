@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/spacing.hpp"
 
-#include <algorithm>
-#include <array>
-#include <limits>
-
-#include "base/places_in_text.hpp"
-#include "base/point_text.hpp"
 #include "spacing/beside_domain.hpp"
-#include "sphere/degrees.hpp"
+#include "tool/grid_coverage.hpp"
 #include "tool/grid_slope.hpp"
 
 namespace pnpbs::tool {
@@ -16,8 +10,6 @@ namespace {
 
 // What --spacing auto asks for.
 constexpr double nodes_per_turn = 20, nodes_across = 3, nodes_per_edge = 1, growth = 0.15;
-
-constexpr double no_place = std::numeric_limits<double>::infinity();
 
 constexpr Box<3> all_degrees{{-180, -90, 0}, {180, 90, 0}};
 
@@ -34,17 +26,16 @@ Box<3> bounds_of(pnpbs_domain domain, pnpbs_context context) {
   return box;
 }
 
-// "from (0, 0) to (1, 1), the domain from (0, 0) to (2, 2)"
+// "from (0, 0) to (1, 1)"
 template <int Dim>
-std::string extents_in(const Box<3>& grid, const Box<3>& domain) {
+std::string extent_in(const Box<3>& box, const Box<3>& within) {
   Box<Dim> boxes[2];
-  for (int k = 0; k < Dim; ++k)
+  for (std::size_t k = 0; k < Dim; ++k)
     for (const int which : {0, 1}) {
-      boxes[which].low[k] = (which == 0 ? grid : domain).low[k];
-      boxes[which].high[k] = (which == 0 ? grid : domain).high[k];
+      boxes[which].low[k] = (which == 0 ? box : within).low[k];
+      boxes[which].high[k] = (which == 0 ? box : within).high[k];
     }
-  return extent_text<Dim>(boxes[0], boxes[1]) + ", the domain " +
-         extent_text<Dim>(boxes[1], boxes[1]);
+  return extent_text<Dim>(boxes[0], boxes[1]);
 }
 
 }  // namespace
@@ -210,55 +201,40 @@ pnpbs_status Spacing::set_grid(pnpbs_placement placement) const {
                                           grid()->values.data());
 }
 
-std::string Spacing::place_text(const Point<3>& x) const {
-  if (sphere_) return "(" + degrees_text(degrees_of(x)) + ")";
-  return dimension_ == 2 ? point_text(Point<2>{x[0], x[1]}) : point_text(x);
+void Spacing::require_values_of_grids(pnpbs_placement placement, pnpbs_domain domain,
+                                      pnpbs_context context, const Ranks& ranks) const {
+  if (!expression_) return;
+  for (const auto& each : grids_) {
+    const GridCoverage coverage(*each, placement, dimension_, sphere_, context, ranks);
+    ranks.agreed([&] {
+      if (coverage.is_nowhere())
+        throw BadInput(coverage.words_for_nowhere() + ". " +
+                       extents_in_words(*each, domain, context));
+    });
+  }
+}
+
+// Where it has data is another matter. On a sphere the box around the domain tells nothing.
+std::string Spacing::extents_in_words(const NamedGrid& grid, pnpbs_domain domain,
+                                      pnpbs_context context) const {
+  const Box<3> box = grid.extent();
+  const std::string words = "The grid reaches ";
+  if (sphere_) return words + extent_in<2>(box, all_degrees);
+  const Box<3> bounds = bounds_of(domain, context);
+  const auto extent = dimension_ == 2 ? extent_in<2> : extent_in<3>;
+  return words + extent(box, bounds) + ", the domain " + extent(bounds, bounds);
 }
 
 std::vector<std::string> Spacing::warnings(pnpbs_placement placement, pnpbs_domain domain,
                                            pnpbs_context context, const Ranks& ranks) const {
   std::vector<std::string> warnings;
-  if (!expression_ || grids_.empty()) return warnings;
-  std::int64_t own = 0;
-  std::vector<double> coordinates, values;
-  std::vector<std::int32_t> inside;
-  ranks.agreed([&] {
-    check(pnpbs_placement_count(placement, &own), context);
-    coordinates.resize(static_cast<std::size_t>(dimension_ * own));
-    values.resize(static_cast<std::size_t>(own));
-    inside.resize(values.size());
-    check(pnpbs_placement_get_nodes(placement, own, coordinates.data(), nullptr, nullptr, nullptr),
-          context);
-  });
+  if (!expression_) return warnings;
   for (const auto& each : grids_) {
-    ranks.agreed([&] { each->evaluate(own, coordinates.data(), values.data(), inside.data()); });
-    // How many nodes there are, how many beyond the edge, and the first place of these.
-    std::array<double, 5> found{static_cast<double>(own), 0, no_place, no_place, no_place};
-    for (std::int64_t i = 0; i < own; ++i) {
-      if (inside[static_cast<std::size_t>(i)] != 0) continue;
-      Point<3> place{};
-      std::copy_n(coordinates.data() + dimension_ * i, dimension_, place.begin());
-      ++found[1];
-      if (place < Point<3>{found[2], found[3], found[4]})
-        std::copy_n(place.begin(), 3, found.begin() + 2);
-    }
-    Point<3> first{no_place, no_place, no_place};
-    double nodes = 0, outside = 0;
-    for (const auto& its : ranks.gather(std::vector<std::array<double, 5>>{found})) {
-      nodes += its[0], outside += its[1];
-      first = std::min(first, Point<3>{its[2], its[3], its[4]});
-    }
-    if (outside > 0)
-      warnings.push_back("the grid '" + each->name() + "' (" + each->path() +
-                         ") covers only a part of the domain: of " +
-                         std::to_string(static_cast<std::int64_t>(nodes)) + " nodes, " +
-                         std::to_string(static_cast<std::int64_t>(outside)) +
-                         " lie beyond its edge, one of them at " + place_text(first) +
-                         "; there its values are those at the edge. The grid reaches " +
-                         (dimension_ == 2 || sphere_
-                              ? extents_in<2>
-                              : extents_in<3>)(each->extent(),
-                                               sphere_ ? all_degrees : bounds_of(domain, context)));
+    const GridCoverage coverage(*each, placement, dimension_, sphere_, context, ranks);
+    if (const std::string words = coverage.words_for_beyond(); !words.empty())
+      warnings.push_back(words + ". " + extents_in_words(*each, domain, context));
+    if (const std::string words = coverage.words_for_without_data(); !words.empty())
+      warnings.push_back(words);
   }
   return warnings;
 }

@@ -41,7 +41,13 @@ class Spacing {
   void give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                const Ranks& ranks);
 
-  // Of grids in a formula that do not reach all nodes; on the first rank. Collective.
+  // Once there are nodes: each grid in a formula has a value at some of them. Collective. Throws
+  // Failure.
+  void require_values_of_grids(pnpbs_placement placement, pnpbs_domain domain,
+                               pnpbs_context context, const Ranks& ranks) const;
+
+  // Of grids in a formula that do not reach all nodes, or have no data there; on the first rank.
+  // Collective.
   std::vector<std::string> warnings(pnpbs_placement placement, pnpbs_domain domain,
                                     pnpbs_context context, const Ranks& ranks) const;
 
@@ -61,7 +67,8 @@ class Spacing {
 
   std::vector<Expression::Field> fields_for(const std::string& formula, const Arguments& arguments);
   Expression::Field field_by_depth(const NamedGrid* grid);
-  std::string place_text(const Point<3>& x) const;  // for people: degrees on a sphere
+  std::string extents_in_words(const NamedGrid& grid, pnpbs_domain domain,
+                               pnpbs_context context) const;
 
   int dimension_;
   bool sphere_;

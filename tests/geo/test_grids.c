@@ -148,6 +148,7 @@ END_TEST
 
 START_TEST(bands_and_gaps) {
   pnpbs_geo_grid grid = NULL;
+  int32_t inside = -1;
   const char* const path = write_grid("bands.tif", 2, 1, 8);
   GEO_MUST_FAIL(PNPBS_ERROR_FILE,
                 pnpbs_geo_grid_read(path, NULL, NULL, everywhere_low, everywhere_high, &grid),
@@ -157,8 +158,15 @@ START_TEST(bands_and_gaps) {
                 "no band '3'", "1, 2");
   GEO_MUST(pnpbs_geo_grid_read(path, "2", NULL, everywhere_low, everywhere_high, &grid));
   ck_assert_double_eq_tol(value_of(grid, 19.03, 55.5, NULL), 2 * plane_at(19.03, 55.5), 1e-4);
-  /* The last row with data is the eighth. */
-  ck_assert_double_eq_tol(value_of(grid, 19.03, 54.6, NULL), 2 * plane_at(19.03, 55.25), 1e-4);
+  /* The last row with data is the eighth, with its middle at 55.25. */
+  ck_assert_double_eq_tol(value_of(grid, 19.03, 54.6, &inside), 2 * plane_at(19.03, 55.25), 1e-4);
+  ck_assert_int_eq(inside, 2);
+  value_of(grid, 19.03, 55.17, &inside); /* between that one and the next */
+  ck_assert_int_eq(inside, 1);
+  value_of(grid, 19.03, 55.5, &inside);
+  ck_assert_int_eq(inside, 1);
+  value_of(grid, 21, 54.6, &inside);
+  ck_assert_int_eq(inside, 0);
   GEO_MUST(pnpbs_geo_grid_destroy(&grid));
 }
 END_TEST

@@ -54,6 +54,15 @@ double expected_at(const Whole& whole, const Between& place) {
       std::lerp(whole.at(place.column, row), whole.at(column, row), place.right), place.down);
 }
 
+bool any_data_around(const Whole& whole, const CellBox& window, const Between& place) {
+  const std::int64_t column = std::min(place.column + 1, window.column_end() - 1),
+                     row = std::min(place.row + 1, window.row_end() - 1);
+  for (const std::int64_t i : {place.column, column})
+    for (const std::int64_t j : {place.row, row})
+      if (!std::isnan(whole.at(i, j))) return true;
+  return false;
+}
+
 struct Case {
   CellBox window;
   std::int64_t columns, rows;  // of blocks
@@ -117,9 +126,11 @@ void expect_the_same(Raster& raster, const Case& it, int count = 3000) {
   ck_assert(values.has_data());
   const std::vector<Between> places = some_places(it.window, count);
   std::vector<double> found(places.size());
-  values.interpolate(places, found.data());
+  std::vector<std::int32_t> has_data(places.size());
+  values.interpolate(places, found.data(), has_data.data());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double expected = expected_at(window, places[i]);
+    ck_assert_int_eq(has_data[i], any_data_around(raster.whole, it.window, places[i]) ? 1 : 0);
     ck_assert_msg(std::memcmp(&found[i], &expected, sizeof expected) == 0,
                   "%.17g is not %.17g, between columns from %lld and rows from %lld", found[i],
                   expected, static_cast<long long>(places[i].column),

@@ -238,6 +238,45 @@ class Sphere(CommandTest):
             here = (np.abs(lon) > 20) & (np.abs(lon) < 160) & ((lon < 0) == west) & (row > 0)
             np.testing.assert_allclose(table["spacing"][here], 300 + 2 * row[here] + extra, rtol=0.01)
 
+    def grid_of_degrees(self, name, value):
+        """Cells of 5 degrees of all the Earth; what the function of longitude and latitude has as nan is not there."""
+        lon, lat = np.meshgrid(np.arange(-177.5, 180, 5), np.arange(87.5, -90, -5))
+        values = value(lon, lat)
+        rows = "\n".join(" ".join("-1" if np.isnan(v) else repr(float(v)) for v in row) for row in values)
+        (self.folder / name).write_text("ncols 72\nnrows 36\nxllcorner -180\nyllcorner -90\ncellsize 5\n"
+                                        f"nodata_value -1\n{rows}\n")
+
+    def test_grids_with_gaps(self):
+        """A warning counts nodes in the middle of a gap, and none beside land without data."""
+        self.grid_of_degrees("gap.asc", lambda lon, lat: np.where(abs(lon + 150) + abs(lat) < 20, np.nan, 300))
+        _, table, report, err = self.placed("--spacing-grid", "gap.asc", spacing="grid")
+        found = re.search(r"the grid 'grid' \(gap.asc\) has gaps in the domain: of (\d+) nodes, (\d+) lie where it has "
+                          r"no data, one of them at \(longitude (.*), latitude (.*)\); there its", err)
+        nodes, without, lon, lat = map(float, found.groups())
+        self.assertEqual(nodes, report["nodes"])
+        self.assertIn(found[0], report["warnings"][-1])
+        self.assertLess(abs(lon + 150) + abs(lat), 20)
+        # A node counts if none of the four cells has data whose middles it is between.
+        its_lon = np.degrees(np.arctan2(table["y"], table["x"]))
+        its_lat = np.degrees(np.arcsin(table["z"] / RADIUS))
+        west, south = np.floor((its_lon - 2.5) / 5) * 5 + 2.5, np.floor((its_lat - 2.5) / 5) * 5 + 2.5
+        gap = [abs(west + i + 150) + abs(south + j) < 20 for i in (0, 5) for j in (0, 5)]
+        self.assertEqual(without, np.sum(np.all(gap, axis=0)))
+        self.grid_of_degrees("land.asc", lambda lon, lat: np.where((abs(lon) < 18) & (abs(lat) < 8), np.nan, 300))
+        self.assertNotIn("gaps", self.placed("--spacing-grid", "land.asc", spacing="grid")[3])
+
+    def test_grids_without_a_value_in_the_domain(self):
+        coast = self.sea(CONTINENT)
+        ask = ("--domain", coast, "--sphere", f"{RADIUS},180,0", "--spacing", "min(grid, 300)", "--spacing-grid")
+        self.grid_of_degrees("far.asc", lambda lon, lat: np.where(abs(lon) > 120, 300, np.nan))
+        self.assertIn("the grid 'grid' (far.asc) has no value anywhere in the domain: of ",
+                      self.refuse(*ask, "far.asc", "-o", "n.csv"))
+        (self.folder / "beside.asc").write_text("ncols 2\nnrows 2\nxllcorner 100\nyllcorner 0\ncellsize 5\n"
+                                                "300 300\n300 300\n")
+        message = self.refuse(*ask, "beside.asc", "-o", "n.csv")
+        self.assertRegex(message, r"of (\d+) nodes, \1 lie beyond its edge, one of them at \(longitude .*, latitude "
+                                  r".*\)\. The grid reaches from \(100, 0\) to \(110, 10\)\n")
+
     def test_the_land_is_what_is_seen_from_the_sea(self):
         coast = self.sea(CONTINENT)
         x, _, report, _ = self.placed(sphere=f"{RADIUS},180,0", coast=coast, spacing="150")
