@@ -71,6 +71,13 @@ std::string Shapes::words_for(const Point<2>& given, std::int64_t feature) const
   return layer_.name + ": feature " + std::to_string(feature) + ": " + point_text(given);
 }
 
+// A curve may begin where a line along the shore ends, which is no place of the file.
+std::string Shapes::words_for(const Curve& curve) const {
+  const auto place = static_cast<std::size_t>(curve.places.front());
+  if (place >= feature_of_place_.size()) return layer_.name + ": ";
+  return layer_.name + ": feature " + std::to_string(feature_of_place_[place]) + ": ";
+}
+
 void Shapes::project() {
   Places given;
   std::vector<Route> routes;
@@ -103,7 +110,11 @@ void Shapes::project() {
                                      projection_.system().name() + "': " + fault->reason);
   Places places;
   std::vector<std::int64_t> place_of;
-  for (const Point<2>& point : projected) place_of.push_back(places.add(point));
+  for (std::size_t k = 0; k < projected.size(); ++k) {
+    place_of.push_back(places.add(projected[k]));
+    const bool is_new = place_of.back() == std::ssize(feature_of_place_);
+    if (is_new) feature_of_place_.push_back(features[k]);
+  }
   for (Route& route : routes)
     for (std::int64_t& place : route.places) place = place_of[place];
   for (std::size_t s = 0; s < spots.size(); ++s) layer_.spots[s].point = projected[spots[s]];
@@ -184,10 +195,10 @@ void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corne
     points.clear();
     for (const std::int64_t place : curve.places) points.push_back(places_[place]);
     const std::vector<double> coordinates = coordinates_of(points);
-    check(pnpbs_domain_add_polyline(domain, curve.bounds ? PNPBS_BOUNDARY : PNPBS_INNER,
-                                    curve.closed, std::ssize(points), coordinates.data(),
-                                    curve.tags.data(), corner_angle),
-          context);
+    const pnpbs_status status = pnpbs_domain_add_polyline(
+        domain, curve.bounds ? PNPBS_BOUNDARY : PNPBS_INNER, curve.closed, std::ssize(points),
+        coordinates.data(), curve.tags.data(), corner_angle);
+    if (status < 0) throw Error(kind_of(status), words_for(curve) + pnpbs_last_error(context));
   }
 }
 

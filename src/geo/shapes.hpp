@@ -43,11 +43,13 @@ class Shapes {
   void add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
   std::vector<double> coordinates_of(std::vector<Point<2>> points) const;
   std::string words_for(const Point<2>& given, std::int64_t feature) const;
+  std::string words_for(const Curve& curve) const;
 
   LayerShapes layer_;  // its paths are empty once they are outlines
   Projection projection_;
   Projection::Scale scale_;
   std::vector<Point<2>> places_;
+  std::vector<std::int64_t> feature_of_place_;  // in which it was first; of those in the file
   Outlines outlines_;
   std::int64_t lines_along_shore_ = 0;
 };

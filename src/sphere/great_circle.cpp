@@ -46,6 +46,13 @@ double angle_between(const Point<3>& a, const Point<3>& b) {
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
+double angle_to_way(const Point<3>& x, const Point<3>& a, const Point<3>& b) {
+  const Point<3> normal = cross(a, b);
+  const bool is_beside = dot(cross(normal, a), x) > 0 && dot(cross(b, normal), x) > 0;
+  if (!is_beside) return std::min(angle_between(x, a), angle_between(x, b));
+  return std::fabs(std::asin(std::clamp(dot(unit_vector(normal), unit_vector(x)), -1.0, 1.0)));
+}
+
 std::vector<Point<2>> points_on_the_way(const StereographicChart& chart, const Point<3>& a,
                                         const Point<3>& b) {
   std::vector<Point<2>> points;

@@ -688,6 +688,7 @@ START_TEST(bad_input) {
   job it = sea_job();
   pnpbs_domain domain;
   double x[9] = {0, 0, -1, 1, 0, 0, 0, 1, 0};
+  double over_pole[12] = {1, 0, -1, -1, 0, -1, 0, 1, 0, 0, 0, -1};
   const double zero[3] = {0, 0, 0}, north[3] = {0, 0, 1};
   double degrees[2] = {0, 91};
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_create_sphere(it.context, 0, north, &domain),
@@ -705,10 +706,18 @@ START_TEST(bad_input) {
   MUST_FAIL(PNPBS_ERROR_ARGUMENT,
             pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 3, x, NULL, 0), "vertex 0",
             "outside of the domain");
+  /* Over the pole that it is seen from; and past it. */
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 3, over_pole, NULL, 0),
+            "vertex 0 (1, 0, -1) [longitude 0, latitude -45]", "lies on the curve");
+  over_pole[1] = over_pole[4] = 1e-6;
+  MUST(pnpbs_domain_create_sphere(it.context, 1, over_pole + 9, &domain));
+  MUST(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 3, over_pole, NULL, 0));
+  MUST(pnpbs_domain_destroy(&domain));
   x[0] = -1, x[2] = 0;
   MUST_FAIL(PNPBS_ERROR_ARGUMENT,
             pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 0, 2, x, NULL, 0), "opposite",
-            "vertices 0 and 1");
+            "vertices 0 (-1, 0, 0) [longitude 180, latitude 0] and 1 (1, 0, 0)");
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, zero, 1, 0, 1, 1),
             "sphere", "plane");
   /* Places in messages are longitude and latitude. */

@@ -328,6 +328,11 @@ class Sphere(CommandTest):
                                  (("--sphere", "1", "--surfaces-only"), "--surfaces-only exclude")):
             self.assertIn(words, self.refuse("--domain", coast, "--spacing", "1", *arguments))
         self.assertIn("--sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--sphere", "1"))
+        # Of 10 degrees along the equator the 6th is seen from.
+        on_equator = self.sea(feature([[0, 0], [10, 0], [10, 5], [0, 5]]))
+        message = self.refuse("--domain", on_equator, "--sphere", f"{RADIUS},6,0", "--spacing", "300")
+        self.assertIn("feature 0: vertex ", message)
+        self.assertIn("named as outside of the domain lies on the curve", message)
         # A coast that crosses itself is named by its place.
         crossed = self.sea(feature([[0, 0], [40, 0], [0, 30], [40, 30]]))
         message = self.refuse("--domain", crossed, "--sphere", str(RADIUS), "--spacing", "300")

@@ -11,12 +11,14 @@
 
 #include "base/domain_error.hpp"
 #include "base/limits.hpp"
+#include "base/places_in_text.hpp"
 #include "base/point_text.hpp"
 #include "domain/given_values.hpp"
 #include "domain/plane/domain_resolver.hpp"
 #include "domain/plane/sampling.hpp"
 #include "domain/plane/simplify.hpp"
 #include "domain/plane/smooth_graph.hpp"
+#include "sphere/degrees.hpp"
 #include "sphere/great_circle.hpp"
 
 namespace pnpbs {
@@ -38,13 +40,17 @@ void require_not_negative(const char* argument, double value) {
   if (value < 0) reject(std::string(argument) + " is " + number_text(value) + ", less than 0");
 }
 
-constexpr double kNearlyOpposite = 3.14159;  // radians
+// Radians; of places on a sphere.
+constexpr double kNearlyOpposite = 3.14159, kSame = 1e-7;
+
+std::string vertex_text(std::int64_t number, const Point<3>& x) {
+  return std::to_string(number) + " " + point_text(x) + " [" + degrees_text(degrees_of(x)) + "]";
+}
 
 // Of curves on a sphere, the vertices that are not at the same place as the one before; ends stay.
 // Coasts have many that are there but for rounding, and in the chart these could not be told from
 // each other.
 std::vector<std::int64_t> apart(const std::vector<Point<3>>& vertices, bool closed) {
-  constexpr double kSame = 1e-7;  // radians
   const auto same = [&](std::int64_t a, std::int64_t b) {
     return angle_between(vertices[static_cast<std::size_t>(a)],
                          vertices[static_cast<std::size_t>(b)]) < kSame;
@@ -147,10 +153,6 @@ void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vert
                           std::int64_t next_v) const {
   const auto place = [&](std::int64_t i) { return vertices[static_cast<std::size_t>(i)]; };
   const auto add = [&](const Point<2>& u, bool on_the_way) {
-    if (!is_usable(u))
-      reject("vertex " + std::to_string(v) + " " + point_text(place(v)) +
-             (on_the_way ? ", the way from it to the next" : std::string()) +
-             ": the point that is named as outside of the domain lies on the curve");
     source.points.push_back(u);
     source.on_the_way.push_back(on_the_way);
     source.point_numbers.push_back(v);
@@ -159,12 +161,16 @@ void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vert
     source.tags.push_back(tags[static_cast<std::size_t>(v)]);
     source.segment_numbers.push_back(v);
   };
+  const Point<3> next = place(next_v < 0 ? v : next_v);
+  if (angle_between(place(v), next) > kNearlyOpposite)
+    reject("vertices " + vertex_text(v, place(v)) + " and " + vertex_text(next_v, next) +
+           " are opposite points of the sphere: no way between them is the shortest");
+  if (angle_to_way(chart_->projected_from(), place(v), next) < kSame)
+    reject("vertex " + vertex_text(v, place(v)) +
+           ", or the way from it to the next: the point that is named as outside of the domain "
+           "lies on the curve");
   add(chart_->in_chart(place(v)), false);
   if (next_v < 0) return;
-  const Point<3> next = place(next_v);
-  if (angle_between(place(v), next) > kNearlyOpposite)
-    reject("vertices " + std::to_string(v) + " and " + std::to_string(next_v) +
-           " are opposite points of the sphere: no way between them is the shortest");
   add_segment();
   for (const Point<2>& u : points_on_the_way(*chart_, place(v), next)) {
     add(u, true);
