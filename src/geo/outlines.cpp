@@ -165,6 +165,25 @@ std::int64_t Places::add(const Point<2>& point) {
   return found->second;
 }
 
+// Outlines have their polygon on the left: around the point that the sphere is seen from, which is
+// the infinite one of its projection, they turn right.
+void Outlines::leave_out_shared_edges_outside(const std::vector<Point<2>>& points) {
+  double twice_area = 0;
+  for (const Curve& curve : curves) {
+    if (!curve.bounds || curve.of_line) continue;
+    for (std::size_t k = 0; k < segments_of(curve); ++k) {
+      const Point<2>&a = points[curve.places[k]], &b = points[end_of(curve, k)];
+      twice_area += a[0] * b[1] - a[1] * b[0];
+    }
+  }
+  if (twice_area >= 0) return;
+  std::erase_if(curves, [this](const Curve& curve) {
+    if (curve.bounds || curve.of_line) return false;
+    outer_edges += static_cast<std::int64_t>(segments_of(curve));
+    return true;
+  });
+}
+
 Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
                      const WordsFor& where, double radius) {
   for (Route& route : routes) straighten(route, points, radius);

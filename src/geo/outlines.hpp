@@ -45,12 +45,25 @@ struct Curve {
   bool of_line = false;
 };
 
+inline std::size_t segments_of(const Curve& curve) {
+  return curve.closed ? curve.places.size() : curve.places.size() - 1;
+}
+
+inline std::int64_t end_of(const Curve& curve, std::size_t segment) {
+  return curve.places[(segment + 1) % curve.places.size()];
+}
+
 struct Outlines {
   std::vector<Curve> curves;
   std::int64_t shared_edges = 0;    // of neighbours
   std::int64_t dropped_edges = 0;   // there and back in one feature, or twice the same line
   std::int64_t retagged_edges = 0;  // of outlines, that a line has, too: its tag counts
   std::int64_t lost_tags = 0;       // of lines that have an edge in common with others
+  std::int64_t outer_edges = 0;     // of neighbours, where the domain is what no polygon covers
+
+  // On a sphere that is seen from a point in one of the polygons, edges that two of them share are
+  // outside of the domain.
+  void leave_out_shared_edges_outside(const std::vector<Point<2>>& points);
 };
 
 // Outlines enclose areas that do not overlap. Closed lines outside of all of them bound the domain,

@@ -125,6 +125,7 @@ void Shapes::project() {
   scale_ = projection_.scale_at(places_);
   const auto where = [&](std::int64_t place) { return with_degrees(point_text(places_[place])); };
   outlines_ = outlines_of(std::move(routes), places_, where, projection_.sphere_radius());
+  if (on_sphere()) outlines_.leave_out_shared_edges_outside(places_);
   lines_along_shore_ = retag_shores(outlines_.curves, places_, along_shore * extent);
 }
 
@@ -151,6 +152,12 @@ void Shapes::take_notes() {
     notes.push_back(std::to_string(lines_along_shore_) +
                     " lines run along the boundary, to 0.001 of the extent: these parts of the "
                     "boundary have their tags, and the lines are no curves of their own");
+  if (outlines_.outer_edges > 0)
+    notes.push_back(std::to_string(outlines_.outer_edges) +
+                    " segments that neighbouring polygons share were left out: the domain is "
+                    "outside of the polygons");
+  if (on_sphere() && boundary_curves() == 0)
+    notes.emplace_back("no polygon and no closed line bounds the domain: it is the whole sphere");
   if (outlines_.lost_tags > 0)
     notes.push_back("lines left out: " + std::to_string(outlines_.lost_tags) +
                     " segments that another line has with another tag");

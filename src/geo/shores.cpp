@@ -10,14 +10,6 @@ namespace {
 
 using Place = std::int64_t;
 
-std::size_t segments_of(const Curve& curve) {
-  return curve.closed ? curve.places.size() : curve.places.size() - 1;
-}
-
-Place end_of(const Curve& curve, std::size_t segment) {
-  return curve.places[(segment + 1) % curve.places.size()];
-}
-
 struct Foot {
   double t, distance;  // where on the segment, 0 .. 1
 };

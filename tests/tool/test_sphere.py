@@ -299,6 +299,26 @@ class Sphere(CommandTest):
                               "--spacing", spacing, "--report", "ranks.json", ranks=ranks)
             self.assertEqual(json.loads((self.folder / "ranks.json").read_text())["hash"], one)
 
+    def test_borders_of_neighbours(self):
+        """Outside of the domain they are no part of a coast that is missing, as where a continent is cut in two."""
+        east, west = feature([[168, 8], [180, 8], [180, 22], [170, 25]]), feature([[-180, 8], [-172, 12], [-180, 22]])
+        whole = self.placed()[2]
+        cut = self.sea(ANTARCTICA, east, west, CONTINENT)
+        _, _, report, err = self.placed(coast=cut)
+        self.assertLess(abs(report["nodes"] / whole["nodes"] - 1), 0.01)
+        self.assertIn("1 segments that neighbouring polygons share were left out", err)
+        # In the domain nodes follow them.
+        x, table, _, err = self.placed(coast=self.sea(east, west), sphere=f"{RADIUS},0,0", spacing="100")
+        self.assertNotIn("left out", err)
+        inner = (table["tag"] > 0) & (x[:, 0] < 0) & (abs(x[:, 1]) < 1e-6)
+        self.assertGreater(inner.sum(), 10)
+
+    def test_what_bounds_nothing(self):
+        line = {"type": "Feature", "properties": {},
+                "geometry": {"type": "LineString", "coordinates": [[0, 0], [20, 10], [40, 0]]}}
+        _, _, _, err = self.placed(coast=self.sea(line))
+        self.assertIn("note: no polygon and no closed line bounds the domain", err)
+
     # The segment across 180 degrees is the short way, not that along all others.
     def test_a_coast_on_a_parallel(self):
         for cut in ([], [[180, -74], [180, -90], [-180, -90], [-180, -80]]):
