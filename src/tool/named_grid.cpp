@@ -20,8 +20,8 @@
 namespace pnpbs::tool {
 namespace {
 
-constexpr std::array<std::string_view, 12> gdal_endings{"tif", "tiff", "nc",  "nc4", "grd", "img",
-                                                        "vrt", "hgt",  "dem", "bil", "flt", "bag"};
+constexpr std::array<std::string_view, 13> gdal_endings{
+    "tif", "tiff", "nc", "nc4", "cdf", "grd", "img", "vrt", "hgt", "dem", "bil", "flt", "bag"};
 
 bool is_for_gdal(const std::string& path) {
   return std::ranges::find(gdal_endings, std::string_view(extension_of(path))) !=

@@ -91,6 +91,8 @@ class Rasters(BayTest):
         depth = 10 + 5 * (longitudes[None, :] - 18) + 4 * (latitudes[:, None] - 54)
         write_netcdf(self.folder / "one.nc", longitudes, latitudes, depth=depth)
         self.expect_depths(self.table(*self.ask, "--spacing-grid", "one.nc")[0])
+        (self.folder / "one.nc").rename(self.folder / "one.cdf")
+        self.expect_depths(self.table(*self.ask, "--spacing-grid", "one.cdf")[0])
         write_netcdf(self.folder / "two.nc", longitudes, latitudes, depth=depth, speed=0 * depth)
         self.expect_depths(self.table(*self.ask, "--spacing-grid", "two.nc:depth")[0])
         for variable in ("two.nc", "two.nc:deep"):
