@@ -655,9 +655,10 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement plac
  *  are joined, with or without the first one again at the end. A pole that is a step or less from
  *  the grid has the mean of the row beside it. Collective. Checks the domain first. Errors:
  *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and in the plane and in
- *  space for a grid that does not meet the domain's bounding box; PNPBS_ERROR_ARGUMENT for a step
- *  that is not positive, and on a sphere for longitudes over more than 360 degrees and latitudes
- *  beyond a pole; PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
+ *  space for a grid that does not meet the domain's bounding box, which on a sphere is an error in
+ *  initialise or run; PNPBS_ERROR_ARGUMENT for a step that is not positive, and on a sphere for
+ *  longitudes over more than 360 degrees and latitudes beyond a pole; PNPBS_ERROR_DOMAIN as in
+ *  pnpbs_domain_check.
  *  @param[in] size    [dim], on a sphere [2]: number of grid points in each direction, >= 1
  *  @param[in] origin  [dim], on a sphere [2]: the first grid point
  *  @param[in] step    [dim], on a sphere [2]: > 0, distance between grid points

@@ -61,7 +61,8 @@ std::string reach_text(const GivenExtent<Dim>& extent, const Domain<Dim>& domain
 }
 
 // Nodes that are farther than d from where the spacing is given: those between a curved boundary
-// and a mesh whose edges cut its corners are not. Collective.
+// and a mesh whose edges cut its corners are not. Collective. Throws Error where all are on a
+// sphere, on which boxes do not tell whether it meets the domain.
 template <int Dim>
 std::string warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>& domain,
                                       const Spacing<Dim>& given) {
@@ -91,6 +92,12 @@ std::string warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>
   const std::uint64_t all = comm.allreduce_sum(static_cast<std::uint64_t>(level.owned_count()));
   if (beyond.count == 0) return "";
   const std::string name = extent->name;
+  if (beyond.count == static_cast<std::int64_t>(all) && chart_of(domain))
+    throw AgreedError(ErrorKind::spacing,
+                      "the " + name + " of the spacing does not meet the domain: all " +
+                          std::to_string(all) +
+                          " nodes are farther than d from it, one of them at " +
+                          rounded_point_text<Dim>(beyond.at) + reach_text(*extent, domain));
   return "the " + name + " of the spacing covers only a part of the domain: of " +
          std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
          " are farther than d from it, one of them at " + rounded_point_text<Dim>(beyond.at) +

@@ -14,6 +14,7 @@
 namespace pnpbs {
 
 // Of a level as it begins: `given` is the user's spacing, `steepest` how it grows. Collective.
+// Throws Error where that is given nowhere near the nodes of a sphere.
 template <int Dim>
 std::vector<std::string> warnings_of_level(const Level<Dim>& level, const Domain<Dim>& domain,
                                            const Spacing<Dim>& given,

@@ -179,6 +179,31 @@ START_TEST(a_pole_has_one_spacing) {
 }
 END_TEST
 
+/* A sea of 20 degrees, and a grid on the other side of the Earth. */
+START_TEST(a_grid_beside_the_domain) {
+  static const int64_t size[2] = {4, 4};
+  static const double step[2] = {5, 5}, degrees[8] = {0, 0, 20, 0, 20, 20, 0, 20};
+  double values[16], coast[12], origin[2] = {150, -40}, outside[3] = {0, 0, -1};
+  job it = {0};
+  int k;
+  for (k = 0; k < 16; ++k) values[k] = 100;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create_sphere(it.context, R, outside, &it.domain));
+  MUST(pnpbs_sphere_points(R, 4, degrees, coast));
+  MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 4, coast, NULL, 30));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_grid(it.placement, size, origin, step, values));
+  MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_initialise(it.placement),
+            "the grid of the spacing does not meet the domain: all ",
+            "The grid reaches from longitude 147.5");
+  origin[0] = 10, origin[1] = 10;
+  MUST(pnpbs_placement_set_spacing_grid(it.placement, size, origin, step, values));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert(warning_with(it.placement, "covers only a part"));
+  job_end(&it);
+}
+END_TEST
+
 /* How many nodes the warning says are beyond the grid, over all. */
 static double share_beyond(const char* warning) {
   long all = 0, beyond = 0;
@@ -700,6 +725,7 @@ int main(void) {
   tcase_add_loop_test(grids, a_grid_around_the_sphere, 0, 7);
   tcase_add_test(grids, a_grid_has_as_many_nodes_as_its_function);
   tcase_add_test(grids, a_pole_has_one_spacing);
+  tcase_add_test(grids, a_grid_beside_the_domain);
   tcase_add_test(grids, a_grid_of_some_latitudes);
   tcase_add_test(grids, a_grid_of_some_longitudes);
   tcase_add_test(grids, wrong_grids);
