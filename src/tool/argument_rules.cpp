@@ -91,7 +91,8 @@ void require_arguments_that_fit(const Arguments& arguments) {
     refuse(by_depth ? "--depth-rule and --spacing-grid need a formula that combines them: --spacing"
                     : "several --spacing-grid need a formula that combines them: --spacing");
   if (by_depth) require_depth_rule_that_fits(arguments);
-  if (grids > 0 && (arguments.spacing == "auto" || spacing_file(arguments.spacing)))
+  if (grids > 0 && arguments.fields.empty() &&
+      (arguments.spacing == "auto" || spacing_file(arguments.spacing)))
     refuse("--spacing-grid and a --spacing that is no formula exclude each other");
   const bool has_formula = arguments.spacing != "auto" && !(by_depth && arguments.spacing.empty());
   if (has_formula && (arguments.min_spacing || arguments.max_spacing)) {

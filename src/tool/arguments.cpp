@@ -239,6 +239,11 @@ void add_output(CLI::App& app, Arguments& arguments) {
                  "times volume, and implies --volumes")
       ->type_name("EXPR")
       ->group(group);
+  add_repeatable(app, "--field", arguments.fields,
+                 "field of the nodes in files (as those of --volumes, and the depth in\n"
+                 ".gr3 and .2dm): values of a formula in what --spacing knows, names\n"
+                 "of --spacing-grid among it; may be given several times");
+  app.get_option("--field")->type_name("NAME=EXPR")->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
   app.add_option_function<std::string>(
          "--color", [&arguments](const std::string& name) { take_colour(name, arguments); },

@@ -71,6 +71,7 @@ struct Arguments {
   std::optional<int> wall_layers;
   bool volumes = false;                // of nodes
   std::optional<std::string> density;  // a formula
+  std::vector<std::string> fields;     // NAME=FORMULA
   bool dry_run = false;
   bool quiet = false;
   bool progress = false;

@@ -14,7 +14,6 @@
 #include "sphere/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/formula_text.hpp"
-#include "tool/grid_slope.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/names.hpp"
 #include "tool/numbers.hpp"
@@ -32,6 +31,9 @@ double mod_of(double a, double b) { return std::fmod(a, b); }
 double floor_of(double a) { return std::floor(a); }
 double ceil_of(double a) { return std::ceil(a); }
 double cbrt_of(double a) { return std::cbrt(a); }
+
+// That of the formula whose functions are called: these have no other way to know.
+thread_local const std::string* asking_option = nullptr;
 
 // What a formula has been told of the shape at all places of a batch: found when it is first asked
 // for. Functions of muParser's have no other way to know.
@@ -56,7 +58,7 @@ struct ShapeAtPlaces {
         return answers.values[static_cast<std::size_t>(place)];
     constexpr std::size_t many = 32;
     if (known.size() == many)
-      throw BadInput("--spacing: what " + std::string(name) +
+      throw BadInput(*asking_option + ": what " + std::string(name) +
                      "(...) is given must be a number, the same everywhere");
     std::vector<double> values(static_cast<std::size_t>(n));
     ask(number, n, coordinates, values.data());
@@ -78,7 +80,8 @@ double shape_value(const char* name, double number, const ShapeAtPlaces::Questio
 // For the length of a batch.
 class ShapeForBatch {
  public:
-  ShapeForBatch(ShapeAtPlaces& shape, pnpbs_context context) {
+  ShapeForBatch(ShapeAtPlaces& shape, pnpbs_context context, const std::string& option) {
+    asking_option = &option;
     shape_at_places = &shape;
     shape_context = context;
   }
@@ -97,7 +100,7 @@ double distance_to(double tag) {
 
 double dist_of(double tag) {
   if (!(tag == std::floor(tag)) || tag == 0 || std::fabs(tag) > 2e9)
-    throw BadInput("--spacing: dist(" + short_number(tag) +
+    throw BadInput(*asking_option + ": dist(" + short_number(tag) +
                    "): expected a tag, a whole number but 0");
   return distance_to(tag);
 }
@@ -105,7 +108,7 @@ double dist_of(double tag) {
 double shape_spacing(const char* name, double number, double per_turn, double across,
                      double per_edge) {
   if (!(number > 0))
-    throw BadInput(std::string("--spacing: ") + name + "(" + short_number(number) +
+    throw BadInput(*asking_option + ": " + name + "(" + short_number(number) +
                    "): expected a number of nodes greater than 0");
   return shape_value(name, number, [=](double, std::int64_t n, const double* x, double* d) {
     check(
@@ -201,6 +204,7 @@ struct FieldInFormula {
 
 struct Expression::Parser {
   mu::Parser parser;
+  std::string option;  // that it was given by
   std::vector<NamedGroup> groups;
   std::vector<FieldInFormula> fields;
   int dimension;
@@ -238,13 +242,6 @@ struct Expression::Parser {
       parser.DefineVar(each.field.name, &each.value);
     }
   }
-  void require_used_fields() const {
-    const auto& used = parser.GetUsedVar();
-    for (const FieldInFormula& each : fields)
-      if (!used.contains(each.field.name) && !used.contains(slope_name(each.field.name)))
-        throw BadInput(each.field.option + ": the formula of --spacing does not use '" +
-                       each.field.name + "'");
-  }
   void go_to(const double* there) {
     std::copy_n(there, dimension, place);
     if (!asks_for_degrees) return;
@@ -270,6 +267,8 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
   refuse_other_hypots(source);
   mu::Parser& parser = parser_->parser;
   parser_->dimension = dimension;
+  parser_->option = option;
+  asking_option = &parser_->option;
   try {
     define_names(parser);
     for (int k = 0; k < dimension; ++k)
@@ -289,7 +288,6 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
     parser.SetExpr(text);
     parser.Eval();
     parser_->find_out();
-    parser_->require_used_fields();
   } catch (const mu::Parser::exception_type& error) {
     fail_at(source, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
   }
@@ -335,7 +333,7 @@ void Expression::at(std::int64_t n, const double* coordinates, double* values) c
     each.field.values(n, coordinates, each.values.data());
   }
   ShapeAtPlaces shape{n, coordinates, parser_->domain};
-  const ShapeForBatch telling(shape, parser_->context);
+  const ShapeForBatch telling(shape, parser_->context, parser_->option);
   for (std::int64_t i = 0; i < n; ++i) {
     shape.place = i;
     parser_->go_to(coordinates + parser_->dimension * i);
@@ -365,7 +363,8 @@ std::string expression_help() {
          "comparisons, a ? b : c, and the "
          "functions " +
          list +
-         "; in --spacing also dist, the distance to the boundary, dist(TAG) and dist(NAME), to "
+         "; in --spacing and --field also dist, the distance to the boundary, dist(TAG) and "
+         "dist(NAME), to "
          "what has "
          "the tag or the group's name, the names of --spacing-grid and, with _slope after it, how "
          "steep a grid is, by_depth of --depth-rule, "

@@ -180,7 +180,7 @@ void fill_gaps(Grid& grid, double no_data, const Words& words) {
   std::deque<std::int64_t> front;
   std::vector<bool> known(grid.values.size());
   for (std::size_t i = 0; i < known.size(); ++i) {
-    known[i] = grid.values[i] != no_data && std::isfinite(grid.values[i]);
+    known[i] = grid.values[i] != no_data && !(std::isnan(no_data) && std::isnan(grid.values[i]));
     if (known[i]) front.push_back(static_cast<std::int64_t>(i));
   }
   if (front.empty()) words.fail("data", "no cell that has any");

@@ -15,22 +15,19 @@
 #include "tool/body_figures.hpp"
 #include "tool/centred_nodes.hpp"
 #include "tool/checkpoints.hpp"
-#include "tool/density.hpp"
-#include "tool/domain.hpp"
 #include "tool/exit.hpp"
 #include "tool/file_format.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/library.hpp"
-#include "tool/outputs.hpp"
 #include "tool/particle_domains.hpp"
 #include "tool/particles.hpp"
 #include "tool/progress.hpp"
 #include "tool/ranks.hpp"
 #include "tool/report.hpp"
-#include "tool/spacing.hpp"
 #include "tool/statistics.hpp"
 #include "tool/summary.hpp"
 #include "tool/waiting_threads.hpp"
+#include "tool/wishes.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -175,23 +172,6 @@ void tell_estimate(pnpbs_context context, pnpbs_placement placement,
         {nodes, bytes, seconds, ranks.size(), wants_picture(arguments), body});
 }
 
-// What is wrong with the words of the user, before anything is done.
-struct Wishes {
-  std::optional<Outputs> outputs;
-  std::optional<DomainSource> source;
-  std::optional<Spacing> spacing;
-  std::optional<Density> density;
-  Wishes(const Arguments& arguments, const Ranks& ranks) {
-    ranks.agreed([&] {
-      if (!arguments.dry_run) outputs.emplace(arguments, ranks);
-      source.emplace(arguments);
-      refuse_other_dimension(arguments, source->dimension());
-      spacing.emplace(arguments, source->dimension());
-      if (arguments.density) density.emplace(*arguments.density, source->dimension());
-    });
-  }
-};
-
 void set_options(pnpbs_context context, const Arguments& arguments) {
   // What is given behind --set is meant, a checkpoint's other value or not.
   if (!arguments.restart.empty())
@@ -243,7 +223,8 @@ void read_domain(Work& work) {
   source.read(work.domain, work.context, work.ranks);
   if (source.geo() && work.talks()) tell_projection(*source.geo());
   work.ranks.agreed([&] {
-    spacing.read_grids(work.domain, work.context, source.geo());
+    work.wishes.grids->read(work.domain, work.context, source.geo());
+    spacing.take_what_was_read(*work.wishes.grids);
     if (arguments.simplify)
       spacing.simplify(work.domain, work.context, *arguments.simplify, arguments.smallest);
     work.look = look_of(arguments, source.dimension(), work.domain, work.context);
@@ -258,10 +239,12 @@ void create(Work& work, Placement& placement) {
 }
 
 pnpbs_status place(Work& work, pnpbs_placement placement) {
-  const Wishes& wishes = work.wishes;
+  Wishes& wishes = work.wishes;
   const auto check_wishes = [&] {
     if (wishes.density) wishes.density->check_at_nodes_of(placement, work.context, work.ranks);
-    wishes.spacing->require_values_of_grids(placement, work.domain, work.context, work.ranks);
+    if (!wishes.spacing->is_grid())
+      wishes.grids->require_values(placement, work.domain, work.context, work.ranks);
+    wishes.fields->check_at_nodes_of(placement, work.domain, work.context, work.ranks);
   };
   return place(work.context, placement, work.arguments, check_wishes, work.ranks);
 }
@@ -292,8 +275,10 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
     body->area = boundary_area(placement, context, ranks);
   const Matter matter(arguments, wishes.density, wishes.source->dimension(), placement,
                       work.body_of_particles(), context, ranks);
+  wishes.fields->add_to(placement, matter.particles, domain, context, ranks);
   const std::vector<std::string> of_grids =
-      wishes.spacing->warnings(placement, domain, context, ranks);
+      wishes.spacing->is_grid() ? std::vector<std::string>()
+                                : wishes.grids->warnings(placement, domain, context, ranks);
   if (work.talks()) warn(of_grids);
   const std::vector<std::string> warnings =
       for_report(arguments, geo, context, placement, of_grids);

@@ -122,6 +122,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   for (const Region& region : arguments.regions) report["regions"].push_back(region.text);
   if (!groups.empty()) report["groups"] = groups_of(groups);
   if (arguments.density) report["density"] = *arguments.density;
+  if (!arguments.fields.empty()) report["fields"] = arguments.fields;
   if (!arguments.spacing.empty()) report["spacing"] = arguments.spacing;
   if (arguments.spacing_grids.size() == 1)
     report["spacing_grid"] = arguments.spacing_grids[0];

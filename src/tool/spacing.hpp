@@ -5,14 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "tool/arguments.hpp"
 #include "tool/centred_nodes.hpp"
 #include "tool/expression.hpp"
-#include "tool/geo_file.hpp"
 #include "tool/library.hpp"
-#include "tool/named_grid.hpp"
+#include "tool/named_grids.hpp"
 #include "tool/ranks.hpp"
 #include "tool/spacing_file.hpp"
 
@@ -20,11 +18,16 @@ namespace pnpbs::tool {
 
 class Spacing {
  public:
-  Spacing(const Arguments& arguments, int dimension);
+  // Of formulas in these grids, which must outlive this object. Throws BadInput.
+  Spacing(const Arguments& arguments, int dimension, const NamedGrids& grids);
 
-  // Before anything else: reads the grids where the domain is, in its projection. Local. Throws
-  // Failure.
-  void read_grids(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo);
+  const std::string& formula() const { return formula_; }  // "" if it is none
+  // Then the library tells where it is not given.
+  bool is_grid() const { return grid() != nullptr; }
+
+  // As soon as the grids have been read: one alone is d, by a formula unless the library takes it
+  // as it is. Local.
+  void take_what_was_read(const NamedGrids& grids);
 
   // Leaves out of a domain in the plane what is finer than d. Local. Throws Failure.
   void simplify(pnpbs_domain domain, pnpbs_context context, double tolerance, double smallest);
@@ -41,16 +44,6 @@ class Spacing {
   void give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                const Ranks& ranks);
 
-  // Once there are nodes: each grid in a formula has a value at some of them. Collective. Throws
-  // Failure.
-  void require_values_of_grids(pnpbs_placement placement, pnpbs_domain domain,
-                               pnpbs_context context, const Ranks& ranks) const;
-
-  // Of grids in a formula that do not reach all nodes, or have no data there; on the first rank.
-  // Collective.
-  std::vector<std::string> warnings(pnpbs_placement placement, pnpbs_domain domain,
-                                    pnpbs_context context, const Ranks& ranks) const;
-
  private:
   // d times a factor, as a callback.
   struct Multiplied {
@@ -65,16 +58,10 @@ class Spacing {
   const Grid* grid() const;     // that the library takes as it is, or nullptr
   pnpbs_status set_grid(pnpbs_placement placement) const;
 
-  std::vector<Expression::Field> fields_for(const std::string& formula, const Arguments& arguments);
-  Expression::Field field_by_depth(const NamedGrid* grid);
-  std::string extents_in_words(const NamedGrid& grid, pnpbs_domain domain,
-                               pnpbs_context context) const;
-
   int dimension_;
-  bool sphere_;
   double min_, max_;  // of auto, 0: none
-  std::vector<std::unique_ptr<NamedGrid>> grids_;
-  std::optional<DepthWish> depth_;
+  std::string formula_;
+  const NamedGrid* grid_ = nullptr;         // that is d
   std::unique_ptr<Expression> expression_;  // neither this nor a grid nor a file: auto
   std::optional<SpacingFile> file_;
   std::optional<Multiplied> bubbles_;  // if their spacing is not d
