@@ -60,6 +60,16 @@ std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& name
                  (known.empty() ? " (the domain has no named ones)" : " (known: " + list + ")"));
 }
 
+// Many coasts in use cross themselves or each other somewhere, by a few metres.
+std::string with_advice(const std::string& message) {
+  const bool is_crossed = message.find(" cross at ") != std::string::npos ||
+                          message.find(" overlap at ") != std::string::npos;
+  return is_crossed ? message +
+                          "\nUnite polygons that cross before: docs/guide/shapes.md, "
+                          "'Polygons that cross'"
+                    : message;
+}
+
 }  // namespace
 
 DomainSource::DomainSource(const Arguments& arguments)
@@ -123,7 +133,7 @@ void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context, bool
     return repair(domain, 0, context);
   }
   if (geo_ && status < 0)
-    throw Failure(exit_code_of(status), geo_->explained(pnpbs_last_error(context)));
+    throw Failure(exit_code_of(status), with_advice(geo_->explained(pnpbs_last_error(context))));
   check(status, context);
 }
 

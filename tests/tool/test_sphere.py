@@ -357,6 +357,7 @@ class Sphere(CommandTest):
         crossed = self.sea(feature([[0, 0], [40, 0], [0, 30], [40, 30]]))
         message = self.refuse("--domain", crossed, "--sphere", str(RADIUS), "--spacing", "300")
         self.assertIn("cross at (longitude 19.99999", message)
+        self.assertTrue(message.endswith("'Polygons that cross'\n"), message)
 
 
 if __name__ == "__main__":
