@@ -313,6 +313,17 @@ class Sphere(CommandTest):
         inner = (table["tag"] > 0) & (x[:, 0] < 0) & (abs(x[:, 1]) < 1e-6)
         self.assertGreater(inner.sum(), 10)
 
+    def test_a_coast_that_is_far_finer(self):
+        """A warning names places, and says if that is so in much of the coast."""
+        rough = feature([[20 * np.cos(a) * (1 + 0.02 * (k % 2)), 20 * np.sin(a) * (1 + 0.02 * (k % 2))]
+                         for k, a in enumerate(np.linspace(0, 2 * np.pi, 600, endpoint=False))])
+        _, _, report, err = self.placed(coast=self.sea(ANTARCTICA, rough))
+        place = r"\(length [0-9.]+, spacing 2[0-9.]+, at \(longitude [-0-9.]+, latitude [-0-9.]+\)\)"
+        self.assertRegex(err, "600 boundary edges shorter than half of it; the worst: .* " + place)
+        self.assertRegex(err, r"much of the boundary, which has [0-9]+ edges: .*\(simplify\)")
+        self.assertNotIn("much of the boundary", self.placed("--simplify", "0.5,2",
+                                                             coast=self.sea(ANTARCTICA, rough))[3])
+
     def test_what_bounds_nothing(self):
         line = {"type": "Feature", "properties": {},
                 "geometry": {"type": "LineString", "coordinates": [[0, 0], [20, 10], [40, 0]]}}

@@ -25,7 +25,8 @@ struct Worst {
   }
 };
 
-// name(which); in the chart of a sphere, lengths are told along the sphere.
+// name(which); in the chart of a sphere, lengths are told along the sphere, and places as well: who
+// takes coasts from files does not know which curve is which.
 template <class Name>
 std::string worst_text(std::vector<Worst>& all, const char* length, const StereographicChart* chart,
                        const Name& name) {
@@ -36,7 +37,8 @@ std::string worst_text(std::vector<Worst>& all, const char* length, const Stereo
     const double stretch = chart ? chart->stretch(worst.at) : 1;
     names.push_back(name(worst.which) + " (" + length + " " +
                     rounded_text(worst.distance / stretch) + ", spacing " +
-                    rounded_text(worst.spacing / stretch) + ")");
+                    rounded_text(worst.spacing / stretch) +
+                    (chart ? ", at " + point_text(worst.at) : std::string()) + ")");
   }
   return list_text(names, kNamedWorst);
 }
