@@ -7,6 +7,7 @@
 #include "initial/graded_fill.hpp"
 #include "initial/initial_fill.hpp"
 #include "level/numbering.hpp"
+#include "level/plane/closed_sphere.hpp"
 
 namespace pnpbs {
 
@@ -79,9 +80,8 @@ IncomingNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::functio
       inner.push_back({x, -1});
   });
   for (const Point<Dim>& x : graded_fill(level, owned)) inner.push_back({x, -1});
-  std::erase_if(inner, [&](const IncomingNode<Dim>& node) {
-    return level.ground.is_closed_at(node.position);
-  });
+  std::erase_if(inner,
+                [&](const IncomingNode<Dim>& node) { return is_closed_at(level, node.position); });
   return inner;
 }
 

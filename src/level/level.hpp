@@ -20,6 +20,7 @@
 #include "level/level_stamp.hpp"
 #include "level/level_tree.hpp"
 #include "level/neighbourhood.hpp"
+#include "level/plane/patch_margin.hpp"
 #include "level/time_integration.hpp"
 #include "settings/settings.hpp"
 
@@ -68,6 +69,7 @@ struct Level {
   TimeIntegration<Dim> time_integration;
 
   std::int64_t settings_version = 0, rebalances = 0;
+  PatchMargin margin = PatchMargin::laid;  // of a whole sphere
   std::int64_t left_out = 0;      // of the nodes on features, over all ranks (loose_pieces.hpp)
   std::int64_t held_rounds = 0;   // in which d was held down before this level
   std::int64_t unknown_uses = 0;  // of data that this rank does not know exactly

@@ -7,6 +7,7 @@
 #include "geometry/clearance.hpp"
 #include "level/finish.hpp"
 #include "level/ghost_lists.hpp"
+#include "level/plane/closed_sphere.hpp"
 #include "method/constants.hpp"
 
 namespace pnpbs {
@@ -67,7 +68,7 @@ const SurfaceIndex& facets_of(const Level<3>& level) { return level.ground.domai
 template <int Dim>
 bool has_clearance(const Level<Dim>& level, const std::type_identity_t<Point<Dim>>& x, double d) {
   if (level.nodes.moving == Carrier::surface) return true;  // it was walked to
-  if (level.ground.is_closed_at(x)) return false;
+  if (is_closed_at(level, x)) return false;
   const Box<Dim>& box = level.ground.bounds();
   for (int k = 0; k < Dim; ++k)
     if (!(x[k] > box.low[k] && x[k] < box.high[k])) return false;

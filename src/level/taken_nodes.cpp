@@ -5,6 +5,7 @@
 
 #include "level/exchange.hpp"
 #include "level/numbering.hpp"
+#include "level/plane/closed_sphere.hpp"
 #include "level/room.hpp"
 #include "level/thinning.hpp"
 
@@ -37,7 +38,7 @@ namespace {
 // In the domain, and not too close to its boundary.
 template <int Dim>
 bool has_room(const Level<Dim>& level, const IncomingNode<Dim>& node) {
-  if (level.ground.is_closed_at(node.position)) return false;
+  if (is_closed_at(level, node.position)) return false;
   if (level.neighbourhood.near_boundary().leaf_is_clear(node.leaf))
     return !level.map().leaf_outside(node.leaf);
   return has_clearance(level, node.position, level.map().leaf_spacing(node.leaf));

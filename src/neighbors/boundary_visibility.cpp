@@ -41,7 +41,7 @@ void BoundaryVisibility::look(const Nodes<2>& nodes, const NearEdges& near_edges
   for_each("pnpbs::BoundaryVisibility::look", chunks, [&](std::int64_t chunk) {
     const std::int64_t last = std::min((chunk + 1) * kChunk, nodes.count);
     for (std::int64_t i = chunk * kChunk; i < last; ++i)
-      if (!nodes.moves(i)) look_from(nodes, i, near_edges, map, sectors);
+      if (nodes.boundary_node(i) >= 0) look_from(nodes, i, near_edges, map, sectors);
   });
 }
 

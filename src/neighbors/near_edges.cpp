@@ -75,7 +75,7 @@ class NearEdges::Finder {
       return;
     }
     const std::size_t before = out.size();
-    of_.gap_(i) = nodes_.moves(i) ? find(i, out) : find_once(i, out);
+    of_.gap_(i) = nodes_.boundary_node(i) < 0 ? find(i, out) : find_once(i, out);
     of_.any_(i) = out.size() > before;
   }
 

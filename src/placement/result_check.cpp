@@ -73,7 +73,9 @@ void ResultCheck::check_boundary_nodes() const {
   // Of a patch that closes a sphere, those that the finish has freed are boundary nodes no more.
   check_laid_come_once(
       std::move(times), [this](std::size_t b) { return laid(b); },
-      [this](std::size_t b) { return level_.ground.domain().is_in_margin(laid(b)); });
+      [this](std::size_t b) {
+        return level_.margin != PatchMargin::laid && level_.ground.domain().is_in_margin(laid(b));
+      });
 }
 
 // ------------------------------------------------------------------ stars ----------------------

@@ -175,7 +175,8 @@ void Results<Dim>::for_boundary_edges(const Visit& visit) const requires(Dim == 
   const Nodes<2>& nodes = level_->nodes;
   std::vector<std::int64_t> place(boundary.nodes.size(), -1);
   for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (!nodes.moves(i)) place[static_cast<std::size_t>(nodes.boundary_node(i))] = place_of(i);
+    if (const std::int32_t b = nodes.boundary_node(i); b >= 0)
+      place[static_cast<std::size_t>(b)] = place_of(i);
   const std::int64_t owned = count();
   for (const BoundaryEdge& e : boundary.facets) {
     if (e.begin == e.end) continue;                                 // a fixed node

@@ -12,6 +12,7 @@
 #include "comm/records.hpp"
 #include "level/exchange.hpp"
 #include "level/node_spacing.hpp"
+#include "level/plane/closed_sphere.hpp"
 #include "level/reach.hpp"
 #include "placement/domain_fingerprint.hpp"
 #include "placement/option_changes.hpp"
@@ -28,8 +29,9 @@ bool is_flag(std::int64_t value) { return value == 0 || value == 1; }
 // Is this a node that a level with that ground can have?
 bool fits_ground(const Ground<2>& ground, const PackedNode<2>& node) {
   if (node.carrier == Carrier::free) return node.boundary_node == -1;
-  return node.carrier == Carrier::fixed && node.boundary_node >= 0 &&
-         node.boundary_node < ground.boundary_nodes() &&
+  if (node.carrier != Carrier::fixed) return false;
+  if (node.boundary_node == -1) return ground.domain().is_in_margin(node.x);  // held there
+  return node.boundary_node >= 0 && node.boundary_node < ground.boundary_nodes() &&
          ground.boundary().nodes[static_cast<std::size_t>(node.boundary_node)].position == node.x;
 }
 bool fits_ground(const Ground<3>& ground, const PackedNode<3>& node) {
@@ -280,6 +282,7 @@ std::unique_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<Sav
   require_same_boundary(*level, nodes);
   // As it would have been at the next step after the options were changed.
   if (saved.meeting_radius != meeting_radius(settings)) level->nodes.set_reference_positions();
+  recognise_margin(*level);
   exchange(*level, kStarHops);
   return level;
 }

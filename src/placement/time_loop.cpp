@@ -26,6 +26,7 @@ namespace pnpbs {
 template <int Dim>
 Outcome Simulation<Dim>::advance(std::int64_t until, ProgressPart part) {
   const Settings& settings = level_.settings;
+  hold_margin(level_);
   const double first = static_cast<double>(schedule_.step);
   Outcome outcome = Outcome::not_converged;
   run_.stop_reason = StopReason::step_limit;

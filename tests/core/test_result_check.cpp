@@ -28,6 +28,19 @@ std::unique_ptr<Placement> small_placement() {
   return placement;
 }
 
+// A whole sphere, whose patch is laid.
+std::unique_ptr<Placement> laid_sphere() {
+  auto domain = std::make_shared<pnpbs::PlaneDomain>(pnpbs::StereographicChart(1, {0, 0, 1}));
+  auto placement =
+      std::make_unique<Placement>(pnpbs::serial_communicator(), domain, pnpbs::Options());
+  const pnpbs::StereographicChart chart = *domain->chart();
+  placement->set_spacing(spacing_of([chart](double x, double y) {
+    return 0.1 * chart.stretch({x, y});
+  }));
+  ck_assert(placement->initialise() != pnpbs::Outcome::stopped);
+  return placement;
+}
+
 const pnpbs::Nodes<2>& nodes_of(const Placement& placement) { return placement.level().nodes; }
 
 // To spoil them.
@@ -118,6 +131,20 @@ START_TEST(finds_a_boundary_node_moved_or_missing) {
 }
 END_TEST
 
+// Before the finish frees those in the margin of its patch, a whole sphere has all of them.
+START_TEST(finds_a_node_of_a_patch_missing) {
+  expect_check_to_say<2>(*laid_sphere(), [](Placement& p) -> std::vector<std::string> {
+    pnpbs::Nodes<2>& nodes = nodes_of(p);
+    std::int64_t i = 0;
+    while (nodes.boundary_node(i) < 0 || !p.level().ground.domain().is_in_margin(nodes.position(i)))
+      ++i;
+    nodes.boundary_node(i) = -1;
+    nodes.carrier(i) = pnpbs::Carrier::free;
+    return {"the boundary's node " + pnpbs::point_text(nodes.position(i)) + " comes 0 times"};
+  });
+}
+END_TEST
+
 START_TEST(finds_a_list_that_lacks_a_neighbour) {
   expect_complaint([](Placement& p) -> std::vector<std::string> {
     const std::int64_t i = node_near(p, {0.2, 0.2});
@@ -184,7 +211,8 @@ int main() {
   return run_kernel_suite(
       "result_check",
       {finds_an_id_that_comes_twice, finds_two_nodes_in_one_place, finds_nodes_that_are_not_inside,
-       finds_a_boundary_node_moved_or_missing, finds_a_list_that_lacks_a_neighbour,
-       finds_stars_that_do_not_agree, finds_a_triangle_turned_round,
-       finds_triangles_on_the_wrong_side_of_the_boundary, finds_a_boundary_edge_that_is_no_edge});
+       finds_a_boundary_node_moved_or_missing, finds_a_node_of_a_patch_missing,
+       finds_a_list_that_lacks_a_neighbour, finds_stars_that_do_not_agree,
+       finds_a_triangle_turned_round, finds_triangles_on_the_wrong_side_of_the_boundary,
+       finds_a_boundary_edge_that_is_no_edge});
 }

@@ -31,7 +31,7 @@ static void expect(int condition, const char* what) {
 struct checkpoint_case {
   const char* name;
   int dim;
-  volume_body body; /* NULL: a square with a hole */
+  volume_body body; /* NULL: a square with a hole, or the whole sphere */
   double d;
   const char* options[3][2];
 };
@@ -44,6 +44,7 @@ static const struct checkpoint_case cases[] = {
     {"wanted", 2, NULL, 0.05, {{"steps", "60"}, {"wanted_nodes", "700"}, {NULL, NULL}}},
     {"box", 3, volume_unit_box, 0.18, {{"steps", "45"}, {NULL, NULL}, {NULL, NULL}}},
     {"globe", 3, volume_globe, 0.35, {{"steps", "45"}, {NULL, NULL}, {NULL, NULL}}},
+    {"sphere", 3, NULL, 0.1, {{"steps", "45"}, {NULL, NULL}, {NULL, NULL}}},
     {"surface", 3, surface_halves, 0.2, {{"steps", "60"}, {NULL, NULL}, {NULL, NULL}}},
 };
 enum { CASES = sizeof cases / sizeof cases[0] };
@@ -61,12 +62,17 @@ static int32_t spacing_at(int64_t n, int32_t dim, const double* x, double* d, vo
 }
 
 static pnpbs_placement new_placement(const struct checkpoint_case* it, struct graded* spacing) {
-  const double box[] = {0, 0, 1.5, 0, 1.5, 1, 0, 1}, centre[] = {0.7, 0.5};
+  const double box[] = {0, 0, 1.5, 0, 1.5, 1, 0, 1}, centre[] = {0.7, 0.5}, point[] = {0, 0.6, 0.8};
+  const int on_sphere = it->dim == 3 && !it->body;
   pnpbs_domain domain;
   pnpbs_placement placement;
   int k;
-  expect(pnpbs_domain_create(context, it->dim, &domain) == PNPBS_OK, "domain");
-  if (it->body) {
+  expect((on_sphere ? pnpbs_domain_create_sphere(context, 1, point, &domain)
+                    : pnpbs_domain_create(context, it->dim, &domain)) == PNPBS_OK,
+         "domain");
+  if (on_sphere) {
+    /* no curve bounds it */
+  } else if (it->body) {
     expect(it->body(domain, "") == PNPBS_OK, "body");
   } else {
     pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, box, NULL, 0);
@@ -83,9 +89,10 @@ static pnpbs_placement new_placement(const struct checkpoint_case* it, struct gr
 
 /* ---------------------------------------------------------------- stages ---------------- */
 
-enum { INITIALISED, STEPPED, IN_RUN, RUN, ADAPTED, AT_NODES, LAST, STAGES };
-static const char* const stage_names[] = {"initialised", "7 steps",  "within a run",   "run",
-                                          "adapted",     "at nodes", "at nodes, again"};
+enum { INITIALISED, STEPPED, IN_RUN, RUN, ADAPTED, AT_NODES, PLACED, STEPPED_ON, LAST, STAGES };
+static const char* const stage_names[] = {
+    "initialised", "7 steps",         "within a run",  "run",      "adapted",
+    "at nodes",    "at nodes, again", "further steps", "run again"};
 
 struct watch {
   pnpbs_placement placement;
@@ -143,6 +150,10 @@ static void advance(pnpbs_placement placement, const struct checkpoint_case* it,
       set_at_nodes(placement, it->dim, 0.95);
       status = pnpbs_placement_step(placement, 13);
       break;
+    case STEPPED_ON:
+      status = pnpbs_placement_step(placement, 5);
+      break;
+    case PLACED:
     case LAST:
       status = pnpbs_placement_run(placement);
       break;

@@ -106,9 +106,12 @@ class PlaneDomain : public DomainBase<2> {
   bool is_in_margin(const Point<2>& u) const {
     return is_in_patch(u) && dot(u, u) < closing_->margin * closing_->margin;
   }
-  // Is the place one that only nodes of the patch may have?
-  bool is_closed_at(const Point<2>& u) const {
-    return closing_ && dot(u, u) > closing_->beyond * closing_->beyond;
+  // Is the place one that only nodes of the patch may have? While its margin is free, in the rest
+  // of it.
+  bool is_closed_at(const Point<2>& u, bool margin_is_free) const {
+    if (!closing_) return false;
+    const double edge = margin_is_free ? closing_->margin : closing_->beyond;
+    return dot(u, u) > edge * edge;
   }
   // The bounds of a closed one that is larger in the chart. After check().
   void take_bounds(const Box<2>& bounds) { resolved_.bounds = bounds; }

@@ -25,15 +25,54 @@ void close_sphere(Level<2>& level) {
   });
 }
 
+namespace {
+
+template <class Visit>
+void for_nodes_in_margin(const Level<2>& level, const Visit& visit) {
+  const PlaneDomain& domain = level.ground.domain();
+  for_each("pnpbs::for_nodes_in_margin", level.nodes.count, [&](std::int64_t i) {
+    if (domain.is_in_margin(level.nodes.position(i))) visit(i);
+  });
+}
+
+}  // namespace
+
 void free_margin(Level<2>& level) {
   if (!is_closed_sphere(level)) return;
-  const PlaneDomain& domain = level.ground.domain();
   Nodes<2>& nodes = level.nodes;
-  for_each("pnpbs::free_margin", nodes.count, [&](std::int64_t i) {
-    if (nodes.boundary_node(i) < 0 || !domain.is_in_margin(nodes.position(i))) return;
+  for_nodes_in_margin(level, [&](std::int64_t i) {
     nodes.carrier(i) = nodes.moving;
     nodes.boundary_node(i) = -1;
   });
+  level.margin = PatchMargin::free;
+}
+
+void hold_margin(Level<2>& level) {
+  if (level.margin != PatchMargin::free) return;
+  Nodes<2>& nodes = level.nodes;
+  for_nodes_in_margin(level, [&](std::int64_t i) {
+    nodes.carrier(i) = Carrier::fixed;
+    for (int k = 0; k < 2; ++k) nodes.v[k](i) = 0;
+  });
+  nodes.moved();
+  level.ghosts.choose_anew();
+  level.margin = PatchMargin::held;
+}
+
+void recognise_margin(Level<2>& level) {
+  if (!is_closed_sphere(level)) return;
+  const PlaneDomain& domain = level.ground.domain();
+  const Nodes<2>& nodes = level.nodes;
+  const auto any = [&](const auto& is_so) {
+    const std::uint64_t here = sum_of("pnpbs::recognise_margin", nodes.count, [&](std::int64_t i) {
+      return domain.is_in_margin(nodes.position(i)) && is_so(i);
+    });
+    return level.comm->allreduce_sum(here) > 0;
+  };
+  level.margin = any([&](std::int64_t i) { return nodes.boundary_node(i) >= 0; })
+                     ? PatchMargin::laid
+                 : any([&](std::int64_t i) { return !nodes.moves(i); }) ? PatchMargin::held
+                                                                        : PatchMargin::free;
 }
 
 // Seen from outside all triangles turn left, and so they do in the chart but for this one.

@@ -25,6 +25,18 @@ inline void close_sphere(Level<3>&) {}
 // to it, then meet half-way.
 void free_margin(Level<2>& level);
 inline void free_margin(Level<3>&) {}
+// Fixes those that were freed, where they are by now: in steps the bubbles of the chart would press
+// towards the point, and go there. The next exchange tells the ghosts.
+void hold_margin(Level<2>& level);
+inline void hold_margin(Level<3>&) {}
+// Of nodes that come from a checkpoint, what those in the margin do. Collective.
+void recognise_margin(Level<2>& level);
+inline void recognise_margin(Level<3>&) {}
+// Is it a place that only nodes of the patch may have?
+inline bool is_closed_at(const Level<2>& level, const Point<2>& x) {
+  return level.ground.domain().is_closed_at(x, level.margin == PatchMargin::free);
+}
+inline bool is_closed_at(const Level<3>&, const Point<3>&) { return false; }
 // Is it that triangle? By its nodes.
 bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& corners);
 

@@ -47,14 +47,12 @@ class Ground<2> {
 
   // d of a bubble at node i where the spacing is d.
   double bubble_at(const Nodes<2>& nodes, std::int64_t i, double d) const {
-    return nodes.moves(i) ? d : std::min(d, bubble_bound(nodes.boundary_node(i)));
+    return nodes.boundary_node(i) < 0 ? d : std::min(d, bubble_bound(nodes.boundary_node(i)));
   }
   // d at node i as it is asked for: a bubble on a fine boundary is smaller.
   double spacing_at(const Nodes<2>& nodes, std::int64_t i) const {
-    return nodes.moves(i) ? nodes.d(i) : boundary_spacing(nodes.boundary_node(i));
+    return nodes.boundary_node(i) < 0 ? nodes.d(i) : boundary_spacing(nodes.boundary_node(i));
   }
-  // Of a whole sphere, is it where only the nodes are that close it?
-  bool is_closed_at(const Point<2>& x) const { return domain_->is_closed_at(x); }
   // Does the domain end at an edge of this boundary node?
   bool bounds_domain_at(std::int32_t b) const {
     bool bounds = false;
@@ -64,7 +62,7 @@ class Ground<2> {
   }
   // Are these the ends of a boundary edge?
   bool on_one_edge(const Nodes<2>& nodes, std::int64_t i, std::int64_t j) const {
-    return !nodes.moves(i) && !nodes.moves(j) &&
+    return nodes.boundary_node(i) >= 0 && nodes.boundary_node(j) >= 0 &&
            sectors_.joined(nodes.boundary_node(i), nodes.boundary_node(j));
   }
 

@@ -46,7 +46,6 @@ class Ground<3> {
   const FeatureNodes& features() const { return features_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  static bool is_closed_at(const Point<3>&) { return false; }
   double bubble_at(const Nodes<3>&, std::int64_t, double d) const { return d; }
   double spacing_at(const Nodes<3>& nodes, std::int64_t i) const { return nodes.d(i); }
 
