@@ -74,13 +74,12 @@ class FromOtherSide : public Spacing<2> {
   // To the other chart, but for those for which it has no place.
   template <class Known, class PlaceOf>
   void turn_all(std::vector<Known>& all, const PlaceOf& place_of) const {
-    constexpr double kMostStretch = 1e12;
     std::size_t kept = 0;
     for (Known& known : all) {
       Point<2>& u = place_of(known);
       const Point<2> v = other_.in_chart(chart_.on_sphere(u));
       const double stretch = other_.stretch(v);
-      if (!(stretch < kMostStretch)) continue;
+      if (!(stretch < StereographicChart::kMostStretch)) continue;
       known.d *= stretch / chart_.stretch(u);
       u = v;
       all[kept++] = known;

@@ -26,13 +26,12 @@ void SphereSpacing::evaluate(std::int64_t n, const Point<2>* u, double* d) const
 
 // Without those so near to the point that is projected from that the chart has no place for them.
 KnownValues<2> SphereSpacing::known_values() const {
-  constexpr double kMostStretch = 1e12;
   const KnownValues<3> along = along_->known_values();
   KnownValues<2> known;
   const auto add = [&](const Point<3>& x, const auto& take) {
     const Point<2> u = chart_.in_chart(x);
     const double stretch = chart_.stretch(u);
-    if (stretch < kMostStretch) take(u, stretch);
+    if (stretch < StereographicChart::kMostStretch) take(u, stretch);
   };
   for (const GrowthSource<3>& value : along.values)
     add(value.x, [&](const Point<2>& u, double stretch) {

@@ -33,6 +33,8 @@ class StereographicChart {
   // A length in the chart over that on the sphere: 1 opposite to the point projected from, and more
   // everywhere else.
   double stretch(const Point<2>& u) const;
+  // Where it is this or more, so near to that point, the chart has no place for what is known of d.
+  static constexpr double kMostStretch = 1e12;
   double least_stretch_in(const Box<2>& box) const;
   double most_stretch_in(const Box<2>& box) const;
   // Is it so different in the box that a few samples of a length there tell nothing of the others?
