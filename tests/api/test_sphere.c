@@ -532,6 +532,37 @@ START_TEST(whole_spheres_are_closed_where_the_spacing_grows) {
 }
 END_TEST
 
+static int32_t steep_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  const double* at = (const double*)user;
+  int64_t i;
+  for (i = 0; i < n; ++i) {
+    const double* y = x + dim * i;
+    const double cosine = (y[0] * at[0] + y[1] * at[1] + y[2] * at[2]) / (R * R);
+    d[i] = fmin(300, 100 + 0.6 * R * acos(fmin(1, fmax(-1, cosine))));
+  }
+  return 0;
+}
+
+/* Where d is so steep that the triangle around the point has edges far longer than d, until its
+ * growth is limited. */
+START_TEST(whole_spheres_are_closed_where_the_spacing_is_steep) {
+  job it = globe_job(20, -30);
+  const double degrees[2] = {20, -30};
+  double at[3];
+  results r;
+  MUST(pnpbs_sphere_points(R, 1, degrees, at));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, steep_spacing, at));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  r = results_of(it.placement);
+  check_is_closed(&r);
+  ck_assert_double_gt(real_of(it.placement, "quality.min"), 0.5);
+  results_free(&r);
+  job_end(&it);
+}
+END_TEST
+
 /* Whatever the size of d is that is to be multiplied. */
 START_TEST(whole_spheres_have_as_many_nodes_as_are_wanted) {
   double d;
@@ -742,6 +773,7 @@ int main(void) {
   tcase_add_test(tests, nothing_bounds_a_whole_sphere);
   tcase_add_test(tests, whole_spheres_follow_a_new_spacing);
   tcase_add_test(tests, whole_spheres_are_closed_where_the_spacing_grows);
+  tcase_add_test(tests, whole_spheres_are_closed_where_the_spacing_is_steep);
   tcase_add_test(tests, whole_spheres_have_as_many_nodes_as_are_wanted);
   tcase_add_test(tests, whole_spheres_have_curves_and_fixed_nodes_inside);
   tcase_add_test(tests, whole_spheres_have_curves_beside_what_is_laid_first);

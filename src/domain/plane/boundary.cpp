@@ -33,6 +33,7 @@ class Layer {
       : domain_(domain), spacing_(spacing) {
     for (const BoundaryCurve& curve : domain.curves()) tracks_.emplace_back(curve);
     stations_ = lay_equal_steps(tracks_, spacing, max_nodes);
+    if (domain.closing()) leave_one_triangle();
     inner_points_.resize(tracks_.size());
     for (std::size_t c = 0; c < tracks_.size(); ++c) inner_points_[c] = points_between(c);
     halved_.assign(tracks_.size(), 0);
@@ -55,6 +56,12 @@ class Layer {
   }
 
  private:
+  // That closes a whole sphere, and has no other nodes however small d is at its edges.
+  void leave_one_triangle() {
+    for (std::size_t c = 0; c < tracks_.size(); ++c)
+      if (tracks_[c].curve().bounds()) stations_[c] = {stations_[c].front(), stations_[c].back()};
+  }
+
   std::vector<Point<2>> points_between(std::size_t curve) const {
     const std::vector<double>& stations = stations_[curve];
     return tracks_[curve].points_at({stations.begin() + 1, stations.end() - 1});

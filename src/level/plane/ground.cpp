@@ -32,8 +32,10 @@ Ground<2>::Ground(std::shared_ptr<const PlaneDomain> domain,
 void Ground<2>::require_one_triangle_left() const {
   const auto edges = std::ranges::count_if(boundary_.facets, &BoundaryEdge::bounds);
   if (edges != 3)
-    throw Error(ErrorKind::internal, "the patch that closes the sphere leaves " +
-                                         std::to_string(edges) + " edges open, not 3");
+    throw Error(ErrorKind::spacing,
+                "the spacing varies so much beside the point that is named as outside that what "
+                "closes the sphere there leaves " +
+                    std::to_string(edges) + " edges open, not 3: name another point");
 }
 
 SpacingEvaluator<2> Ground<2>::evaluator() const {
