@@ -37,6 +37,7 @@ std::vector<LedEntities> first_numbers(const Communicator& comm,
                                        const std::vector<std::int64_t>& ids,
                                        const std::vector<LedEntities>& counts, LedEntities& total) {
   std::vector<Entry> entries;
+  entries.reserve(ids.size());
   for (std::size_t k = 0; k < ids.size(); ++k) entries.push_back({ids[k], comm.rank(), counts[k]});
   if (comm.size() > 1) {
     const IdBlocks blocks(comm, std::ssize(ids),
@@ -56,6 +57,7 @@ std::vector<LedEntities> first_numbers(const Communicator& comm,
     std::ranges::sort(entries, {}, &Entry::id);
   }
   std::vector<LedEntities> first;
+  first.reserve(entries.size());
   for (const Entry& entry : entries) first.push_back(entry.led);
   return first;
 }
