@@ -266,15 +266,6 @@ class Layer {
                     "placed at distances of d");
   }
 
-  // Where these are no exceptions, a better mesh cannot be had with this boundary.
-  std::string advice_on_short_edges(std::size_t count) const {
-    constexpr std::size_t kSome = 100, kPart = 10;
-    if (count < kSome || kPart * count < ends_.size()) return "";
-    return ". That is much of the boundary, which has " + std::to_string(ends_.size()) +
-           " edges: nodes and triangles beside it cannot follow d; leave out vertices (simplify), "
-           "set the angle that makes a corner (corner_angle), or use a smaller d";
-  }
-
   void warn_of_short_edges() {
     std::vector<Worst> all;
     for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e) {
@@ -289,7 +280,7 @@ class Layer {
         " boundary edges shorter than half of it; the worst: " +
         worst_text(all, "length", domain_.chart(),
                    [this](std::int32_t e) { return track(e).curve().name; }) +
-        advice_on_short_edges(all.size()));
+        advice_on_short_edges(all.size(), ends_.size()));
   }
 
   // Nodes of one curve beside another, with the domain between: at a slit or a sharp corner. Those

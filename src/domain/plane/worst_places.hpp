@@ -43,4 +43,14 @@ std::string worst_text(std::vector<Worst>& all, const char* length, const Stereo
   return list_text(names, kNamedWorst);
 }
 
+// Of so many among all edges of the boundary: where these are no exceptions, a better mesh cannot
+// be had with this boundary.
+inline std::string advice_on_short_edges(std::size_t count, std::size_t edges) {
+  constexpr std::size_t kSome = 100, kPart = 10;
+  if (count < kSome || kPart * count < edges) return "";
+  return ". That is much of the boundary, which has " + std::to_string(edges) +
+         " edges: nodes and triangles beside it cannot follow d; leave out vertices (simplify), "
+         "set the angle that makes a corner (corner_angle), or use a smaller d";
+}
+
 }  // namespace pnpbs
