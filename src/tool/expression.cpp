@@ -68,12 +68,10 @@ struct ShapeAtPlaces {
 };
 
 thread_local ShapeAtPlaces* shape_at_places = nullptr;
-thread_local bool shape_was_asked = false;
 thread_local pnpbs_context shape_context = nullptr;
 
 // Before there is a domain, some value.
 double shape_value(const char* name, double number, const ShapeAtPlaces::Question& ask) {
-  shape_was_asked = true;
   return shape_at_places ? shape_at_places->value(name, number, ask) : 1;
 }
 
@@ -119,6 +117,14 @@ double shape_spacing(const char* name, double number, double per_turn, double ac
 
 double curvature_of(double nodes) { return shape_spacing("curvature", nodes, nodes, 0, 0); }
 double gap_of(double nodes) { return shape_spacing("gap", nodes, 0, nodes, 0); }
+
+// By the text: a branch of ?: that is not taken calls none of them.
+std::vector<std::string> shape_calls_in(const std::string& text) {
+  std::vector<std::string> calls;
+  for (const char* function : {"dist", "curvature", "gap"})
+    for (std::string& call : calls_of(function, text)) calls.push_back(std::move(call));
+  return calls;
+}
 
 void define_shape_functions(mu::Parser& parser) {
   constexpr bool fold_constants = false;  // they depend on the place
@@ -214,15 +220,29 @@ struct Expression::Parser {
   double dist = 1, seglen = 1;  // there
   bool asks_for_shape = false;  // or for fields
   bool asks_dist = false, asks_seglen = false;
+  std::vector<std::string> shape_calls;
   pnpbs_domain domain = nullptr;
   pnpbs_context context = nullptr;
 
-  void find_out() {
+  void find_out(const std::string& text) {
     const auto& used = parser.GetUsedVar();
     asks_dist = used.contains("dist");
     asks_seglen = used.contains("seglen");
     asks_for_degrees = used.contains("lon") || used.contains("lat");
-    asks_for_shape = shape_was_asked || asks_dist || asks_seglen || !fields.empty();
+    shape_calls = shape_calls_in(text);
+    asks_for_shape = !shape_calls.empty() || asks_dist || asks_seglen || !fields.empty();
+  }
+  // Whether or not the formula takes their branches here: what is wrong with one shows before the
+  // run, and what the library has to find out about the shape first, it cannot in a callback.
+  void call_all_at(const double* there) {
+    ShapeAtPlaces shape{1, there, domain};
+    const ShapeForBatch telling(shape, context, option);
+    go_to(there);
+    for (const std::string& call : shape_calls) {
+      mu::Parser alone = parser;
+      alone.SetExpr(call);
+      alone.Eval();
+    }
   }
   // A name that means something else already is no group's.
   void define_groups() {
@@ -284,10 +304,9 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
     }
     parser_->define_fields();
     parser_->define_groups();
-    shape_was_asked = false;
     parser.SetExpr(text);
     parser.Eval();
-    parser_->find_out();
+    parser_->find_out(text);
   } catch (const mu::Parser::exception_type& error) {
     fail_at(source, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
   }
@@ -308,6 +327,7 @@ void Expression::ask_shape_of(pnpbs_domain domain, pnpbs_context context) {
     for (NamedGroup& group : parser_->groups) group.tag = tag_of_group(group.name, names);
   }
   constexpr double anywhere[3] = {0, 0, 0};
+  parser_->call_all_at(anywhere);
   double value;
   at(1, anywhere, &value);
 }

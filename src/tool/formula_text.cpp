@@ -83,6 +83,27 @@ void refuse_other_hypots(const FormulaSource& source) {
   }
 }
 
+bool mentions(const std::string& formula, const std::string& name) {
+  const auto is_part = [&](std::size_t at) { return at < formula.size() && in_name(formula[at]); };
+  for (std::size_t at = formula.find(name); at != std::string::npos;
+       at = formula.find(name, at + 1))
+    if (!(at > 0 && is_part(at - 1)) && !is_part(at + name.size())) return true;
+  return false;
+}
+
+std::vector<std::string> calls_of(const std::string& function, const std::string& formula) {
+  std::vector<std::string> calls;
+  for (std::size_t at = formula.find(function); at != std::string::npos;
+       at = formula.find(function, at + 1)) {
+    const std::size_t open = formula.find_first_not_of(" \t", at + function.size());
+    if (open == std::string::npos || formula[open] != '(' || (at > 0 && in_name(formula[at - 1])))
+      continue;
+    const std::size_t end = call_at(formula, open).end;
+    if (end != std::string::npos) calls.push_back(formula.substr(at, end + 1 - at));
+  }
+  return calls;
+}
+
 std::vector<NamedGroup> groups_in(std::string& text) {
   constexpr std::string_view name = "dist";
   std::vector<NamedGroup> groups;

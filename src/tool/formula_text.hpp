@@ -24,6 +24,11 @@ struct FormulaSource {
 void refuse_what_is_no_formula(const FormulaSource& source);
 void refuse_other_hypots(const FormulaSource& source);
 
+// Does the formula have this name in it?
+bool mentions(const std::string& formula, const std::string& name);
+// All calls of a function, with their arguments, such as "gap(3)".
+std::vector<std::string> calls_of(const std::string& function, const std::string& formula);
+
 // A group that dist(NAME) asks for, and its tag as soon as there is a domain.
 struct NamedGroup {
   std::string name, identifier;  // the name in the formula's letters

@@ -9,8 +9,6 @@
 
 namespace pnpbs::tool {
 
-// Does the formula have this name in it?
-bool mentions(const std::string& formula, const std::string& name);
 std::string slope_name(const std::string& grid);
 
 // The change of the values per length, along x and y, or along a sphere; in space along z, too.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "spacing/beside_domain.hpp"
+#include "tool/formula_text.hpp"
 #include "tool/grid_coverage.hpp"
 #include "tool/grid_slope.hpp"
 

@@ -66,6 +66,16 @@ class NodeFields(CommandTest):
         table = read_csv(self.folder / "a.csv")
         np.testing.assert_allclose(table["g"], 0.2 + 0.04 * table["x"], rtol=1e-14)
 
+    def test_of_the_shape_in_a_branch(self):
+        """That places without it, such as the origin, do not ask for."""
+        table = self.table("--field", "a=x > 0.5 ? dist(1) : -1", "--field",
+                           "b=x > 0.5 && gap(2) < 0.215 ? 1 : 0", "--field", "gap=gap(2)")
+        x, y = table["x"], table["y"]
+        outside = np.minimum.reduce([x, 1 - x, y, 1 - y])
+        np.testing.assert_allclose(table["a"], np.where(x > 0.5, outside, -1), atol=1e-14)
+        np.testing.assert_array_equal(table["b"], (x > 0.5) & (table["gap"] < 0.215))
+        self.assertTrue(0 < sum(table["b"]) < sum(x > 0.5))
+
     def test_on_a_sphere(self):
         table = self.table("--sphere", "2", "--field", "a=lat", "--field", "b=lon", domain="",
                            spacing="0.3")

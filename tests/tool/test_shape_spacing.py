@@ -122,6 +122,24 @@ class ShapeSpacing(CommandTest):
         np.testing.assert_allclose(d, expected, rtol=1e-6)
         self.assertTrue(surface.any())
 
+    def test_a_branch_alone(self):
+        """That the origin does not take."""
+        for asked in ("dist(1)", "gap(2)", "curvature(9)"):
+            with self.subTest(asked):
+                d = f"min({asked}, 0.2) + 0.05"
+                self.place_body(self.square, f"x > 0.5 ? {d} : 0.1", "--field", f"d={d}", "-o", "nodes.csv",
+                                "--set", "growth_limit=0", "--set", "steps=3", "--nodes-only", "-q")
+                table = np.genfromtxt(self.folder / "nodes.csv", delimiter=",", names=True)
+                expected = np.where(table["x"] > 0.5, table["d"], 0.1)
+                np.testing.assert_allclose(table["spacing"], expected, rtol=1e-12)
+                self.assertGreater(np.sum(expected != 0.1), 10)
+        for wrong, words in (("dist(0.5)", "--spacing: dist(0.5): expected a tag"),
+                             ("gap(0)", "--spacing: gap(0): expected a number"),
+                             ("dist(77)", "argument tag = 77")):
+            with self.subTest(wrong):
+                self.assertIn(words, self.refuse("--domain", self.square, "--spacing",
+                                                 f"x > 0.5 ? {wrong} : 0.1", "-o", "a.csv"))
+
     def test_numbers_that_are_none(self):
         for text in ("curvature(0)", "curvature(-3)", "curvature()", "curvature", "seglen(2)"):
             with self.subTest(text):
