@@ -324,7 +324,8 @@ void Expression::ask_shape_of(pnpbs_domain domain, pnpbs_context context) {
   if (!parser_->asks_for_shape) return;
   if (!parser_->groups.empty()) {
     const std::vector<GroupName> names = group_names(domain, context);
-    for (NamedGroup& group : parser_->groups) group.tag = tag_of_group(group.name, names);
+    for (NamedGroup& group : parser_->groups)
+      group.tag = tag_of_group(group.name, names, parser_->option);
   }
   constexpr double anywhere[3] = {0, 0, 0};
   parser_->call_all_at(anywhere);

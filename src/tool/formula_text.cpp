@@ -135,7 +135,8 @@ std::vector<NamedGroup> groups_in(std::string& text) {
   return groups;
 }
 
-double tag_of_group(const std::string& group, const std::vector<GroupName>& names) {
+double tag_of_group(const std::string& group, const std::vector<GroupName>& names,
+                    const std::string& option) {
   std::vector<std::string> known;
   const GroupName* found = nullptr;
   for (const GroupName& each : names) {
@@ -145,7 +146,7 @@ double tag_of_group(const std::string& group, const std::vector<GroupName>& name
   if (found) return found->tag;
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-  throw BadInput("--spacing: dist(" + group + "): the domain has no group of that name" +
+  throw BadInput(option + ": dist(" + group + "): the domain has no group of that name" +
                  did_you_mean(group, known) +
                  (known.empty() ? " (it has no named ones)" : " (it has: " + list + ")"));
 }

@@ -39,7 +39,9 @@ struct NamedGroup {
 // underscores in the text, so that places in it stay where they are.
 std::vector<NamedGroup> groups_in(std::string& text);
 
-// Of curves or surfaces before nodes. Throws BadInput with the names that there are.
-double tag_of_group(const std::string& group, const std::vector<GroupName>& names);
+// Of curves or surfaces before nodes. Throws BadInput with the names that there are, for the option
+// that the formula was given by.
+double tag_of_group(const std::string& group, const std::vector<GroupName>& names,
+                    const std::string& option);
 
 }  // namespace pnpbs::tool

@@ -99,6 +99,7 @@ class NodeFields(CommandTest):
                 (("--field", "a b=x"), "--field a b: argument name"),
                 (("--field", "a=x + q"), "--field a, position 5: unknown name 'q'"),
                 (("--field", "a=dist(0.5)"), "--field a: dist(0.5): expected a tag"),
+                (("--field", "a=dist(hole)"), "--field a: dist(hole): the domain has no group"),
                 (("--field", "a=1/dist"), "--field a: expected finite values, found inf at (0, 0)"),
                 (("--spacing-grid", "h=h.asc", "--field", "a=x"),
                  "--spacing-grid: no formula of --spacing and --field uses 'h'")):
