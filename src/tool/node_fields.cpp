@@ -24,6 +24,18 @@ std::string without_spaces(const std::string& name) {
   return first == std::string::npos ? "" : name.substr(first, last + 1 - first);
 }
 
+// Names that columns of files have, or fields that other options add after the run.
+void refuse_taken(const std::string& name, const Arguments& arguments) {
+  const bool masses = arguments.density.has_value();
+  const bool volumes = arguments.volumes || masses || arguments.at_centres;
+  const bool is_taken = name == "x" || name == "y" || name == "z" ||
+                        (volumes && name == "volume") ||
+                        (masses && (name == "density" || name == "mass"));
+  if (is_taken)
+    throw BadInput(std::string(option) + ": files have '" + name +
+                   "' already; choose another name");
+}
+
 }  // namespace
 
 NodeFields::NodeFields(const Arguments& arguments, int dimension, const NamedGrids& grids)
@@ -33,6 +45,7 @@ NodeFields::NodeFields(const Arguments& arguments, int dimension, const NamedGri
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       throw BadInput(std::string(option) + ": expected NAME=FORMULA, found '" + text + "'");
     Field field{without_spaces(text.substr(0, equals)), text.substr(equals + 1), nullptr};
+    refuse_taken(field.name, arguments);
     for (const Field& other : fields_)
       if (other.name == field.name)
         throw BadInput(std::string(option) + ": '" + field.name + "' is given twice");
