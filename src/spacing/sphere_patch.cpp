@@ -86,6 +86,18 @@ std::array<double, 3> shares_below(const std::array<Point<3>, 3>& corners, const
   return shares;
 }
 
+// Beyond the triangle rays get long, and at 90 degrees from it none meets its plane. So where they
+// are longer than the radius, the field goes on from there in space, with the mean of the corners
+// at the centre of the sphere: that is bounded.
+std::array<double, 3> shares_beyond(const std::array<Point<3>, 3>& corners, const Point<3>& x) {
+  std::array<double, 3> shares = shares_below(corners, x);
+  const double whole = volume_below(corners);
+  const double missing = whole - (shares[0] + shares[1] + shares[2]);
+  if (missing * whole > 0)
+    for (double& share : shares) share += missing / 3;
+  return shares;
+}
+
 // Is x on a ray from the centre through the triangle?
 bool is_above(const std::array<Point<3>, 3>& corners, const Point<3>& x) {
   const int whole = turn_below(corners);
@@ -156,7 +168,8 @@ PatchWeights<2> SpherePatch::weights(const Point<3>& x, std::int32_t row) const 
   return weights_in(
       patch_, x, row,
       [&](const std::array<std::int32_t, 3>& triangle) {
-        return shares_below(SphereCorners<3>(patch_, triangle).x, x);
+        const SphereCorners<3> corners(patch_, triangle);
+        return row >= 0 ? shares_below(corners.x, x) : shares_beyond(corners.x, x);
       },
       [&](const std::array<std::int32_t, 2>& side) {
         return std::array<double, 1>{nearest_on_arc(SphereCorners<2>(patch_, side).x, x)};

@@ -177,12 +177,36 @@ START_TEST(weights_make_up_the_answer) {
       continue;
     }
     const std::array<double, 3> parts = parts_of(patch, w.nodes, x);
-    for (std::size_t k = 0; k < 3; ++k)
-      quick_assert(std::fabs(w.weights[k] - parts[k] / (parts[0] + parts[1] + parts[2])) < 1e-9);
+    const double all = parts[0] + parts[1] + parts[2];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double expected = all > 1 ? parts[k] / all : parts[k] + (1 - all) / 3;
+      quick_assert(std::fabs(w.weights[k] - expected) < 1e-9);
+    }
   }
   const Triangle& t = patch.simplices[17];
   const pnpbs::PatchWeights<2> w = one.weights(node(patch, t[1]), 17);
   quick_assert(w.inside && w.weights[0] == 0 && w.weights[1] == 1 && w.weights[2] == 0);
+}
+END_TEST
+
+// At 90 degrees from a triangle no ray meets its plane, and farther away only those backwards do.
+START_TEST(weights_are_bounded_far_away) {
+  Patch patch;
+  constexpr double kSide = 0.1;
+  for (const P& x : {P{1, 0, 0}, P{1, kSide, 0}, P{1, 0, kSide}})
+    patch.nodes.push_back({on_sphere(x), std::ssize(patch.nodes), 0});
+  patch.simplices = {{0, 1, 2}};
+  patch.border = {{0, 1}, {0, 2}, {1, 2}};
+  patch.behind = {2, 1, 0};
+  const SpherePatch one(patch, kRadius);
+  constexpr int kSteps = 720;
+  for (int k = 0; k < kSteps; ++k) {
+    const double angle = 2 * std::acos(-1.0) * k / kSteps;
+    for (const P& x :
+         {P{std::cos(angle), std::sin(angle), 0}, P{std::cos(angle), 0, std::sin(angle)}})
+      for (const double weight : one.weights(on_sphere(x), ask({one}, on_sphere(x)).row).weights)
+        quick_assert(std::fabs(weight) < 2 / kSide);
+  }
 }
 END_TEST
 
@@ -216,7 +240,7 @@ START_TEST(the_same_however_distributed) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("sphere_patch",
-                          {interpolates_on_the_ray_and_extends_from_the_border,
-                           weights_make_up_the_answer, the_same_however_distributed});
+  return run_kernel_suite("sphere_patch", {interpolates_on_the_ray_and_extends_from_the_border,
+                                           weights_make_up_the_answer, weights_are_bounded_far_away,
+                                           the_same_however_distributed});
 }
