@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// At how many nodes a grid that d is made of has values of its own.
+// At how many nodes a grid in a formula, or one that is d, has values of its own.
 #pragma once
 
 #include <cstdint>
