@@ -231,7 +231,7 @@ void add_output(CLI::App& app, Arguments& arguments) {
   app.add_flag("--volumes", arguments.volumes,
                "the volume of each node's Voronoi cell (areas in the plane and on\n"
                "surfaces), as the field volume in .vtu, .pvtu, .vtkhdf, .xdmf,\n"
-               ".msh, .msh2 and .csv; figures in the report and the summary")
+               ".msh, .msh2, .csv and .ugrid; figures in the report and the summary")
       ->group(group);
   app.add_option("--density", arguments.density,
                  "density of the matter that nodes stand for, a number or a formula\n"
@@ -240,9 +240,9 @@ void add_output(CLI::App& app, Arguments& arguments) {
       ->type_name("EXPR")
       ->group(group);
   add_repeatable(app, "--field", arguments.fields,
-                 "field of the nodes in files (as those of --volumes, and the depth in\n"
-                 ".gr3 and .2dm): values of a formula in what --spacing knows, names\n"
-                 "of --spacing-grid among it; may be given several times");
+                 "field of the nodes in the files that have that of --volumes, and, with\n"
+                 "the name depth, in .gr3 and .2dm: values of a formula with the names\n"
+                 "of --spacing and --spacing-grid; may be given several times");
   app.get_option("--field")->type_name("NAME=EXPR")->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
   app.add_option_function<std::string>(
