@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/exact_sum.hpp"
-#include "base/point_text.hpp"
 #include "tool/numbers.hpp"
+#include "tool/place_text.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -17,11 +17,6 @@ namespace {
 }
 
 bool is_density(double value) { return value > 0 && std::isfinite(value); }
-
-std::string place_in_words(const double* x, int dimension) {
-  if (dimension == 2) return rounded_point_text<2>({x[0], x[1]});
-  return rounded_point_text<3>({x[0], x[1], x[2]});
-}
 
 }  // namespace
 
@@ -38,7 +33,7 @@ std::vector<double> Density::at(std::span<const double> x) const {
   formula_.at(std::ssize(densities), x.data(), densities.data());
   for (std::size_t i = 0; i < densities.size(); ++i)
     if (!is_density(densities[i]))
-      refuse(densities[i], " at " + place_in_words(&x[dimension * i], dimension_));
+      refuse(densities[i], " at " + place_text(&x[dimension * i], dimension_));
   return densities;
 }
 

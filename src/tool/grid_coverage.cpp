@@ -5,10 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "base/places_in_text.hpp"
-#include "base/point_text.hpp"
-#include "sphere/degrees.hpp"
 #include "tool/density.hpp"
+#include "tool/place_text.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -69,12 +67,8 @@ std::string GridCoverage::grid_in_words() const {
 }
 
 std::string GridCoverage::text_of(const Nodes& nodes, const std::string& what) const {
-  const auto& [x, y, z] = nodes.first;
-  const std::string place = on_sphere_        ? "(" + degrees_text(degrees_of(nodes.first)) + ")"
-                            : dimension_ == 2 ? point_text(Point<2>{x, y})
-                                              : point_text(nodes.first);
   return "of " + std::to_string(nodes_) + " nodes, " + std::to_string(nodes.count) + " lie " +
-         what + ", one of them at " + place;
+         what + ", one of them at " + place_text(nodes.first.data(), dimension_, on_sphere_);
 }
 
 std::string GridCoverage::words_for_nowhere() const {

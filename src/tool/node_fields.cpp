@@ -3,20 +3,13 @@
 
 #include <cmath>
 
-#include "base/point_text.hpp"
-#include "sphere/degrees.hpp"
 #include "tool/numbers.hpp"
+#include "tool/place_text.hpp"
 
 namespace pnpbs::tool {
 namespace {
 
 constexpr const char* option = "--field";
-
-std::string place_text(const double* x, int dimension, bool on_sphere) {
-  if (dimension == 2) return rounded_point_text<2>({x[0], x[1]});
-  const Point<3> place{x[0], x[1], x[2]};
-  return on_sphere ? "(" + degrees_text(degrees_of(place)) + ")" : rounded_point_text<3>(place);
-}
 
 // At its ends.
 std::string without_spaces(const std::string& name) {
