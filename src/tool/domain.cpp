@@ -65,7 +65,7 @@ std::string with_advice(const std::string& message) {
   const bool is_crossed = message.find(" cross at ") != std::string::npos ||
                           message.find(" overlap at ") != std::string::npos;
   return is_crossed ? message +
-                          "\nUnite polygons that cross before: docs/guide/shapes.md, "
+                          "\nUnite crossing polygons first: docs/guide/shapes.md, "
                           "'Polygons that cross'"
                     : message;
 }
