@@ -68,10 +68,10 @@ pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t
   });
 }
 
-// Or of none, where there is none.
+// Or of none, where there is none. From which point it is seen does not matter in space.
 bool is_of_sphere(const std::optional<StereographicChart>& chart,
                   const StereographicChart* sphere) {
-  return sphere ? chart == *sphere : !chart;
+  return sphere ? chart && chart->radius() == sphere->radius() : !chart;
 }
 
 }  // namespace

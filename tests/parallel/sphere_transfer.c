@@ -217,6 +217,44 @@ static void check_integrals(int shape) {
   pnpbs_placement_destroy(&placement);
 }
 
+/* ---------------------------------------------------------------- spheres ---------------- */
+
+/* From the globe to a sea on it, which is seen from another point. */
+static void check_another_point(void) {
+  pnpbs_placement globe = placed(GLOBE, 500), sea = placed(SEA, 500);
+  pnpbs_transfer transfer = transfer_of(globe);
+  struct nodes v = get_nodes(sea);
+  double* values = at_nodes(transfer, sea, 0);
+  int64_t i;
+  for (i = 0; i < v.n; ++i) {
+    expect(fabs(values[FIELDS * i] - 1 / 3.0) < 1e-15, "a constant field on a sea");
+    expect(fabs(values[FIELDS * i + SMOOTH] - field(SMOOTH, v.x + 3 * i)) < 0.03,
+           "a smooth field on a sea");
+  }
+  free(values), free_nodes(&v);
+  pnpbs_transfer_destroy(&transfer);
+  pnpbs_placement_destroy(&sea);
+  pnpbs_placement_destroy(&globe);
+}
+
+static void check_another_radius(void) {
+  const double outside[3] = {0, 0, 1};
+  double value;
+  pnpbs_placement globe = placed(GLOBE, 700), larger;
+  pnpbs_transfer transfer = transfer_of(globe);
+  pnpbs_domain domain;
+  pnpbs_domain_create_sphere(context, 1.001 * R, outside, &domain);
+  pnpbs_placement_create(context, domain, &larger);
+  pnpbs_domain_destroy(&domain);
+  pnpbs_placement_set_spacing_constant(larger, 1000);
+  expect(pnpbs_placement_initialise(larger) >= 0, "a larger sphere");
+  expect(pnpbs_transfer_at_nodes(transfer, larger, 0, 1, &value) == PNPBS_ERROR_ARGUMENT,
+         "another radius is refused");
+  pnpbs_transfer_destroy(&transfer);
+  pnpbs_placement_destroy(&larger);
+  pnpbs_placement_destroy(&globe);
+}
+
 /* ---------------------------------------------------------------- bits ------------------- */
 
 /* Over this rank's values, so that neither order nor owners matter. */
@@ -269,5 +307,8 @@ int main(int argc, char** argv) {
       check_integrals(shape);
       if (order == 2) check_same_bits(shape); /* which is linear, too, and more */
     }
+  order = 1;
+  check_another_point();
+  check_another_radius();
   return end_ranks();
 }
