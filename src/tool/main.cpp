@@ -277,8 +277,7 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
                       work.body_of_particles(), context, ranks);
   wishes.fields->add_to(placement, matter.particles, domain, context, ranks);
   const std::vector<std::string> of_grids =
-      wishes.spacing->is_grid() ? std::vector<std::string>()
-                                : wishes.grids->warnings(placement, domain, context, ranks);
+      wishes.grids->warnings(placement, domain, context, ranks, wishes.spacing->is_grid());
   if (work.talks()) warn(of_grids);
   const std::vector<std::string> warnings =
       for_report(arguments, geo, context, placement, of_grids);

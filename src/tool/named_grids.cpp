@@ -131,11 +131,12 @@ std::string NamedGrids::extents_in_words(const NamedGrid& grid, pnpbs_domain dom
 }
 
 std::vector<std::string> NamedGrids::warnings(pnpbs_placement placement, pnpbs_domain domain,
-                                              pnpbs_context context, const Ranks& ranks) const {
+                                              pnpbs_context context, const Ranks& ranks,
+                                              bool library_warns) const {
   std::vector<std::string> warnings;
   for (const auto& each : grids_) {
     const GridCoverage coverage(*each, placement, dimension_, sphere_, context, ranks);
-    if (const std::string words = coverage.words_for_beyond(); !words.empty())
+    if (const std::string words = coverage.words_for_beyond(); !words.empty() && !library_warns)
       warnings.push_back(words + ". " + extents_in_words(*each, domain, context));
     if (const std::string words = coverage.words_for_without_data(); !words.empty())
       warnings.push_back(words);

@@ -38,9 +38,11 @@ class NamedGrids {
   // Once there are nodes: each grid has a value at some of them. Collective. Throws Failure.
   void require_values(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                       const Ranks& ranks) const;
-  // Of grids that do not reach all nodes, or have no data there; on the first rank. Collective.
+  // Of grids that do not reach all nodes, unless the library warns of that, or have no data there;
+  // on the first rank. Collective.
   std::vector<std::string> warnings(pnpbs_placement placement, pnpbs_domain domain,
-                                    pnpbs_context context, const Ranks& ranks) const;
+                                    pnpbs_context context, const Ranks& ranks,
+                                    bool library_warns) const;
 
  private:
   std::string option_of(const NamedGrid& grid) const;

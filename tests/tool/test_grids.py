@@ -2,6 +2,7 @@
 """--spacing-grid beside and across the domain, and in formulas."""
 
 import json
+import re
 import unittest
 
 import numpy as np
@@ -61,6 +62,22 @@ class Coverage(GridsTest):
                               r"reaches from \(-0.7, -0.1\) to \(0.5, 1.1\), the domain from \(0, 0\) "
                               r"to \(1, 1\)")
         self.assertEqual(len([w for w in report["warnings"] if "covers only" in w]), 1)
+
+    def test_gaps_of_a_grid_alone(self):
+        """The library, which takes it as it is, knows of none."""
+        gap = grid().replace("cellsize", "nodata_value -1\ncellsize").replace("0.06 0.08", "0.06 -1", 2)
+        name = self.write(gap)
+        for more in ((), ("--field", "g=2*grid")):
+            _, _, err = self.on_square("--spacing-grid", name, *more)
+            self.assertNotIn("gaps", err)  # each cell without data has data beside it
+        name = self.write(gap.replace("-1 0.1", "-1 -1"))
+        for more in ((), ("--field", "g=2*grid")):
+            table, report, err = self.on_square("--spacing-grid", name, *more)
+            found = re.search(r"has gaps in the domain: of [0-9]+ nodes, ([0-9]+) lie", err)
+            # Centres of cells are at -0.1 + 0.15 + 0.3 k; the last two of the upper rows have none.
+            without = (table["x"] > 0.65) & (table["y"] > 0.65)
+            self.assertEqual(int(found[1]), np.sum(without))
+            self.assertIn(found[0], report["warnings"][-1])
 
     def test_none_of_the_domain(self):
         ask = ("--domain", self.square, "-o", "a.csv", "--spacing-grid")
