@@ -278,7 +278,8 @@ contains
   !> Local.
   !>   coordinates  (2, n)
   !>   values       (n)
-  !>   inside       optional: (n), false where a point lies beyond the edge, to half a cell
+  !>   inside       optional: (n), false where a point lies beyond the edge, to half a cell; true also
+  !>                where no cell around it has data
   subroutine grid_values(self, coordinates, values, inside, stat, errmsg)
     class(pnpbs_geo_grid), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)

@@ -70,6 +70,16 @@ std::vector<double> integrals(const Communicator& comm, const Space& space,
   return results;
 }
 
+// All within the elements and about as far beyond the border as they reach. Farther away the
+// corners' polynomials tell nothing of the field, and it goes on linearly.
+template <int Dim>
+double part_of_curvature(const PatchWeights<Dim>& w) {
+  constexpr double kAll = 5, kNone = 9;  // sums of the weights' sizes, which are 1 within
+  double sum = 0;
+  for (const double weight : w.weights) sum += std::fabs(weight);
+  return std::clamp((kNone - sum) / (kNone - kAll), 0.0, 1.0);
+}
+
 template <class Space>
 class FieldTransferOf : public FieldTransfer {
  public:
@@ -101,7 +111,8 @@ class FieldTransferOf : public FieldTransfer {
 
   std::vector<Message> answered(const std::vector<Message>& asked) const;
   void answer(const Question& question, double* values) const;
-  void add_curvature(const Point<In>& x, const PatchWeights<Dim>& w, double* values) const;
+  void add_curvature(const Point<In>& x, const PatchWeights<Dim>& w, double part,
+                     double* values) const;
   void conserve_integrals(Results<Dim>& results, double* values) const;
 
   Space space_;
@@ -130,14 +141,15 @@ void FieldTransferOf<Space>::answer(const Question& question, double* values) co
     }
     values[c] = value;
   }
-  if (fits_) add_curvature(question.x, w, values);
+  const double part = part_of_curvature(w);
+  if (fits_ && part > 0) add_curvature(question.x, w, part, values);
 }
 
 // From what is linear to the corners' polynomials, each of which counts as its corner does; so the
 // field is continuous, and one of second order is met. A corner without one stays linear.
 template <class Space>
 void FieldTransferOf<Space>::add_curvature(const Point<In>& x, const PatchWeights<Dim>& w,
-                                           double* values) const {
+                                           double part, double* values) const {
   for (std::int64_t c = 0; c < components_; ++c) {
     double sum = 0;
     for (std::size_t k = 0; k <= Dim; ++k) {
@@ -145,7 +157,7 @@ void FieldTransferOf<Space>::add_curvature(const Point<In>& x, const PatchWeight
       const double at_corner = values_[static_cast<std::size_t>(w.nodes[k] * components_ + c)];
       sum += w.weights[k] * (at_corner - values[c] + fits_->rise(w.nodes[k], c, x));
     }
-    values[c] += sum;
+    values[c] += part * sum;
   }
 }
 

@@ -93,11 +93,11 @@ std::string warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>
   if (beyond.count == 0) return "";
   const std::string name = extent->name;
   if (beyond.count == static_cast<std::int64_t>(all) && chart_of(domain))
-    throw AgreedError(ErrorKind::spacing,
-                      "the " + name + " of the spacing does not meet the domain: all " +
-                          std::to_string(all) +
-                          " nodes are farther than d from it, one of them at " +
-                          rounded_point_text<Dim>(beyond.at) + reach_text(*extent, domain));
+    throw AgreedError(ErrorKind::spacing, "the " + name +
+                                              " of the spacing does not meet the domain: all " +
+                                              std::to_string(all) +
+                                              " nodes are farther than d from it, one of them at " +
+                                              point_text(beyond.at) + reach_text(*extent, domain));
   return "the " + name + " of the spacing covers only a part of the domain: of " +
          std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
          " are farther than d from it, one of them at " + rounded_point_text<Dim>(beyond.at) +

@@ -21,7 +21,8 @@ std::string without_spaces(const std::string& name) {
 void refuse_taken(const std::string& name, const Arguments& arguments) {
   const bool masses = arguments.density.has_value();
   const bool volumes = arguments.volumes || masses || arguments.at_centres;
-  const bool is_taken = name == "x" || name == "y" || name == "z" ||
+  const bool is_taken = name == "x" || name == "y" || name == "z" || name == "region" ||
+                        name == "boundary_tag" || name == "mesh" || name.starts_with("mesh_") ||
                         (volumes && name == "volume") ||
                         (masses && (name == "density" || name == "mass"));
   if (is_taken)
@@ -38,6 +39,8 @@ NodeFields::NodeFields(const Arguments& arguments, int dimension, const NamedGri
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       throw BadInput(std::string(option) + ": expected NAME=FORMULA, found '" + text + "'");
     Field field{without_spaces(text.substr(0, equals)), text.substr(equals + 1), nullptr};
+    if (field.name.starts_with('-'))
+      throw BadInput(std::string(option) + ": '" + field.name + "' begins with no letter");
     refuse_taken(field.name, arguments);
     for (const Field& other : fields_)
       if (other.name == field.name)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the user wants, but for what can be told with a domain only.
+// What the user asks for, before there is a domain.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace pnpbs::tool {
 
-// What is wrong with the words of the user, before anything is done.
+// Made before anything is done, so that mistakes of the user are told first.
 struct Wishes {
   std::optional<Outputs> outputs;
   std::optional<DomainSource> source;
@@ -38,6 +38,9 @@ struct Wishes {
       require_use_of_grids();
     });
   }
+
+  Wishes(const Wishes&) = delete;  // formulas refer to the grids
+  Wishes& operator=(const Wishes&) = delete;
 
  private:
   void require_use_of_grids() const {

@@ -130,6 +130,17 @@ static double error_about_the_point(pnpbs_transfer transfer) {
   return largest;
 }
 
+/* Beyond the sea, as far as it goes, nothing is known of the field; but it stays bounded. */
+static void check_is_bounded(pnpbs_transfer transfer) {
+  enum { N = 40 };
+  double degrees[2 * N], x[3 * N], values[FIELDS * N];
+  int i;
+  for (i = 0; i < N; ++i) degrees[2 * i] = 37 * i, degrees[2 * i + 1] = 30 + 60.0 * i / (N - 1);
+  pnpbs_sphere_points(R, N, degrees, x);
+  expect(pnpbs_transfer_at_points(transfer, N, x, values) == PNPBS_OK, "at points far away");
+  for (i = 0; i < N; ++i) expect(fabs(values[FIELDS * i + SMOOTH]) < 15, "a bounded field");
+}
+
 static void check_order(int shape) {
   double error[2];
   int k;
@@ -138,6 +149,7 @@ static void check_order(int shape) {
     pnpbs_transfer transfer = transfer_of(placement);
     pnpbs_placement_destroy(&placement);
     error[k] = error_about_the_point(transfer);
+    if (shape == SEA) check_is_bounded(transfer);
     pnpbs_transfer_destroy(&transfer);
   }
   if (rank == 0) printf("shape %d, order %d: %g, %g\n", shape, order, error[0], error[1]);

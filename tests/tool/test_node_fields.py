@@ -95,6 +95,8 @@ class NodeFields(CommandTest):
                 (("--field", "x"), "expected NAME=FORMULA, found 'x'"),
                 (("--field", "=x"), "expected NAME=FORMULA"),
                 (("--field", "a=x", "--field", "a=y"), "--field: 'a' is given twice"),
+                (("--field", "mesh_edge=x"), "--field: files have 'mesh_edge' already"),
+                (("--field", "-a=x"), "--field: '-a' begins with no letter"),
                 (("--field", "x=y"), "--field: files have 'x' already"),
                 (("--field", "volume=y", "--volumes"), "--field: files have 'volume' already"),
                 (("--field", "mass=y", "--density", "2"), "--field: files have 'mass' already"),

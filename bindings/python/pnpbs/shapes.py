@@ -243,7 +243,7 @@ class GeoGrid(Handle):
 
     def inside(self, points: ArrayLike) -> "np.ndarray[Any, np.dtype[np.bool_]]":
         """Returns whether points, (n, 2), lie in the grid, or less than half a cell beyond its
-        edge."""
+        edge; also where no cell around them has data."""
         return np.asarray(self._asked(points)[1] != 0)
 
     def slopes(self, points: ArrayLike, radius: float = 0.0) -> Doubles:

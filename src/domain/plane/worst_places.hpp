@@ -43,8 +43,7 @@ std::string worst_text(std::vector<Worst>& all, const char* length, const Stereo
   return list_text(names, kNamedWorst);
 }
 
-// Of so many among all edges of the boundary: where these are no exceptions, a better mesh cannot
-// be had with this boundary.
+// Where many of all edges of the boundary are short, no d makes a better mesh of it.
 inline std::string advice_on_short_edges(std::size_t count, std::size_t edges) {
   constexpr std::size_t kSome = 100, kPart = 10;
   if (count < kSome || kPart * count < edges) return "";

@@ -225,7 +225,8 @@ grid_values(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[1]
 """
     inside_grid(grid, points) -> BitVector
 
-Returns whether points, `2 x n`, lie in the grid, or less than half a cell beyond its edge.
+Returns whether points, `2 x n`, lie in the grid, or less than half a cell beyond its edge; also where
+no cell around them has data.
 """
 inside_grid(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[2] .!= 0
 
