@@ -10,10 +10,12 @@ namespace pnpbs {
 
 inline constexpr double kDegree = std::numbers::pi / 180;  // radians
 
-// Longitude and latitude of a place on a sphere about the origin; 0 and 0 of the origin.
-inline Point<2> degrees_of(const Point<3>& x) {
-  return {std::atan2(x[1], x[0]) / kDegree, std::atan2(x[2], std::hypot(x[0], x[1])) / kDegree};
+// Of a place on a sphere about the origin; 0 and 0 of the origin.
+inline double longitude_of(const Point<3>& x) { return std::atan2(x[1], x[0]) / kDegree; }
+inline double latitude_of(const Point<3>& x) {
+  return std::atan2(x[2], std::hypot(x[0], x[1])) / kDegree;
 }
+inline Point<2> degrees_of(const Point<3>& x) { return {longitude_of(x), latitude_of(x)}; }
 
 // Of length 1, as rounding leaves it: the poles are not exact.
 inline Point<3> direction_at(const Point<2>& degrees) {

@@ -216,7 +216,7 @@ struct Expression::Parser {
   int dimension;
   double place[3] = {0, 0, 0};
   double lon = 0, lat = 0;  // degrees, there
-  bool asks_for_degrees = false;
+  bool asks_lon = false, asks_lat = false;
   double dist = 1, seglen = 1;  // there
   bool asks_for_shape = false;  // or for fields
   bool asks_dist = false, asks_seglen = false;
@@ -228,7 +228,8 @@ struct Expression::Parser {
     const auto& used = parser.GetUsedVar();
     asks_dist = used.contains("dist");
     asks_seglen = used.contains("seglen");
-    asks_for_degrees = used.contains("lon") || used.contains("lat");
+    asks_lon = used.contains("lon");
+    asks_lat = used.contains("lat");
     shape_calls = shape_calls_in(text);
     asks_for_shape = !shape_calls.empty() || asks_dist || asks_seglen || !fields.empty();
   }
@@ -264,10 +265,9 @@ struct Expression::Parser {
   }
   void go_to(const double* there) {
     std::copy_n(there, dimension, place);
-    if (!asks_for_degrees) return;
-    const auto [longitude, latitude] = degrees_of({place[0], place[1], place[2]});
-    lon = longitude;
-    lat = latitude;
+    const Point<3> x{place[0], place[1], place[2]};
+    if (asks_lon) lon = longitude_of(x);
+    if (asks_lat) lat = latitude_of(x);
   }
   double value() {
     if (asks_dist) dist = distance_to(0);
