@@ -5,15 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "rank_program.h"
+#include "transfer_program.h"
 
 static const double R = 6371.22, kPoint[2] = {20, -30}; /* the latter is projected from */
 enum { CONSTANT, SMOOTH, FIELDS };
 enum { GLOBE, SEA, SHAPES, CAP = SHAPES };
 
 static int order;
-
-static void* array(int64_t n, size_t of) { return calloc((size_t)n + 1, of); }
 
 /* ---------------------------------------------------------------- nodes ------------------ */
 
@@ -52,22 +50,6 @@ static pnpbs_placement placed(int shape, double d) {
   return placement;
 }
 
-struct nodes {
-  int64_t n, *ids;
-  double* x;
-};
-
-static struct nodes get_nodes(pnpbs_placement placement) {
-  struct nodes v;
-  pnpbs_placement_count(placement, &v.n);
-  v.ids = array(v.n, sizeof(int64_t));
-  v.x = array(3 * v.n, sizeof(double));
-  expect(pnpbs_placement_get_nodes(placement, v.n, v.x, v.ids, NULL, NULL) == PNPBS_OK, "nodes");
-  return v;
-}
-
-static void free_nodes(struct nodes* v) { free(v->ids), free(v->x); }
-
 /* ---------------------------------------------------------------- fields ----------------- */
 
 static double field(int which, const double* x) {
@@ -96,15 +78,6 @@ static pnpbs_transfer transfer_of(pnpbs_placement placement) {
       "linear nodes");
   free(values), free_nodes(&v);
   return transfer;
-}
-
-static double* at_nodes(pnpbs_transfer transfer, pnpbs_placement placement, int conserve) {
-  int64_t n;
-  double* values;
-  pnpbs_placement_count(placement, &n);
-  values = array(FIELDS * n, sizeof(double));
-  expect(pnpbs_transfer_at_nodes(transfer, placement, conserve, n, values) == PNPBS_OK, "at nodes");
-  return values;
 }
 
 /* ---------------------------------------------------------------- order ------------------ */
@@ -274,19 +247,6 @@ static void check_another_radius(void) {
 
 /* ---------------------------------------------------------------- bits ------------------- */
 
-/* Over this rank's values, so that neither order nor owners matter. */
-static uint64_t hash_of(const struct nodes* v, const double* values) {
-  uint64_t hash = 0, bits;
-  int64_t i;
-  for (i = 0; i < FIELDS * v->n; ++i) {
-    memcpy(&bits, values + i, sizeof bits);
-    bits = (bits ^ (uint64_t)v->ids[i / FIELDS] * 0x9e3779b97f4a7c15u) + (uint64_t)(i % FIELDS);
-    bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9u;
-    hash += (bits ^ bits >> 27) * 0x94d049bb133111ebu;
-  }
-  return hash;
-}
-
 static uint64_t hash_after_a_change(int shape) {
   pnpbs_placement placement = placed(shape, 500);
   pnpbs_transfer transfer = transfer_of(placement);
@@ -296,7 +256,7 @@ static uint64_t hash_after_a_change(int shape) {
   run_with(placement, 400);
   v = get_nodes(placement);
   values = at_nodes(transfer, placement, 1);
-  hash = hash_of(&v, values);
+  hash = hash_of(&v, FIELDS, values);
   free(values), free_nodes(&v);
   pnpbs_transfer_destroy(&transfer);
   pnpbs_placement_destroy(&placement);

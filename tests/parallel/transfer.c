@@ -9,13 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "rank_program.h"
+#include "transfer_program.h"
 
 static int order;
 
 static int message_has(const char* text) { return strstr(pnpbs_last_error(context), text) != NULL; }
-
-static void* array(int64_t n, size_t of) { return calloc((size_t)n + 1, of); }
 
 /* ---------------------------------------------------------------- nodes ------------------ */
 
@@ -51,24 +49,6 @@ static void run_with(pnpbs_placement placement, double d) {
   expect(pnpbs_placement_set_spacing_constant(placement, d) == PNPBS_OK, "spacing");
   expect(pnpbs_placement_run(placement) >= 0, "run again");
 }
-
-struct nodes {
-  int32_t dim;
-  int64_t n, *ids;
-  double* x;
-};
-
-static struct nodes get_nodes(pnpbs_placement placement) {
-  struct nodes v;
-  pnpbs_placement_dimension(placement, &v.dim);
-  pnpbs_placement_count(placement, &v.n);
-  v.ids = array(v.n, sizeof(int64_t));
-  v.x = array(v.dim * v.n, sizeof(double));
-  expect(pnpbs_placement_get_nodes(placement, v.n, v.x, v.ids, NULL, NULL) == PNPBS_OK, "nodes");
-  return v;
-}
-
-static void free_nodes(struct nodes* v) { free(v->ids), free(v->x); }
 
 /* ---------------------------------------------------------------- fields ----------------- */
 
@@ -117,15 +97,6 @@ static pnpbs_transfer transfer_of(pnpbs_placement placement, shape s) {
          "sizes");
   free(values), free_nodes(&v);
   return transfer;
-}
-
-static double* at_nodes(pnpbs_transfer transfer, pnpbs_placement placement, int conserve) {
-  int64_t n;
-  double* values;
-  pnpbs_placement_count(placement, &n);
-  values = array(FIELDS * n, sizeof(double));
-  expect(pnpbs_transfer_at_nodes(transfer, placement, conserve, n, values) == PNPBS_OK, "at nodes");
-  return values;
 }
 
 /* The largest error of a field over all ranks. */
@@ -287,21 +258,6 @@ static void check_integrals(shape s, double d) {
   pnpbs_placement_destroy(&placement);
 }
 
-/* Over this rank's values, so that neither order nor owners matter. */
-static uint64_t hash_of(const struct nodes* v, const double* values) {
-  uint64_t hash = 0, bits;
-  int64_t i;
-  int which;
-  for (i = 0; i < v->n; ++i)
-    for (which = 0; which < FIELDS; ++which) {
-      memcpy(&bits, values + FIELDS * i + which, sizeof bits);
-      bits = (bits ^ (uint64_t)v->ids[i] * 0x9e3779b97f4a7c15u) + (uint64_t)which;
-      bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9u;
-      hash += (bits ^ bits >> 27) * 0x94d049bb133111ebu;
-    }
-  return hash;
-}
-
 /* Of all values after a change of d, with and without their integrals. */
 static void hashes(shape s, double d, uint64_t found[2]) {
   pnpbs_placement placement = placed(s, d);
@@ -311,7 +267,7 @@ static void hashes(shape s, double d, uint64_t found[2]) {
   for (conserve = 0; conserve < 2; ++conserve) {
     struct nodes v = get_nodes(placement);
     double* values = at_nodes(transfer, placement, conserve);
-    found[conserve] = hash_of(&v, values);
+    found[conserve] = hash_of(&v, FIELDS, values);
     free(values), free_nodes(&v);
   }
   pnpbs_transfer_destroy(&transfer);
