@@ -70,7 +70,7 @@ std::vector<double> integrals(const Communicator& comm, const Space& space,
   return results;
 }
 
-// All within the elements and about as far beyond the border as they reach. Farther away the
+// All of it within the elements and up to about their size beyond the border. Farther away the
 // corners' polynomials tell nothing of the field, and it goes on linearly.
 template <int Dim>
 double part_of_curvature(const PatchWeights<Dim>& w) {
@@ -111,8 +111,7 @@ class FieldTransferOf : public FieldTransfer {
 
   std::vector<Message> answered(const std::vector<Message>& asked) const;
   void answer(const Question& question, double* values) const;
-  void add_curvature(const Point<In>& x, const PatchWeights<Dim>& w, double part,
-                     double* values) const;
+  void add_curvature(const Point<In>& x, const PatchWeights<Dim>& w, double* values) const;
   void conserve_integrals(Results<Dim>& results, double* values) const;
 
   Space space_;
@@ -141,15 +140,16 @@ void FieldTransferOf<Space>::answer(const Question& question, double* values) co
     }
     values[c] = value;
   }
-  const double part = part_of_curvature(w);
-  if (fits_ && part > 0) add_curvature(question.x, w, part, values);
+  if (fits_) add_curvature(question.x, w, values);
 }
 
 // From what is linear to the corners' polynomials, each of which counts as its corner does; so the
 // field is continuous, and one of second order is met. A corner without one stays linear.
 template <class Space>
 void FieldTransferOf<Space>::add_curvature(const Point<In>& x, const PatchWeights<Dim>& w,
-                                           double part, double* values) const {
+                                           double* values) const {
+  const double part = part_of_curvature(w);
+  if (part == 0) return;
   for (std::int64_t c = 0; c < components_; ++c) {
     double sum = 0;
     for (std::size_t k = 0; k <= Dim; ++k) {

@@ -9,6 +9,8 @@
 
 #include "spacing/given_field.hpp"
 #include "spacing/nodal_patch.hpp"
+#include "spacing/simplex_slope.hpp"
+#include "spacing/spacing.hpp"
 
 namespace pnpbs {
 
@@ -51,6 +53,20 @@ Patch<Dim, In> patch_of_mesh(const GivenField<In, Dim + 1>& field) {
   patch.border = open_facets<Dim>(simplices);
   patch.simplices = std::move(simplices);
   return patch;
+}
+
+// At the nodes of its simplices, and how steep it is on these.
+template <int Dim, int In>
+KnownValues<In> known_values_of(const Patch<Dim, In>& patch) {
+  KnownValues<In> known;
+  std::vector<bool> used(patch.nodes.size(), false);
+  for (const auto& simplex : patch.simplices) {
+    for (const std::int32_t i : simplex) used[static_cast<std::size_t>(i)] = true;
+    known.slopes.push_back(slope_of(patch, simplex));
+  }
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) known.values.push_back({patch.nodes[i].x, patch.nodes[i].value});
+  return known;
 }
 
 }  // namespace pnpbs

@@ -5,7 +5,6 @@
 
 #include "base/started_execution.hpp"
 #include "spacing/mesh_patch.hpp"
-#include "spacing/simplex_slope.hpp"
 
 namespace pnpbs {
 
@@ -41,16 +40,7 @@ void MeshSpacing<Dim>::distance_to_extent(std::int64_t n, const Point<Dim>* x,
 
 template <int Dim>
 KnownValues<Dim> MeshSpacing<Dim>::known_values() const {
-  const Patch<Dim>& patch = mesh_.patch();
-  KnownValues<Dim> known;
-  std::vector<bool> used(patch.nodes.size(), false);
-  for (const auto& simplex : patch.simplices) {
-    for (const std::int32_t i : simplex) used[static_cast<std::size_t>(i)] = true;
-    known.slopes.push_back(slope_of(patch, simplex));
-  }
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) known.values.push_back({patch.nodes[i].x, patch.nodes[i].value});
-  return known;
+  return known_values_of(mesh_.patch());
 }
 
 template class MeshSpacing<2>;

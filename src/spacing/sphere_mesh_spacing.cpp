@@ -6,7 +6,6 @@
 
 #include "base/started_execution.hpp"
 #include "spacing/mesh_patch.hpp"
-#include "spacing/simplex_slope.hpp"
 
 namespace pnpbs {
 
@@ -37,17 +36,6 @@ void SphereMeshSpacing::distance_to_extent(std::int64_t n, const Point<3>* x,
   });
 }
 
-KnownValues<3> SphereMeshSpacing::known_values() const {
-  const Patch<2, 3>& patch = mesh_.patch();
-  KnownValues<3> known;
-  std::vector<bool> used(patch.nodes.size(), false);
-  for (const auto& triangle : patch.simplices) {
-    for (const std::int32_t i : triangle) used[static_cast<std::size_t>(i)] = true;
-    known.slopes.push_back(slope_of(patch, triangle));
-  }
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) known.values.push_back({patch.nodes[i].x, patch.nodes[i].value});
-  return known;
-}
+KnownValues<3> SphereMeshSpacing::known_values() const { return known_values_of(mesh_.patch()); }
 
 }  // namespace pnpbs

@@ -13,8 +13,8 @@ namespace pnpbs::tool {
 struct BodyFigures {
   Point<3> extent;
   double volume;  // 0 of surfaces alone
-  std::optional<double>
-      area;  // of its boundary's triangles, when there are nodes; of a sphere, along it
+  // Of its boundary's triangles, when there are nodes; of a sphere, along it.
+  std::optional<double> area;
 };
 
 // Local. Throws Failure.

@@ -22,7 +22,6 @@ class NamedGrids {
   // dimension: of places. Throws BadInput.
   NamedGrids(const Arguments& arguments, int dimension);
 
-  bool empty() const { return grids_.empty(); }
   const NamedGrid& first() const { return *grids_[0]; }
 
   // What a formula mentions. This object must outlive them.

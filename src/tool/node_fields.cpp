@@ -30,6 +30,17 @@ void refuse_taken(const std::string& name, const Arguments& arguments) {
                    "' already; choose another name");
 }
 
+// Of this rank.
+std::vector<double> coordinates_of(pnpbs_particles particles, pnpbs_context context) {
+  std::int32_t dimension = 0;
+  std::int64_t count = 0;
+  check(pnpbs_particles_sizes(particles, &dimension, &count, nullptr), context);
+  std::vector<double> x(static_cast<std::size_t>(dimension * count));
+  check(pnpbs_particles_get(particles, count, x.data(), nullptr, nullptr, nullptr, nullptr),
+        context);
+  return x;
+}
+
 }  // namespace
 
 NodeFields::NodeFields(const Arguments& arguments, int dimension, const NamedGrids& grids)
@@ -101,16 +112,6 @@ void NodeFields::add_to(pnpbs_placement placement, pnpbs_particles particles, pn
         throw BadInput(std::string(option) + " " + name + ": " + pnpbs_last_error(context));
     });
   });
-}
-
-std::vector<double> coordinates_of(pnpbs_particles particles, pnpbs_context context) {
-  std::int32_t dimension = 0;
-  std::int64_t count = 0;
-  check(pnpbs_particles_sizes(particles, &dimension, &count, nullptr), context);
-  std::vector<double> x(static_cast<std::size_t>(dimension * count));
-  check(pnpbs_particles_get(particles, count, x.data(), nullptr, nullptr, nullptr, nullptr),
-        context);
-  return x;
 }
 
 }  // namespace pnpbs::tool

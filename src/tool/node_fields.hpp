@@ -48,7 +48,4 @@ class NodeFields {
   std::vector<Field> fields_;
 };
 
-// Of this rank's particles: [n][dimension]. Local.
-std::vector<double> coordinates_of(pnpbs_particles particles, pnpbs_context context);
-
 }  // namespace pnpbs::tool
