@@ -13,6 +13,7 @@
 #include <string>
 
 #include "base/fixed_point.hpp"
+#include "base/function_ref.hpp"
 
 namespace pnpbs {
 
@@ -21,19 +22,12 @@ using Exec = Kokkos::DefaultHostExecutionSpace;
 template <class T>
 using View = Kokkos::View<T*, Kokkos::HostSpace>;
 
-// The first exception among the bodies of a parallel region. None may leave the region, which would
-// end the process: the first one waits here until all bodies are done.
+// The first exception of the bodies of a parallel loop. An exception must not leave a parallel
+// region, because that ends the process, so it is stored here until all bodies have ended.
 class FirstException {
  public:
-  template <class Body>
-  void catch_in(const Body& body) {
-    try {
-      body();
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (!first_) first_ = std::current_exception();
-    }
-  }
+  // Called in a catch block.
+  void store() noexcept;
   void rethrow() const {
     if (first_) std::rethrow_exception(first_);
   }
@@ -43,64 +37,81 @@ class FirstException {
   std::exception_ptr first_;
 };
 
-// Runs body(i) for 0 <= i < n; a body may throw (a list that finds no memory). Bodies must not
-// depend on each other: that, and reductions over integers and maxima only, make results the same
-// for any number of threads.
+// Divides 0 <= i < n into one range of consecutive indices per thread and calls body(begin, end)
+// for each range that is not empty, concurrently. The body must not throw. This is the only
+// function that starts a Kokkos kernel, so that Kokkos' templates are compiled once.
+void for_each_range(const char* label, std::int64_t n,
+                    FunctionRef<void(std::int64_t begin, std::int64_t end)> body);
+
+// Calls body(i) for 0 <= i < n, also for the indices after one whose body throws, and rethrows the
+// first exception at the end. Bodies must not depend on each other: that, and reductions over
+// integers and maxima only, make results the same for any number of threads.
 template <class Body>
 void for_each(const char* label, std::int64_t n, const Body& body) {
   FirstException failure;
-  Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, n),
-                       [&](std::int64_t i) { failure.catch_in([&] { body(i); }); });
+  for_each_range(label, n, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      try {
+        body(i);
+      } catch (...) {
+        failure.store();
+      }
+    }
+  });
   failure.rethrow();
 }
 
-// The largest of body(i), or `floor` if there is none.
+// Calls add(part, i) for 0 <= i < n, where `part` begins as `none` in each range, and join(part)
+// once for each range, one thread at a time. The result must not depend on the order of ranges.
+template <class Part, class Add, class Join>
+void reduce(const char* label, std::int64_t n, const Part& none, const Add& add, const Join& join) {
+  FirstException failure;
+  std::mutex joining;
+  for_each_range(label, n, [&](std::int64_t begin, std::int64_t end) {
+    try {
+      Part part = none;
+      for (std::int64_t i = begin; i < end; ++i) add(part, i);
+      const std::lock_guard<std::mutex> lock(joining);
+      join(part);
+    } catch (...) {
+      failure.store();
+    }
+  });
+  failure.rethrow();
+}
+
+// Returns the largest of body(i), or `floor` if no value is larger.
 template <class Body>
 double max_of(const char* label, std::int64_t n, double floor, const Body& body) {
   double result = floor;
-  FirstException failure;
-  Kokkos::parallel_reduce(
-      label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, n),
-      [&](std::int64_t i, double& max) {
-        failure.catch_in([&] {
-          const double value = body(i);
-          if (value > max) max = value;
-        });
-      },
-      Kokkos::Max<double>(result));
-  failure.rethrow();
-  return result > floor ? result : floor;
-}
-
-// Sum of the integers body(i), modulo 2^64.
-template <class Body>
-std::uint64_t sum_of(const char* label, std::int64_t n, const Body& body) {
-  std::uint64_t result = 0;
-  FirstException failure;
-  Kokkos::parallel_reduce(
-      label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, n),
-      [&](std::int64_t i, std::uint64_t& sum) {
-        failure.catch_in([&] { sum += static_cast<std::uint64_t>(body(i)); });
-      },
-      result);
-  failure.rethrow();
+  const auto take = [](double& max, double value) {
+    if (value > max) max = value;
+  };
+  reduce(
+      label, n, floor, [&](double& max, std::int64_t i) { take(max, body(i)); },
+      [&](double max) { take(result, max); });
   return result;
 }
 
-// Integers that body(i, sums) adds to for 0 <= i < n; in any order they come out the same. `none`
-// are the sums of nothing; add(sums) joins two.
+// Returns the sum of the integers body(i), modulo 2^64.
+template <class Body>
+std::uint64_t sum_of(const char* label, std::int64_t n, const Body& body) {
+  std::uint64_t result = 0;
+  reduce(
+      label, n, std::uint64_t{0},
+      [&](std::uint64_t& sum, std::int64_t i) { sum += static_cast<std::uint64_t>(body(i)); },
+      [&](std::uint64_t sum) { result += sum; });
+  return result;
+}
+
+// Returns the integer sums that body(i, sums) adds to for 0 <= i < n. `none` holds the empty sums,
+// and sums.add(others) joins two.
 template <class Sums, class Body>
 Sums sums_over(const char* label, std::int64_t n, const Sums& none, const Body& body) {
-  constexpr std::int64_t kChunk = 4096;
   Sums all = none;
-  std::mutex adding;
-  for_each(label, (n + kChunk - 1) / kChunk, [&](std::int64_t chunk) {
-    Sums part = none;
-    const std::int64_t end = std::min(n, (chunk + 1) * kChunk);
-    for (std::int64_t i = chunk * kChunk; i < end; ++i) body(i, part);
-    const std::lock_guard<std::mutex> lock(adding);
-    all.add(part);
-  });
+  reduce(
+      label, n, none, [&](Sums& sums, std::int64_t i) { body(i, sums); },
+      [&](const Sums& sums) { all.add(sums); });
   return all;
 }
 

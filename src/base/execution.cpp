@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/execution.hpp"
+
+namespace pnpbs {
+
+void FirstException::store() noexcept {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!first_) first_ = std::current_exception();
+}
+
+void for_each_range(const char* label, std::int64_t n,
+                    FunctionRef<void(std::int64_t begin, std::int64_t end)> body) {
+  if (n <= 0) return;
+  const auto ranges = static_cast<std::int64_t>(Exec().concurrency());
+  const auto first_of = [&](std::int64_t range) {
+    return n / ranges * range + n % ranges * range / ranges;
+  };
+  Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, ranges),
+                       [&](std::int64_t range) {
+                         const std::int64_t begin = first_of(range), end = first_of(range + 1);
+                         if (begin < end) body(begin, end);
+                       });
+}
+
+}  // namespace pnpbs
