@@ -10,7 +10,8 @@
 Every named file must be used by a command that is run, and no program may be without a name. The
 folder has `examples`, as a clone has. Compilers are called with warnings as errors.
 
-usage: run_page.py <prefix> <page> [--update]     (--update: what is printed goes into the page)
+usage: run_page.py <prefix> <page> [--update]
+--update, or PNPBS_UPDATE_PAGES in the environment, writes what is printed into the page.
 """
 
 import os
@@ -35,7 +36,7 @@ TOOLS = {
     "julia": "",  # as its users start it: with other options, d may differ in the last bit
     "python3": "-B",
 }
-NOTHING_TO_TEST = 77  # ctest calls it skipped
+NOT_ALL_TESTED = 77  # which ctest reports as skipped
 PROGRAMS = {
     "c": r"\bint main\(",
     "fortran": r"^\s*end program",
@@ -123,15 +124,15 @@ def unused(page, commands):
 
 
 def run_page(prefix, page, update=None):
-    """Lines that tell what is wrong with a page, or None where it has nothing that can be run here.
-    update(page) gets it as it should be."""
+    """Returns lines that say what is wrong with a page, or None if nothing is, but a block could not be
+    run because a tool is missing. update(page) receives the page as it should be."""
     found = blocks(page)
     pairs = [(one, other.text) for one, other in zip(found, found[1:])
              if one.language == "sh" and other.language == "text" and other.follows]
     if not pairs:
         return ["nothing on this page is run"]
     wrong = list(unused(found, "".join(one.text for one, _ in pairs)))
-    outputs, ran = Outputs(), []
+    outputs, ran, is_complete = Outputs(), [], True
     with tempfile.TemporaryDirectory() as name:
         work = pathlib.Path(name)
         put_tools(work / "tools")
@@ -145,7 +146,8 @@ def run_page(prefix, page, update=None):
         for block, expected in pairs:
             tool = missing_tool(block.text, variables["PATH"])
             if tool:
-                print(f"line {block.line}: left out, for there is no {tool}")
+                print(f"line {block.line}: skipped, as {tool} was not found")
+                is_complete = False
                 continue
             difference, printed = run(block, expected, outputs, folder, variables)
             ran.append((block, expected, printed))
@@ -157,15 +159,16 @@ def run_page(prefix, page, update=None):
         for block, expected, printed in reversed(ran):
             page = with_output(page, block, expected, printed)
         update(page)
-    return wrong if wrong or ran else None
+    return wrong if wrong or is_complete else None
 
 
 def main():
     prefix, page = (pathlib.Path(one).resolve() for one in sys.argv[1:3])
-    update = page.write_text if "--update" in sys.argv else None
+    is_updating = "--update" in sys.argv or os.environ.get("PNPBS_UPDATE_PAGES")
+    update = page.write_text if is_updating else None
     wrong = run_page(prefix, page.read_text(), update)
     if wrong is None:
-        sys.exit(NOTHING_TO_TEST)
+        sys.exit(NOT_ALL_TESTED)
     print("\n".join(wrong))
     sys.exit(1 if wrong else 0)
 
