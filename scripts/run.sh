@@ -10,7 +10,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 scripts/setup.sh
 if command -v ninja > /dev/null; then export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}; fi
 export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
-cmake --preset release -DPNPBS_BUILD_TESTS=OFF
+cmake --preset release -DPNPBS_BUILD_TESTS=OFF -DPNPBS_BUILD_FORTRAN=OFF
 cmake --build --preset release
 
 mkdir -p out

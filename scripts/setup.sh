@@ -9,9 +9,10 @@ default_kokkos=4.7.0
 
 usage() {
   cat <<TEXT
-usage: scripts/setup.sh [--tests] [--kokkos VERSION]...
+usage: scripts/setup.sh [--tests | --all] [--kokkos VERSION]...
 
-  --tests           also install what the tests need
+  --tests           also install what the quick tests need
+  --all             also install what all tests need: GDAL, CGAL, Julia, VTK
   --kokkos VERSION  also build this Kokkos, static, into .deps/kokkos-VERSION; with "-shared"
                     behind the version a shared one, with "-clang" one that Clang compiles.
                     Known versions: 4.7.0, 4.5.1
@@ -24,10 +25,12 @@ TEXT
 }
 
 with_tests=no
+with_all=no
 more_kokkos=()
 while [ $# -gt 0 ]; do
   case $1 in
     --tests) with_tests=yes ;;
+    --all) with_tests=yes with_all=yes ;;
     --kokkos)
       [ $# -gt 1 ] || { usage >&2; exit 2; }
       more_kokkos+=("$2")
@@ -111,6 +114,8 @@ missing() {
     have "${FC:-gfortran}" || echo gfortran
     # Its Fortran module files, which some distributions have apart from mpicc.
     have mpifort || echo libopenmpi-dev
+  fi
+  if [ $with_all = yes ]; then
     # Optional to build; in the tests GeoJSON and shapefiles are read.
     have gdal-config || echo libgdal-dev
     header CGAL/Constrained_Delaunay_triangulation_2.h || echo libcgal-dev
@@ -162,18 +167,20 @@ python_environment() {
   fi
 }
 
-if [ $with_tests = yes ]; then
-  if ! cmp -s tests/requirements.txt .deps/venv/installed.txt; then
-    python_environment
-    say "installing the tests' Python packages into .deps/venv"
-    .deps/venv/bin/pip install -q -r tests/requirements.txt
-    cp tests/requirements.txt .deps/venv/installed.txt
-  fi
-fi
+install_python() { # file of requirements
+  local installed=.deps/venv/installed_$(basename "$1")
+  if cmp -s "$1" "$installed"; then return; fi
+  python_environment
+  say "installing the Python packages of $1 into .deps/venv"
+  .deps/venv/bin/pip install -q -r "$1"
+  cp "$1" "$installed"
+}
+if [ $with_tests = yes ]; then install_python tests/requirements.txt; fi
+if [ $with_all = yes ]; then install_python tests/requirements_all.txt; fi
 
 # ---------------------------------------------------------------- Julia ---------------------
 # For the tests of the Julia package, which are left out where there is none.
-if [ $with_tests = yes ] && ! have julia && [ ! -x .deps/julia/bin/julia ]; then
+if [ $with_all = yes ] && ! have julia && [ ! -x .deps/julia/bin/julia ]; then
   say "getting a Julia into .deps/julia"
   scripts/setup_julia.sh .deps/julia || say "no Julia: its tests will be left out"
 fi

@@ -1,35 +1,54 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# On a fresh machine, everything up to the last test: installs what is missing, builds the
-# library in every configuration that is promised, and tests each.
+# On a fresh machine, everything up to the last test: installs what is missing, builds, and runs the
+# tests of one or more configurations.
 #
-# The main configuration runs all tests. The others build and run those that can differ in them,
-# chosen by folder under tests, or by label (a test's folder, or a word of its own):
+#   quick     the default: the release build and the tests that find most faults in the shortest time,
+#             of every module and every language the machine has, on one and several ranks. The list
+#             is tests/quick_tests.cmake
+#   full      the release build with all tests but those of nightly. After quick in one call, only the
+#             tests that quick has left out
+#   nightly   hunts for differences between ranks with the date as seed, soak, and studies; the build
+#             of full
 #   sanitize  by Clang with address and undefined-behaviour sanitizers, mutated inputs included, on
 #             the oldest Kokkos we promise; no Fortran, whose compiler cannot link with Clang's
 #             sanitizers. Tests of the interface, of ranks and of the command
-#   no-mpi    without MPI, and the static library, on a shared Kokkos as a user would bring it,
-#             adopted from a host program; little optimised, which compiles in half of the time
-#   inner     as sanitize, the tests of the inside (tests/geometry, tests/core). Not run by default:
-#             they take as long as those of sanitize
-#   files     every file compiled by itself, by Clang, as users' builds without a preset do; no
-#             tests. Not run by default: it takes as long as all of sanitize
-# usage: scripts/test.sh [configuration]...     (main, sanitize and no-mpi by default)
+#   no-mpi    without MPI, with the static library, on a shared Kokkos that a host program brings: what
+#             can differ there, which is linkage, installed copies and one test of each language
+#   inner     as sanitize, the tests of the inside (tests/geometry, tests/core)
+#   files     every file compiled by itself, by Clang, as users' builds without a preset do; no tests
+#
+# usage: scripts/test.sh [configuration]...
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 root=$PWD
 
 wanted=("$@")
-if [ ${#wanted[@]} -eq 0 ]; then
-  wanted=(main sanitize no-mpi)
-fi
+if [ ${#wanted[@]} -eq 0 ]; then wanted=(quick); fi
+is_wanted() { case " ${wanted[*]} " in *" $1 "*) ;; *) return 1 ;; esac; }
+
+setup=(--tests)
+for configuration in "${wanted[@]}"; do
+  case $configuration in
+    quick) ;;
+    full | nightly) setup+=(--all) ;;
+    sanitize | inner | files) setup+=(--all --kokkos 4.5.1-clang) ;;
+    no-mpi) setup+=(--kokkos 4.7.0-shared) ;;
+    *)
+      echo "test.sh: unknown configuration '$configuration'" >&2
+      sed -n 's/^#   \([a-z]\)/  \1/p' "${BASH_SOURCE[0]}" >&2
+      exit 2
+      ;;
+  esac
+done
+
 started=$SECONDS
 failed=()
 summary=()
 say() { printf '\n== %s (after %d s)\n' "$*" $((SECONDS - started)); }
 
 say "setting up"
-scripts/setup.sh --tests --kokkos 4.5.1-clang --kokkos 4.7.0-shared
+scripts/setup.sh "${setup[@]}"
 
 if command -v ninja > /dev/null; then export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}; fi
 export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
@@ -49,58 +68,77 @@ else
   echo "left out: not clang-format 14"
 fi
 
-configure_and_build() { # name, options of CMake
+# scripts/run.sh builds in the same folder, without Fortran.
+fortran=()
+if command -v "${FC:-gfortran}" > /dev/null; then fortran=(-DPNPBS_BUILD_FORTRAN=ON); fi
+
+configure() { # folder under build, options of CMake
   local name=$1 log
   shift
   log=$(mktemp)
-  say "building $name"
   if ! cmake -B "build/$name" -DPNPBS_WARNINGS_AS_ERRORS=ON "$@" > "$log" 2>&1; then
     cat "$log"
     exit 1
   fi
   rm -f "$log"
-  cmake --build "build/$name"
 }
 
-run_tests() { # name, options of ctest
-  local name=$1 log=build/$1/ctest.log
-  shift
+run_tests() { # configuration, folder under build, options of ctest
+  local name=$1 folder=$2 log=build/$2/ctest_$1.log
+  shift 2
   say "testing $name"
-  if ! ctest --test-dir "build/$name" --output-on-failure --no-tests=error "$@" | tee "$log"; then
+  if ! ctest --test-dir "build/$folder" --output-on-failure --no-tests=error "$@" | tee "$log"; then
     failed+=("$name")
   fi
-  summary+=("$(printf '%-14s %s' "$name" "$(grep -E 'tests (passed|failed)' "$log" || true)")")
+  summary+=("$(printf '%-10s %s, after %d s' "$name" "$(grep -E 'tests (passed|failed)' "$log" || true)" \
+    $((SECONDS - started)))")
 }
 
 for configuration in "${wanted[@]}"; do
+  say "building $configuration"
   case $configuration in
-    main)
-      configure_and_build release --preset release
-      run_tests release
+    quick)
+      configure release --preset release ${fortran[@]+"${fortran[@]}"}
+      cmake --build build/release --target pnpbs-quick-tests
+      run_tests quick release -L '^quick$'
+      ;;
+    full)
+      configure release --preset release ${fortran[@]+"${fortran[@]}"}
+      cmake --build build/release
+      if is_wanted quick; then
+        run_tests full release -LE '^(quick|nightly)$'
+      else
+        run_tests full release -LE '^nightly$'
+      fi
+      ;;
+    nightly)
+      configure release --preset release ${fortran[@]+"${fortran[@]}"}
+      cmake --build build/release
+      run_tests nightly release -L '^nightly$' --verbose
       ;;
     sanitize)
-      configure_and_build sanitize --preset sanitize \
-        -DPNPBS_TEST_FOLDERS="api;parallel;linkage;tool"
-      run_tests sanitize -LE '^(many-runs|figures)$'
+      configure sanitize --preset sanitize -DPNPBS_TEST_FOLDERS="api;parallel;linkage;tool"
+      cmake --build build/sanitize
+      run_tests sanitize sanitize -LE '^(many-runs|figures|nightly)$'
       ;;
     inner)
-      configure_and_build inner --preset sanitize -DPNPBS_TEST_FOLDERS="geometry;core"
-      run_tests inner -LE '^(many-runs|figures)$'
+      configure inner --preset sanitize -DPNPBS_TEST_FOLDERS="geometry;core"
+      cmake --build build/inner
+      run_tests inner inner -LE '^(many-runs|figures|nightly)$'
       ;;
     files)
-      configure_and_build files --preset debug -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
-        -DPNPBS_BUILD_FORTRAN=OFF -DKokkos_ROOT="$root/.deps/kokkos-4.5.1-clang"
+      configure files --preset debug -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+        -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DPNPBS_BUILD_FORTRAN=OFF \
+        -DKokkos_ROOT="$root/.deps/kokkos-4.5.1-clang"
+      cmake --build build/files
       ;;
     no-mpi)
-      configure_and_build no-mpi -DPNPBS_BUILD_TESTS=ON -DPNPBS_ENABLE_MPI=OFF \
+      configure no-mpi -DPNPBS_BUILD_TESTS=ON -DPNPBS_ENABLE_MPI=OFF \
         -DPNPBS_INSTALL_STATIC=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" \
         -DPNPBS_TEST_FOLDERS="api;geo;fortran;linkage;julia;python;install" \
         -DKokkos_ROOT="$root/.deps/kokkos-4.7.0-shared"
-      run_tests no-mpi -LE '^(many-runs|figures|once)$'
-      ;;
-    *)
-      echo "test.sh: unknown configuration '$configuration'" >&2
-      exit 2
+      cmake --build build/no-mpi --target pnpbs-no-mpi-tests
+      run_tests no-mpi no-mpi -L '^no-mpi$'
       ;;
   esac
 done

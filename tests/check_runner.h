@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * How every Check runner ends: all suites in this very process. Forking, Check's default, breaks
- * programs that use MPI or have threads running; ctest's own limits stand in for it.
+ * What every test by Check includes. A file of tests is a suite: it ends with
+ *
+ *   TEST_SUITE(test_forces) { ... return run_suite(suite); }
+ *
+ * The suites of a folder are linked into one runner, which runs the one that its first argument
+ * names (CMakeLists.txt). A suite runs in the runner's own process: forking, Check's default,
+ * breaks programs that use MPI or have threads running; ctest's own limits stand in for it.
  */
 #ifndef PNPBS_TESTS_CHECK_RUNNER_H
 #define PNPBS_TESTS_CHECK_RUNNER_H
@@ -30,6 +35,15 @@
 #define WHEN_SANITIZED(fewer, all) (fewer)
 #else
 #define WHEN_SANITIZED(fewer, all) (all)
+#endif
+
+/* The function of a suite that its runner calls; it returns the exit status. */
+#if defined(__cplusplus)
+#define TEST_SUITE(name) int name(int, char**)
+#else
+#define TEST_SUITE(name)           \
+  int name(int argc, char** argv); \
+  int name(__attribute__((unused)) int argc, __attribute__((unused)) char** argv)
 #endif
 
 static inline int run_suite(Suite* suite) {

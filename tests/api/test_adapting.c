@@ -661,7 +661,7 @@ START_TEST(the_domain_is_taken_at_initialise) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_adapting) {
   Suite* suite = suite_create("adapting");
   TCase* spacing = tcase_create("spacing");
   TCase* given = tcase_create("given nodes");

@@ -650,7 +650,7 @@ START_TEST(no_mpi) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_arguments) {
   Suite* suite = suite_create("arguments");
   TCase* cases = tcase_create("arguments");
   tcase_add_checked_fixture(cases, set_up, tear_down);

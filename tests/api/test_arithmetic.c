@@ -72,7 +72,7 @@ START_TEST(traps_of_the_host) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_arithmetic) {
   Suite* suite = suite_create("arithmetic");
   TCase* hosts = tcase_create("hosts");
   tcase_add_test(hosts, rounding_of_the_host);

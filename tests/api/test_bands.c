@@ -211,7 +211,7 @@ START_TEST(the_population_forgets) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_bands) {
   Suite* suite = suite_create("bands");
   TCase* tests = tcase_create("bands");
   tcase_add_test(tests, the_mean_edge_is_d_in_every_band);

@@ -773,7 +773,7 @@ START_TEST(no_first_row_without_sweeps) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_boundary) {
   Suite* suite = suite_create("boundary");
   TCase* cases = tcase_create("boundary");
   tcase_add_test(cases, corners_and_tags_of_a_polyline);

@@ -829,7 +829,7 @@ START_TEST(curves_give_nonsense) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_callbacks) {
   Suite* suite = suite_create("callbacks");
   TCase* spacing = tcase_create("spacing");
   TCase* stopping = tcase_create("monitor");

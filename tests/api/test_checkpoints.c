@@ -205,7 +205,7 @@ START_TEST(permissions_stay) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_checkpoints) {
   Suite* suite = suite_create("checkpoints");
   TCase* tests = tcase_create("checkpoints");
   tcase_add_checked_fixture(tests, make_folder, remove_folder);

@@ -298,7 +298,7 @@ START_TEST(held_spacing_ends_at_the_resolution) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_closing) {
   Suite* suite = suite_create("closing");
   TCase* tests = tcase_create("closing");
   tcase_set_timeout(tests, 0);

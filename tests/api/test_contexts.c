@@ -162,7 +162,7 @@ START_TEST(memory_comes_back) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_contexts) {
   Suite* suite = suite_create("contexts");
   TCase* cases = tcase_create("contexts");
   tcase_add_test(cases, threads_of_the_host);

@@ -225,7 +225,7 @@ START_TEST(a_user_is_told) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_element_angles) {
   Suite* suite = suite_create("element angles");
   TCase* angles = tcase_create("angles");
   tcase_set_timeout(angles, 0);

@@ -104,7 +104,7 @@ START_TEST(too_little_memory) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_estimate) {
   Suite* suite = suite_create("estimate");
   TCase* tests = tcase_create("estimate");
   tcase_add_test(tests, near_what_comes);

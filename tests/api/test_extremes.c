@@ -198,7 +198,7 @@ START_TEST(a_boundary_too_fine_and_nothing_within) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_extremes) {
   Suite* suite = suite_create("extremes");
   TCase* places = tcase_create("places");
   TCase* spacings = tcase_create("spacings");

@@ -517,7 +517,7 @@ START_TEST(fields_belong_to_the_nodes_there_are) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_files) {
   Suite* suite = suite_create("files");
   TCase* tests = tcase_create("files");
   tcase_add_checked_fixture(tests, make_folder, remove_folder);

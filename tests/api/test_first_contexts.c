@@ -78,7 +78,7 @@ START_TEST(first_calls_at_the_same_time) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_first_contexts) {
   Suite* suite = suite_create("first contexts");
   TCase* cases = tcase_create("threads");
   tcase_add_test(cases, first_calls_at_the_same_time);

@@ -126,7 +126,7 @@ START_TEST(roles) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_groups) {
   Suite* suite = suite_create("groups");
   TCase* tests = tcase_create("groups");
   tcase_add_test(tests, names);

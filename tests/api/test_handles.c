@@ -539,7 +539,7 @@ START_TEST(two_placements_in_one_domain) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_handles) {
   Suite* suite = suite_create("handles");
   TCase* live = tcase_create("not live");
   TCase* ends_of = tcase_create("destroying");

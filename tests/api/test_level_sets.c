@@ -267,7 +267,7 @@ START_TEST(bad_input) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_level_sets) {
   Suite* suite = suite_create("level sets");
   TCase* good = tcase_create("good");
   TCase* bad = tcase_create("bad");

@@ -275,7 +275,7 @@ START_TEST(a_failure_leaves_nothing) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_levels) {
   Suite* suite = suite_create("levels");
   TCase* tests = tcase_create("levels");
   tcase_add_test(tests, as_many_as_pay);

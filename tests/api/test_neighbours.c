@@ -383,7 +383,7 @@ START_TEST(outputs_one_by_one) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_neighbours) {
   Suite* suite = suite_create("neighbours");
   TCase* cases = tcase_create("neighbours");
   tcase_add_loop_test(cases, lists_against_all_pairs, 0, COUNT_OF(scenes));

@@ -451,7 +451,7 @@ START_TEST(bad_bodies) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_offsets) {
   Suite* suite = suite_create("offsets");
   TCase* good = tcase_create("good");
   TCase* bad = tcase_create("bad");

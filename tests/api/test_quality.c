@@ -521,7 +521,7 @@ START_TEST(stars_whatever_is_asked_first) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_quality) {
   Suite* suite = suite_create("quality");
   TCase* tests = tcase_create("quality");
   tcase_add_test(tests, as_by_brute_force);

@@ -363,7 +363,7 @@ START_TEST(surfaces_alone_have_none) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_regions) {
   Suite* suite = suite_create("regions");
   TCase* good = tcase_create("good");
   TCase* bad = tcase_create("bad");

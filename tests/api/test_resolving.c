@@ -123,7 +123,7 @@ START_TEST(coarser_than_the_body) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_resolving) {
   Suite* suite = suite_create("resolving");
   TCase* tests = tcase_create("resolving");
   tcase_set_timeout(tests, 0);

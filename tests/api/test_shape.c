@@ -153,7 +153,7 @@ START_TEST(as_many_as_wanted_in_space) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_shape) {
   Suite* suite = suite_create("shape");
   TCase* tests = tcase_create("shape");
   tcase_add_test(tests, distances);

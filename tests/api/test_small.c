@@ -358,7 +358,7 @@ START_TEST(the_paper_is_a_preset) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_small) {
   Suite* suite = suite_create("small domains and methods");
   TCase* room = tcase_create("room");
   TCase* method_cases = tcase_create("methods");

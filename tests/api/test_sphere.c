@@ -760,7 +760,7 @@ START_TEST(bad_input) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_sphere) {
   Suite* suite = suite_create("sphere");
   TCase* tests = tcase_create("sphere");
   tcase_add_test(tests, nodes_fill_what_coasts_bound);

@@ -106,7 +106,7 @@ START_TEST(runs_again_delete_hardly_any) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_sphere_again) {
   Suite* suite = suite_create("sphere_again");
   TCase* tests = tcase_create("sphere_again");
   tcase_add_test(tests, steps_move_none_of_those_laid_first);

@@ -719,7 +719,7 @@ START_TEST(wrong_meshes_and_points) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_sphere_fields) {
   Suite* suite = suite_create("sphere_fields");
   TCase *grids = tcase_create("grids"), *fields = tcase_create("fields");
   tcase_add_loop_test(grids, a_grid_around_the_sphere, 0, 7);

@@ -350,7 +350,7 @@ START_TEST(filled_when_it_is_initialised) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_surfaces) {
   TCase* tests = tcase_create("surfaces alone");
   Suite* suite = suite_create("surfaces alone");
   tcase_set_timeout(tests, 0);

@@ -353,7 +353,7 @@ START_TEST(the_population_adds_up) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_tables) {
   Suite* suite = suite_create("tables");
   TCase* first = tcase_create("options of a context");
   TCase* then = tcase_create("options of a placement");

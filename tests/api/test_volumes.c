@@ -781,7 +781,7 @@ START_TEST(growth_is_limited) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_volumes) {
   Suite* suite = suite_create("volumes");
   TCase* tests = tcase_create("volumes");
   tcase_set_timeout(tests, 0);

@@ -208,7 +208,7 @@ START_TEST(inside_of_files) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_measures) {
   return run_suite("volume_measures",
                    {regular_tetrahedron, sliver, flat_tetrahedron, body_centred_lattice, box,
                     flat_ones_at_the_boundary_are_peeled_off, edges_by_place, inside_of_files});

@@ -69,7 +69,7 @@ struct Shape {
   Plane d;
 };
 
-std::vector<Shape> shapes_to_finish() {
+inline std::vector<Shape> shapes_to_finish() {
   const Build square = [](pnpbs::PlaneDomain& p) {
     shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1));
   };

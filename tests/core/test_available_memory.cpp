@@ -89,7 +89,7 @@ START_TEST(nothing_is_told) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_available_memory) {
   return run_suite("available_memory", {machine_alone, group_of_version_2, container_of_version_2,
                                         group_of_version_1, nothing_is_told});
 }

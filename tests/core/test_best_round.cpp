@@ -56,7 +56,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_best_round) {
   return run_kernel_suite("best_round", {one_counts_that_leaves_half_of_the_small_angles,
                                          without_small_angles_there_is_no_other,
                                          torn_ones_count_only_where_none_is_whole});

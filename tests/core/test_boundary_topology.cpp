@@ -68,7 +68,7 @@ START_TEST(a_cut_is_where_it_differs) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_boundary_topology) {
   return run_kernel_suite("boundary_topology",
                           {a_bubble_is_where_it_differs, a_cut_is_where_it_differs});
 }

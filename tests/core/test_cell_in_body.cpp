@@ -62,4 +62,4 @@ END_TEST
 
 }  // namespace
 
-int main() { return run_kernel_suite("cell_in_body", {in_the_plane, in_space}); }
+TEST_SUITE(test_cell_in_body) { return run_kernel_suite("cell_in_body", {in_the_plane, in_space}); }

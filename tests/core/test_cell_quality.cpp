@@ -117,6 +117,6 @@ START_TEST(one_node_off) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_cell_quality) {
   return run_kernel_suite("cell_quality", {regular_hexagons, flat_hexagons, one_node_off});
 }

@@ -245,7 +245,7 @@ START_TEST(obtuse_triangles_become_fewer) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_centroidal_sweep) {
   return run_kernel_suite("centroidal_sweep",
                           {centroid_as_by_pixels, centroid_on_a_sphere_as_by_pixels,
                            lattice_is_a_fixed_point, energy_falls, obtuse_triangles_become_fewer});

@@ -99,7 +99,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_checkpoint_files) {
   return run_suite("checkpoint_files",
                    {other_hdf5_files, other_formats, arrays_that_are_missing_or_others});
 }

@@ -163,6 +163,6 @@ START_TEST(what_has_no_factor) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_cholesky) {
   return run_suite("Cholesky's factor", {whole_numbers, rows_of_any_scale, what_has_no_factor});
 }

@@ -175,7 +175,7 @@ START_TEST(bad_triangles_become_fewer) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_defects) {
   return run_kernel_suite("defects", {lattice_stays, missing_node_comes, surplus_node_goes,
                                       near_defects_take_turns, bad_triangles_become_fewer});
 }

@@ -406,7 +406,7 @@ START_TEST(no_room_in_wedges_and_gaps) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_domain_map) {
   return run_kernel_suite(
       "domain_map",
       {sides_of_nested_islands, sides_of_lakes, clearances, edges_near_points, leaf_sizes_follow_d,

@@ -111,7 +111,7 @@ START_TEST(a_flat_one_in_a_side_is_told) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_domain_rule) {
   return run_kernel_suite("domain_rule",
                           {a_cap_goes, one_below_a_feature_edge_stays, one_node_below_a_face_stays,
                            what_is_not_flat_stays, a_flat_one_in_a_side_is_told});

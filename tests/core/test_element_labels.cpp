@@ -268,7 +268,7 @@ START_TEST(what_is_sure_stays) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_element_labels) {
   return run_suite("element_labels", {what_is_whole_stays, one_wrong_label_is_mended,
                                       settled_labels_are_those_of_any_order, disks_around_a_node,
                                       feature_edges_stay_on_the_boundary, what_is_sure_stays,

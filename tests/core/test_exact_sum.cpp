@@ -186,7 +186,7 @@ START_TEST(what_is_not_finite) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_exact_sum) {
   return run_suite("exact sums",
                    {nearest_to_the_sum, nearest_to_the_sum_of_products, parts_of_threads_and_ranks,
                     many_products, very_many_terms, what_is_not_finite});

@@ -66,7 +66,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_execution) {
   return run_kernel_suite("execution",
                           {exceptions_come_to_the_caller, bodies_run_though_one_has_thrown,
                            indices_are_found_in_order});

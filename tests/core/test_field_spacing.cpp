@@ -381,7 +381,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_field_spacing) {
   return run_kernel_suite(
       "spacing from given values",
       {a_linear_function_on_a_mesh, beyond_a_mesh_its_nearest_point_counts,

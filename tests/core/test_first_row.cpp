@@ -227,7 +227,7 @@ START_TEST(boundary_triangles_are_good) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_first_row) {
   return run_kernel_suite(
       "first_row", {one_over_each_edge, once_is_enough, irregular_edges_have_none, nodes_are_inside,
                     curves_that_end_inside, boundary_triangles_are_good});

@@ -129,7 +129,7 @@ START_TEST(kernels_sum_beyond_64_bits) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_fixed_point) {
   return run_kernel_suite("fixed_point", {sums_of_any_size_are_exact, order_does_not_matter,
                                           sums_of_64_bits_are_the_same, fractions_of_wrapped_sums,
                                           kernels_sum_beyond_64_bits});

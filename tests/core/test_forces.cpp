@@ -389,7 +389,7 @@ START_TEST(overlap_ratio_is_the_direct_sum) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_forces) {
   return run_kernel_suite(
       "forces",
       {cubic_law, linear_push, forces_are_the_direct_sum, forces_are_the_gradient_of_an_energy,

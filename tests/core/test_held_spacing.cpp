@@ -47,4 +47,6 @@ START_TEST(a_place_is_known_between_samples) {
 }
 END_TEST
 
-int main() { return run_kernel_suite("held_spacing", {a_place_is_known_between_samples}); }
+TEST_SUITE(test_held_spacing) {
+  return run_kernel_suite("held_spacing", {a_place_is_known_between_samples});
+}

@@ -264,7 +264,7 @@ START_TEST(levels_take_given_nodes) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_initial_fill) {
   return run_kernel_suite(
       "initial_fill",
       {hexagonal_where_d_is_constant, exactly_hexagonal, as_many_as_d_means,

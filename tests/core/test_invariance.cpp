@@ -147,7 +147,7 @@ START_TEST(order_in_memory_does_not_matter) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_invariance) {
   return run_kernel_suite(
       "invariance", {rebuilds_do_not_matter_in_a_square, rebuilds_do_not_matter_around_obstacles,
                      rebuilds_do_not_matter_to_the_papers_scheme, order_in_memory_does_not_matter});

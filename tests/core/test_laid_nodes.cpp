@@ -39,4 +39,4 @@ START_TEST(least_freedom_counts_in_any_order) {
 }
 END_TEST
 
-int main() { return run_suite("laid_nodes", {least_freedom_counts_in_any_order}); }
+TEST_SUITE(test_laid_nodes) { return run_suite("laid_nodes", {least_freedom_counts_in_any_order}); }

@@ -165,7 +165,7 @@ START_TEST(of_other_nodes) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_lawson_flips) {
   return run_kernel_suite("lawson_flips",
                           {after_sweeps, after_nodes_moved_a_little, after_few_nodes_moved_far,
                            to_an_exact_grid, of_other_nodes});

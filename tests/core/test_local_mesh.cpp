@@ -154,7 +154,7 @@ START_TEST(a_node_at_the_rim_stays) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_local_mesh) {
   return run_kernel_suite(
       "local_mesh", {disturbed_lattice_relaxes_to_the_lattice, quality_of_the_lattice, a_node_comes,
                      a_node_goes, a_node_comes_and_goes, a_node_at_the_rim_stays});

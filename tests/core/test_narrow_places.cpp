@@ -78,7 +78,7 @@ START_TEST(a_foil_is_come_near_to_in_rounds) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_narrow_places) {
   return run_kernel_suite("narrow_places", {a_plate_is_narrow_all_over, near_places_alone,
                                             a_foil_is_come_near_to_in_rounds});
 }

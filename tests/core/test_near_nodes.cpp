@@ -60,4 +60,4 @@ END_TEST
 
 }  // namespace
 
-int main() { return run_kernel_suite("near_nodes", {in_the_plane, in_space}); }
+TEST_SUITE(test_near_nodes) { return run_kernel_suite("near_nodes", {in_the_plane, in_space}); }

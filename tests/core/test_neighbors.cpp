@@ -549,7 +549,7 @@ START_TEST(ranks_hold_what_32_bits_number) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_neighbors) {
   return run_kernel_suite(
       "neighbors",
       {leaves_fill_the_root, leaves_are_in_morton_order, points_are_found_in_their_leaves,

@@ -204,7 +204,7 @@ START_TEST(nodes_have_their_values) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_nodal_spacing) {
   return run_kernel_suite(
       "nodal_spacing", {linear_functions_are_exact, interpolates_in_the_right_triangle,
                         extends_from_the_nearest_point_of_the_border, the_same_however_distributed,

@@ -101,4 +101,6 @@ END_TEST
 
 }  // namespace
 
-int main() { return run_suite("output_files", {what_was_abandoned_goes, what_others_write_stays}); }
+TEST_SUITE(test_output_files) {
+  return run_suite("output_files", {what_was_abandoned_goes, what_others_write_stays});
+}

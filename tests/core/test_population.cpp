@@ -218,7 +218,7 @@ START_TEST(winners_are_far_apart) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_population) {
   return run_kernel_suite(
       "population",
       {perfect_lattices_stay, a_hole_is_filled_once, one_too_many_is_deleted,

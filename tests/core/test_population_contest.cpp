@@ -177,4 +177,6 @@ START_TEST(contests_are_won_as_by_search) {
 }
 END_TEST
 
-int main() { return run_kernel_suite("population_contest", {contests_are_won_as_by_search}); }
+TEST_SUITE(test_population_contest) {
+  return run_kernel_suite("population_contest", {contests_are_won_as_by_search});
+}

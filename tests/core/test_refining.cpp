@@ -137,7 +137,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_refining) {
   return run_kernel_suite("refining", {half_the_spacing_halves_every_edge,
                                        a_third_fills_triangles_too, only_where_it_is_finer,
                                        growth_of_d_thins_none, a_refined_level_is_nearly_right});

@@ -239,7 +239,7 @@ START_TEST(a_higher_bound_costs_the_worst_nothing) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_repair) {
   return run_kernel_suite(
       "repair",
       {node_in_the_middle_of_an_edge_goes, stars_close_over_the_hole, neighbours_do_not_both_go,

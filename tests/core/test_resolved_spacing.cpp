@@ -215,7 +215,7 @@ START_TEST(walls_too_thin) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_resolved_spacing) {
   return run_kernel_suite("resolved spacing",
                           {limits_of_many_sources, first_facets_on_the_way, nearest_points, a_plate,
                            a_gap, a_block, a_wedge, walls_too_thin});

@@ -207,7 +207,7 @@ START_TEST(finds_a_boundary_edge_that_is_no_edge) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_result_check) {
   return run_kernel_suite(
       "result_check",
       {finds_an_id_that_comes_twice, finds_two_nodes_in_one_place, finds_nodes_that_are_not_inside,

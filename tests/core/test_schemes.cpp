@@ -256,7 +256,7 @@ START_TEST(clamp_keeps_short_moves) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_schemes) {
   return run_kernel_suite(
       "schemes",
       {damped_step_is_of_first_order, predictor_corrector_is_of_second_order,

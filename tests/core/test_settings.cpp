@@ -62,7 +62,7 @@ START_TEST(numbers_of_nodes) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_settings) {
   return run_kernel_suite("settings",
                           {laws_and_options_agree, helps_name_both_defaults, numbers_of_nodes});
 }

@@ -351,7 +351,7 @@ START_TEST(growth_and_bounds) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_shape_spacing) {
   return run_kernel_suite(
       "shape spacing",
       {distances_in_the_plane, distances_to_arcs, distances_in_space, curvature_of_circles,

@@ -436,7 +436,7 @@ START_TEST(sweeps_move_owned_nodes_alone) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_slivers) {
   return run_kernel_suite(
       "slivers",
       {known_angles, angles_of_any_tetrahedron, few_nodes_are_found, surely_no_small_angles,

@@ -459,7 +459,7 @@ START_TEST(growth_limit_reports_bad_values) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_spacing) {
   return run_kernel_suite(
       "spacing",
       {grids_are_linear_in_each_direction, grids_are_linear_only_between_neighbours,

@@ -61,6 +61,6 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_speeds) {
   return run_kernel_suite("speeds", {they_are_in_spacings, none_is_faster_than_a_force_makes_it});
 }

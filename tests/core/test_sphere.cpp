@@ -257,7 +257,7 @@ START_TEST(growth_is_along_the_sphere) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_sphere) {
   return run_kernel_suite(
       "sphere",
       {there_and_back, it_keeps_angles, distances_are_along_the_sphere, ways_follow_great_circles,

@@ -106,7 +106,7 @@ START_TEST(rings_are_in_order) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_sphere_cells) {
   return run_kernel_suite("sphere_cells", {arcs_and_areas, circles_go_through_the_corners,
                                            angles_to_the_east, rings_are_in_order});
 }

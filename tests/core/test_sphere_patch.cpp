@@ -239,7 +239,7 @@ START_TEST(the_same_however_distributed) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_sphere_patch) {
   return run_kernel_suite("sphere_patch", {interpolates_on_the_ray_and_extends_from_the_border,
                                            weights_make_up_the_answer, weights_are_bounded_far_away,
                                            the_same_however_distributed});

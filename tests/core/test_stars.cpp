@@ -277,7 +277,7 @@ START_TEST(nodes_an_ulp_apart) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_stars) {
   return run_kernel_suite(
       "stars",
       {small_shapes_with_constant_spacing, small_shapes_with_graded_spacing,

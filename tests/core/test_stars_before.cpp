@@ -232,7 +232,7 @@ START_TEST(stars_of_others) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_stars_before) {
   return run_kernel_suite("stars_before", {little_moves, large_moves, ties, nodes_given_away,
                                            put_back, other_nodes, stars_of_others});
 }

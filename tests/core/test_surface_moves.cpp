@@ -298,7 +298,7 @@ START_TEST(the_same_from_two_halves) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_surface_moves) {
   return run_kernel_suite("surface_moves",
                           {stars_follow_nodes_on_surfaces, slivers_at_surfaces_are_mended,
                            free_nodes_come_first, the_same_from_two_halves});

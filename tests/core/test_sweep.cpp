@@ -129,7 +129,7 @@ START_TEST(sweeping_nothing_does_nothing) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_sweep) {
   return run_kernel_suite("sweep",
                           {no_bad_triangle_gets_worse, nodes_go_towards_the_mean,
                            sweeps_move_a_little_and_keep_off, sweeping_nothing_does_nothing});

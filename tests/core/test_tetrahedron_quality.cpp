@@ -117,7 +117,7 @@ START_TEST(slivers) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_tetrahedron_quality) {
   return run_suite("tetrahedron_quality",
                    {regular_tetrahedron, tetrahedron_of_the_body_centred_lattice, angles_by_edge,
                     turned_over, slivers});

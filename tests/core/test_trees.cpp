@@ -246,7 +246,7 @@ START_TEST(cells_are_found_around_a_rank_as_by_search) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_trees) {
   return run_kernel_suite(
       "trees", {leaves_are_linked_as_by_search, boxes_are_found_as_by_search, covers_hold_all_boxes,
                 cells_are_found_around_a_rank_as_by_search});

@@ -245,7 +245,7 @@ START_TEST(changed_options_count_from_here) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_visibility) {
   return run_kernel_suite("visibility",
                           {boundaries_separate, shorelines_separate, ways_through_boundary_nodes,
                            nodes_stay_off_the_boundary, changed_options_count_from_here});

@@ -471,7 +471,7 @@ START_TEST(no_nodes_of_level_sets_outside) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_domain) {
   return run_kernel_suite(
       "volume_domain",
       {sides_of_a_sphere, sides_of_pierced_blocks, ways_cross_as_often_as_they_should,

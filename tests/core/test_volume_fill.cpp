@@ -279,7 +279,7 @@ START_TEST(no_room_for_any) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_fill) {
   return run_kernel_suite(
       "volume_fill",
       {a15_over_the_whole_domain, body_centred_in_patches, as_many_as_d_means, the_same_from_parts,

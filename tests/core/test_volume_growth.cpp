@@ -49,6 +49,6 @@ END_TEST
 START_TEST(limit_around_an_edge) { expect_limited(Block(true, {0.9, 0.3, 0.2}), 0.99, 1.1, 612); }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_growth) {
   return run_kernel_suite("growth limit in space", {limit_in_the_open, limit_around_an_edge});
 }

@@ -198,7 +198,7 @@ START_TEST(forces_are_the_gradient_of_an_energy) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_lattice) {
   return run_kernel_suite("volume_lattice",
                           {numbers_of_the_lattice, neighbours_in_the_lattice, smooth_push,
                            smooth_push_is_free_of_stress, forces_are_the_direct_sum,

@@ -297,7 +297,7 @@ START_TEST(nodes_have_their_values) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_nodal) {
   return run_kernel_suite(
       "volume_nodal", {linear_functions_are_exact, interpolates_in_the_tetrahedron_of_min_ids,
                        extends_from_the_nearest_point_of_the_border, the_same_however_distributed,

@@ -214,7 +214,7 @@ START_TEST(thresholds_follow_the_mean_distance) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_population) {
   return run_kernel_suite(
       "volume_population",
       {perfect_lattices_stay, a_vacancy_is_filled_once, a_hole_is_filled, a_surplus_node_is_deleted,

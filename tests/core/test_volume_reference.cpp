@@ -69,4 +69,4 @@ START_TEST(graded_nodes) {
 }
 END_TEST
 
-int main() { return run_kernel_suite("volume_reference", {graded_nodes}); }
+TEST_SUITE(test_volume_reference) { return run_kernel_suite("volume_reference", {graded_nodes}); }

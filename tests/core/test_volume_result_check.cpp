@@ -227,7 +227,7 @@ START_TEST(allows_for_chords_of_edges_of_flat_sides) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_result_check) {
   return run_kernel_suite(
       "volume_result_check",
       {finds_an_id_that_comes_twice, finds_two_nodes_in_one_place, finds_nodes_that_are_not_inside,

@@ -427,7 +427,7 @@ START_TEST(rule) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_star) {
   return run_suite("volume_star", {random_nodes, lattices, a15, hardly_any_tetrahedra, sheets,
                                    two_components, proof, known_elements, rule});
 }

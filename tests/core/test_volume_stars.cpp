@@ -289,7 +289,7 @@ START_TEST(tetrahedra_of_a_domain) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_stars) {
   return run_kernel_suite(
       "volume_stars",
       {shaken_lattice, cubic_lattice_fills_the_box, lists_do_not_matter, found_in_parts,

@@ -274,7 +274,7 @@ START_TEST(blocks_off_the_way) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_triangles) {
   return run_kernel_suite(
       "volume_triangles",
       {triangles_and_segments_that_meet_boxes, touched_boxes_are_met, points_on_triangles,

@@ -110,7 +110,7 @@ START_TEST(nodes_that_went_on) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_visibility) {
   return run_kernel_suite("volume_visibility",
                           {lists_that_lack_a_node, room_around_nodes, nodes_that_went_on});
 }

@@ -132,7 +132,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_writing_cost) {
   char folder[] = "/tmp/pnpbs-writing-XXXXXX";
   if (!mkdtemp(folder)) return 1;
   std::filesystem::current_path(folder);

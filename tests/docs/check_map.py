@@ -10,7 +10,7 @@ import re
 import sys
 import tempfile
 
-LANGUAGES = {"c": "C", "fortran": "Fortran", "julia": "Julia", "python": "Python"}
+LANGUAGES = {"c": "C", "cpp": "C++", "fortran": "Fortran", "julia": "Julia", "python": "Python"}
 
 
 def missing(root):
@@ -23,7 +23,8 @@ def missing(root):
         if name != "README.md" and not re.match(r"reference/(?!README)", name) and name not in linked:
             yield f"docs/{name}"
     for language, title in LANGUAGES.items():
-        table = re.search(rf"^\| \[?{title}\b[^\n]*\n\| --- .*?(?=\n\n|\Z)", text, re.M | re.S)
+        table = re.search(rf"^\| \[?{re.escape(title)}(?!\w|\+)[^\n]*\n\| --- .*?(?=\n\n|\Z)", text,
+                          re.M | re.S)
         for example in sorted((root / "examples" / language).glob("*/")):
             if not table or f"| [{example.name}](../examples/{language}/{example.name}" not in table[0]:
                 yield f"examples/{language}/{example.name}"
@@ -33,7 +34,7 @@ def self_test():
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)
         for folder in ("docs/reference", "docs/guide", "examples/c/one", "examples/c/two",
-                       "examples/julia/one"):
+                       "examples/julia/one", "examples/cpp/one"):
             (root / folder).mkdir(parents=True)
         for page in ("reference/README.md", "reference/domain.md", "guide/adapt.md", "method.md", "od.md"):
             (root / "docs" / page).touch()
@@ -41,7 +42,8 @@ def self_test():
             "[a](method.md) [b](reference/README.md#c)\n\n| [C](x) | of a page |\n\n"
             "| [C](x) | |\n| --- | --- |\n| [one](../examples/c/one) | |\n\n| Julia | |\n| --- | --- |\n")
         found = list(missing(root))
-        assert found == ["docs/guide/adapt.md", "docs/od.md", "examples/c/two", "examples/julia/one"], found
+        assert found == ["docs/guide/adapt.md", "docs/od.md", "examples/c/two", "examples/cpp/one",
+                         "examples/julia/one"], found
         assert main([name]) == 1
 
 

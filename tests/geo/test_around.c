@@ -212,7 +212,7 @@ START_TEST(in_a_plane) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_around) {
   Suite* suite = suite_create("shapes around the Earth");
   TCase* cases = tcase_create("all");
   tcase_add_test(cases, along_parallels);

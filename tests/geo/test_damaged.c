@@ -89,7 +89,7 @@ START_TEST(text_files) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_damaged) {
   Suite* suite = suite_create("damaged files of shapes");
   TCase* cases = tcase_create("all");
   tcase_add_test(cases, text_files);

@@ -332,7 +332,7 @@ START_TEST(what_cannot_be_read) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_grids) {
   Suite* suite = suite_create("grids in files");
   TCase* cases = tcase_create("all");
   tcase_add_test(cases, in_its_own_system);

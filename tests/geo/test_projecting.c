@@ -317,7 +317,7 @@ START_TEST(what_cannot_be_projected) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_projecting) {
   Suite* suite = suite_create("projecting shapes");
   TCase* cases = tcase_create("all");
   tcase_add_test(cases, named);

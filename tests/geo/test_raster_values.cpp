@@ -198,7 +198,7 @@ START_TEST(a_block_is_read_once) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_raster_values) {
   Suite* suite = suite_create("values between the cells of a raster");
   TCase* cases = tcase_create("all");
   tcase_add_test(cases, with_data_everywhere);

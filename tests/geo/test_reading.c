@@ -390,7 +390,7 @@ START_TEST(handles) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_reading) {
   Suite* suite = suite_create("reading shapes");
   TCase* cases = tcase_create("all");
   tcase_add_test(cases, hole_and_repeated_vertices);

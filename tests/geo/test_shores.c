@@ -143,7 +143,7 @@ START_TEST(lines_around_an_island) {
 }
 END_TEST
 
-int main(void) {
+TEST_SUITE(test_shores) {
   Suite* suite = suite_create("lines along shores");
   TCase* cases = tcase_create("all");
   tcase_add_test(cases, same_vertices);

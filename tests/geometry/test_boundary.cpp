@@ -442,7 +442,7 @@ START_TEST(every_time_the_same) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_boundary) {
   return run_suite("boundary", {uniform_square,
                                 equal_steps_of_the_integral,
                                 number_of_steps_is_rounded,

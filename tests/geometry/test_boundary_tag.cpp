@@ -106,7 +106,7 @@ START_TEST(what_bounds_nothing_does_not_count) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_boundary_tag) {
   return run_suite("boundary_tag", {each_side_of_a_box_has_its_tag, common_patches_count,
                                     the_other_side_of_a_thin_plate_is_not_meant,
                                     a_cavity_faces_its_inside, what_bounds_nothing_does_not_count});

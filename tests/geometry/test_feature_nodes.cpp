@@ -151,7 +151,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_feature_nodes) {
   return run_suite("feature_nodes", {test_cube_has_equal_steps, test_varying_spacing,
                                      test_large_spacing, test_too_many});
 }

@@ -251,7 +251,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_features) {
   return run_suite("features",
                    {test_cube, test_cylinder, test_ball_has_none, test_open_sheets, test_tags,
                     test_more_than_two_facets_at_an_edge, test_inner_curves_and_fixed_nodes});

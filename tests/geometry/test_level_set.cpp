@@ -441,7 +441,7 @@ START_TEST(points_are_put_on_the_surface) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_level_set) {
   return run_suite(
       "level set",
       {a_ball_to_second_order, a_torus_has_a_hole, two_balls_apart, a_body_with_a_waist,

@@ -360,7 +360,7 @@ START_TEST(what_is_refused) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_msh) {
   return run_suite(
       "msh", {one_mesh_in_all_versions, entities_are_tags_without_groups,
               elements_of_volumes_tell_the_sides, entities_tell_the_sides,

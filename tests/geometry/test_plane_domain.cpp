@@ -911,7 +911,7 @@ START_TEST(large_and_far_domains) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_plane_domain) {
   return run_suite("plane_domain", {square,
                                     clockwise_square,
                                     islands_nest_to_any_depth,

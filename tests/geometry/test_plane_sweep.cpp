@@ -181,7 +181,7 @@ START_TEST(same_place_is_told) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_plane_sweep) {
   return run_suite("plane_sweep", {conflicts_equal_all_pairs, conflicts_are_real, faces_obey_euler,
                                    left_edge_equals_all_pairs, same_place_is_told});
 }

@@ -241,7 +241,7 @@ START_TEST(mutated_files_do_no_harm) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_poly_reader) {
   return run_suite(
       "poly_reader",
       {numbered_from_one, numbered_from_zero_with_all_sections, missing_counts_are_zero, any_locale,

@@ -234,7 +234,7 @@ START_TEST(polygons_that_are_none) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_polygons) {
   return run_suite("polygons", {convex_polygons, polygons_with_corners_that_point_inwards,
                                 corners_on_straight_sides, edges_are_delaunay, polygons_in_space,
                                 polygons_that_are_none});

@@ -313,7 +313,7 @@ START_TEST(crossing_is_proper) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_predicates) {
   return run_suite(
       "predicates",
       {orientation_equals_integer_arithmetic, turn_equals_integer_arithmetic,

@@ -357,7 +357,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_repaired_body) {
   [[maybe_unused]] const int bodies = static_cast<int>(cases().size());
   Suite* suite = suite_create("repaired_body");
   TCase* tests = tcase_create("repaired_body");

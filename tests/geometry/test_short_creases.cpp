@@ -169,7 +169,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_short_creases) {
   return run_suite("short_creases",
                    {test_free_ends, test_rings, test_branches, test_other_features, test_ridges});
 }

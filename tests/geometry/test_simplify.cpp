@@ -319,7 +319,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_simplify) {
   return run_suite("simplify",
                    {a_coast_stays_within_the_tolerance, pieces_as_long_as_d_stay,
                     graphs_in_any_order, nothing_comes_to_another_side, what_others_meet_stays,

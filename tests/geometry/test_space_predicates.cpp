@@ -359,7 +359,7 @@ START_TEST(exponents_far_apart) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_space_predicates) {
   return run_suite(
       "space predicates",
       {signs_are_as_documented, anywhere, near_each_other, near_a_sphere, near_a_plane,

@@ -225,7 +225,7 @@ START_TEST(ties_make_one_triangulation) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_space_ties) {
   return run_suite("space ties", {ties_are_those_of_raised_heights, perturbation_is_antisymmetric,
                                   cube_is_filled_once, ties_make_one_triangulation});
 }

@@ -231,7 +231,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_surface) {
   return run_suite("surface", {test_sides_of_features, test_flat_patches_have_one_normal,
                                test_sees_on_a_cube, test_shares_a_patch_on_a_cube,
                                test_sees_around_a_thin_body, test_feature_clearance});

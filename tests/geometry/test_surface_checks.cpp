@@ -399,7 +399,7 @@ START_TEST(figures_of_eight_are_told) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_surface_checks) {
   return run_suite("surface_checks",
                    {points_join_the_nearest_before_them_as_a_search_of_all_finds,
                     torn_surfaces_are_welded_in_silence_and_near_vertices_with_a_warning,

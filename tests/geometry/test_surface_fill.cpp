@@ -203,7 +203,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_surface_fill) {
   return run_suite("surface_fill", {test_density_on_a_ball, test_closed_patch_has_nodes,
                                     test_lattice_on_a_cube, test_lattice_follows_the_longest_edge,
                                     test_mixed_patches, test_repeats_to_the_bit, test_one_facet,

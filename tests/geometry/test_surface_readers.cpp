@@ -288,7 +288,7 @@ START_TEST(obj_errors) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_surface_readers) {
   return run_suite(
       "surface_readers",
       {one_surface_in_all_formats, formats_by_ending, files, real_files, any_locale,

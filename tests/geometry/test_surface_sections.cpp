@@ -184,7 +184,7 @@ START_TEST(tetgen_errors) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_surface_sections) {
   return run_suite("surface_sections", {ply_other_elements_and_properties, ply_errors,
                                         tetgen_sections, tetgen_node_file, tetgen_errors});
 }

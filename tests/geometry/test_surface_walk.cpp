@@ -200,7 +200,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_surface_walk) {
   return run_suite("surface_walk",
                    {test_straight_on_a_flat_sheet, test_unrolls_a_prism, test_great_circles,
                     test_stops_at_features, test_ways_through_nodes, test_pull_back,

@@ -191,7 +191,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(test_tangent_star) {
   return run_suite("tangent_star", {test_flat_patch, test_ties_in_a_flat_patch, test_ball,
                                     test_closed_bodies, test_ellipsoid, test_needs_its_reach});
 }

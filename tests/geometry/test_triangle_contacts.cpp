@@ -223,7 +223,7 @@ START_TEST(points_are_inside_as_whole_numbers_say) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_triangle_contacts) {
   return run_suite(
       "triangle_contacts",
       {triangles_meet_as_whole_numbers_say, segments_meet_triangles_as_whole_numbers_say,

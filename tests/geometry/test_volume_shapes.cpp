@@ -451,7 +451,7 @@ START_TEST(of_several_feature_angles_the_smallest_holds) {
 }
 END_TEST
 
-int main() {
+TEST_SUITE(test_volume_shapes) {
   return run_suite(
       "volume_shapes",
       {a_box_has_its_volume_area_tags_and_bounds, a_ball_is_within_a_ten_thousandth_of_its_radius,

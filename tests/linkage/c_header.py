@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What pnpbs.h declares: functions, callback types and constants, as plain data."""
 
+import functools
 import re
 from typing import NamedTuple
 
@@ -36,6 +37,7 @@ def without_comments(text):
     return re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
 
 
+@functools.lru_cache(maxsize=2)
 def functions(text):
     """{name: Function} of what is marked PNPBS_API."""
     found = {}
@@ -48,6 +50,7 @@ def functions(text):
     return found
 
 
+@functools.lru_cache(maxsize=2)
 def callbacks(text):
     """{name: Function} of the types of callbacks."""
     found = {}
@@ -57,6 +60,7 @@ def callbacks(text):
     return found
 
 
+@functools.lru_cache(maxsize=2)
 def constants(text):
     """{name: integer} of the statuses, the roles of curves and the version."""
     text = without_comments(text)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What pnpbs_c.f90 declares: interface bodies and constants, as plain data."""
 
+import functools
 import re
 from typing import NamedTuple
 
@@ -51,6 +52,7 @@ def declarations_of(line):
 HEAD = re.compile(r'function\s+(\w+)\s*\(([^)]*)\)\s*bind\(C(?:,\s*name="(\w+)")?\)$')
 
 
+@functools.lru_cache(maxsize=2)
 def functions(text):
     """{Fortran name: Function} of all interface bodies."""
     found, name = {}, None
@@ -76,6 +78,7 @@ def functions(text):
     return found
 
 
+@functools.lru_cache(maxsize=2)
 def constants(text):
     """{name: integer} of all parameters."""
     return {name: int(value) for name, value in

@@ -34,5 +34,5 @@ asks_for() { # header that is hidden, package, options of setup.sh
 asks_for metis.h libmetis-dev
 asks_for hdf5 libhdf5-dev
 asks_for hdf5 libhdf5-dev --tests
-asks_for CGAL libcgal-dev --tests
+asks_for CGAL libcgal-dev --all
 echo "setup.sh asks for what is missing"

@@ -108,7 +108,7 @@ static void expect_bad_value(pnpbs_placement placement, int on_rank, double valu
     d[n / 2] = value;
     snprintf(id, sizeof id, "node %lld:", (long long)ids[n / 2]);
   }
-  MPI_Bcast(id, sizeof id, MPI_CHAR, on_rank, MPI_COMM_WORLD);
+  MPI_Bcast(id, sizeof id, MPI_CHAR, on_rank, group);
   snprintf(begin, sizeof begin, size > 1 ? "rank %d: " : "argument", on_rank);
   snprintf(text, sizeof text, "= %g at", value);
   expect(pnpbs_placement_set_spacing_at_nodes(placement, n, d) == PNPBS_ERROR_SPACING,
@@ -142,10 +142,10 @@ static void bad_values(void) {
   pnpbs_domain_destroy(&domain);
 }
 
-int main(int argc, char** argv) {
-  begin_ranks(&argc, &argv);
+static void check_all(void) {
   compare("0");
   compare("0.2");
   bad_values();
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

@@ -137,7 +137,7 @@ static void check_elements(pnpbs_placement placement, const struct mesh* m) {
   expect(incident == belonging,
          "the elements of this rank are those whose first corner is its own");
   others = m->count - count;
-  MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT64_T, MPI_SUM, group);
   expect((others > 0) == (size > 1), "others have elements, too, that touch a rank's nodes");
   if (m->count > 0)
     expect(pnpbs_placement_get_incident_elements(placement, m->count - 1, &count, NULL, own) ==
@@ -168,7 +168,7 @@ static uint64_t hash_of_rows(const struct mesh* m, int over_ranks) {
     hash += mixed(mixed((uint64_t)m->ids[i]) + bits);
   }
   free(row);
-  if (over_ranks) MPI_Allreduce(MPI_IN_PLACE, &hash, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  if (over_ranks) MPI_Allreduce(MPI_IN_PLACE, &hash, 1, MPI_UINT64_T, MPI_SUM, group);
   return hash;
 }
 
@@ -237,7 +237,7 @@ static void check_exact(pnpbs_placement placement, const struct mesh* m) {
     expect(values[i] == (double)(sum + small), "a sum is exact, and rounded once");
     three += (ranks & 7) == 7;
   }
-  MPI_Allreduce(&three, &all, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(&three, &all, 1, MPI_INT64_T, MPI_SUM, group);
   if (size >= 3) expect(all > 0, "there are nodes that three ranks have");
   for (i = 0; i < m->all; ++i) values[i] = i < m->owned ? -0.0 : i % 2 == 0 ? 0 : -0.0;
   expect(pnpbs_placement_add_from_ghosts(placement, m->all, 1, values) == PNPBS_OK, "sums");
@@ -305,11 +305,11 @@ static void check_without_nodes(void) {
   pnpbs_domain_destroy(&domain);
 }
 
-int main(int argc, char** argv) {
-  begin_ranks(&argc, &argv);
+static void check_all(void) {
   check_without_nodes();
   check(PLANE);
   check(SPACE);
   check(SURFACES);
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

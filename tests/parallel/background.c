@@ -159,13 +159,13 @@ static void check_ranks_that_differ(int as_mesh) {
   pnpbs_placement_destroy(&placement);
 }
 
-int main(int argc, char** argv) {
+static void check_all(void) {
   int dim, as_mesh;
-  begin_ranks(&argc, &argv);
   for (dim = 2; dim <= 3; ++dim) check_meshes_of_a_part(dim);
   for (as_mesh = 0; as_mesh < 2; ++as_mesh) {
     for (dim = 2; dim <= 3; ++dim) check_same_nodes(dim, as_mesh);
     check_ranks_that_differ(as_mesh);
   }
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

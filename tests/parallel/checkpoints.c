@@ -1,29 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Placements interrupted at several points, written by some ranks and read by others: what comes
- * then has the bits of a run that was not interrupted. Run on five ranks, or on one. */
+ * then has the bits of a run that was not interrupted. Run on groups of five ranks, or of one. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <dirent.h>
 #include <math.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
+#include "rank_program.h"
 #include "volume_bodies.h"
 
-static pnpbs_context context;
-static int rank, size, failures;
 static char path[300];
 static const char *case_name, *stage_name;
 
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d, %s, %s: %s; last error: %s\n", rank, case_name, stage_name, what,
-          pnpbs_last_error(context));
-  ++failures;
+static void expect_of_stage(int condition, const char* what) {
+  char text[300];
+  snprintf(text, sizeof text, "%s, %s: %s", case_name, stage_name, what);
+  expect(condition, text);
 }
 
 /* ---------------------------------------------------------------- cases ----------------- */
@@ -67,22 +61,22 @@ static pnpbs_placement new_placement(const struct checkpoint_case* it, struct gr
   pnpbs_domain domain;
   pnpbs_placement placement;
   int k;
-  expect((on_sphere ? pnpbs_domain_create_sphere(context, 1, point, &domain)
-                    : pnpbs_domain_create(context, it->dim, &domain)) == PNPBS_OK,
-         "domain");
+  expect_of_stage((on_sphere ? pnpbs_domain_create_sphere(context, 1, point, &domain)
+                             : pnpbs_domain_create(context, it->dim, &domain)) == PNPBS_OK,
+                  "domain");
   if (on_sphere) {
     /* no curve bounds it */
   } else if (it->body) {
-    expect(it->body(domain, "") == PNPBS_OK, "body");
+    expect_of_stage(it->body(domain, "") == PNPBS_OK, "body");
   } else {
     pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, box, NULL, 0);
     pnpbs_domain_add_arc(domain, PNPBS_BOUNDARY, centre, 0.25, 0, 2 * acos(-1.0), 2);
   }
-  expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
+  expect_of_stage(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
   pnpbs_domain_destroy(&domain);
   for (k = 0; k < 3 && it->options[k][0]; ++k)
-    expect(pnpbs_placement_set(placement, it->options[k][0], it->options[k][1]) == PNPBS_OK,
-           "option");
+    expect_of_stage(
+        pnpbs_placement_set(placement, it->options[k][0], it->options[k][1]) == PNPBS_OK, "option");
   pnpbs_placement_set_spacing_callback(placement, spacing_at, spacing);
   return placement;
 }
@@ -109,7 +103,7 @@ static int32_t write_and_stop(double fraction, int64_t step, int64_t nodes, doub
   if (fraction == 0 || nodes == 0) return 0;
   status = pnpbs_placement_write_checkpoint(it->placement, path);
   if (status == PNPBS_ERROR_STATE) return 0;
-  expect(status == PNPBS_OK, "written from a monitor");
+  expect_of_stage(status == PNPBS_OK, "written from a monitor");
   it->written += 1;
   return ++it->turns == 2;
 }
@@ -117,12 +111,13 @@ static int32_t write_and_stop(double fraction, int64_t step, int64_t nodes, doub
 static void set_at_nodes(pnpbs_placement placement, int dim, double scale) {
   int64_t n, i;
   double *x, *d;
-  expect(pnpbs_placement_count(placement, &n) == PNPBS_OK, "count");
+  expect_of_stage(pnpbs_placement_count(placement, &n) == PNPBS_OK, "count");
   x = malloc(((size_t)n + 1) * (size_t)dim * sizeof(double));
   d = malloc(((size_t)n + 1) * sizeof(double));
-  expect(pnpbs_placement_get_nodes(placement, n, x, NULL, NULL, d) == PNPBS_OK, "nodes");
+  expect_of_stage(pnpbs_placement_get_nodes(placement, n, x, NULL, NULL, d) == PNPBS_OK, "nodes");
   for (i = 0; i < n; ++i) d[i] *= scale * (1 + 0.1 * x[dim * i]);
-  expect(pnpbs_placement_set_spacing_at_nodes(placement, n, d) == PNPBS_OK, "values at nodes");
+  expect_of_stage(pnpbs_placement_set_spacing_at_nodes(placement, n, d) == PNPBS_OK,
+                  "values at nodes");
   free(x), free(d);
 }
 
@@ -158,13 +153,13 @@ static void advance(pnpbs_placement placement, const struct checkpoint_case* it,
       status = pnpbs_placement_run(placement);
       break;
   }
-  expect(status >= 0, "stage");
+  expect_of_stage(status >= 0, "stage");
 }
 
 static void note(pnpbs_placement placement, char* text) {
   const char* hash = "";
   int64_t nodes = 0, steps = 0, inserted = 0, deleted = 0;
-  expect(pnpbs_placement_get_string(placement, "hash", &hash) == PNPBS_OK, "hash");
+  expect_of_stage(pnpbs_placement_get_string(placement, "hash", &hash) == PNPBS_OK, "hash");
   strcpy(text, hash);
   pnpbs_placement_get_int64(placement, "nodes", &nodes);
   pnpbs_placement_get_int64(placement, "steps", &steps);
@@ -174,27 +169,37 @@ static void note(pnpbs_placement placement, char* text) {
           (long long)nodes, (long long)steps, (long long)inserted, (long long)deleted);
 }
 
-/* A context on the first `ranks` ranks; the others have none. */
-static int begin(int ranks, MPI_Comm* comm) {
-  MPI_Comm_split(MPI_COMM_WORLD, rank < ranks ? 0 : MPI_UNDEFINED, rank, comm);
-  if (*comm == MPI_COMM_NULL) return 0;
-  expect(pnpbs_context_create_mpi(*comm, &context) == PNPBS_OK, "context");
+/* The communicator of the first ranks of the group, and the context of the group, which end()
+ * restores. */
+struct first_ranks {
+  MPI_Comm communicator;
+  pnpbs_context of_group;
+};
+
+/* Sets `context` to one on the first `ranks` ranks of the group. Returns whether this rank is one
+ * of them. Collective over the group. */
+static int begin(int ranks, struct first_ranks* first) {
+  MPI_Comm_split(group, rank < ranks ? 0 : MPI_UNDEFINED, rank, &first->communicator);
+  if (first->communicator == MPI_COMM_NULL) return 0;
+  first->of_group = context;
+  expect_of_stage(pnpbs_context_create_mpi(first->communicator, &context) == PNPBS_OK, "context");
   return 1;
 }
 
-static void end(MPI_Comm* comm) {
-  if (*comm != MPI_COMM_NULL) {
+static void end(struct first_ranks* first) {
+  if (first->communicator != MPI_COMM_NULL) {
     pnpbs_context_destroy(&context);
-    MPI_Comm_free(comm);
+    context = first->of_group;
+    MPI_Comm_free(&first->communicator);
   }
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
 }
 
 static void run_all(const struct checkpoint_case* it, int ranks, char notes[STAGES][200]) {
   struct graded first = {it->d, 0.3}, second;
-  MPI_Comm comm;
+  struct first_ranks some;
   int stage;
-  if (begin(ranks, &comm)) {
+  if (begin(ranks, &some)) {
     pnpbs_placement placement = new_placement(it, &first);
     for (stage = 0; stage < STAGES; ++stage) {
       stage_name = stage_names[stage];
@@ -204,32 +209,33 @@ static void run_all(const struct checkpoint_case* it, int ranks, char notes[STAG
     }
     pnpbs_placement_destroy(&placement);
   }
-  end(&comm);
+  end(&some);
 }
 
 /* Up to a stage, and written there. */
 static void write_at(const struct checkpoint_case* it, int ranks, int at) {
   struct graded first = {it->d, 0.3}, second;
-  MPI_Comm comm;
+  struct first_ranks some;
   int stage;
-  if (begin(ranks, &comm)) {
+  if (begin(ranks, &some)) {
     pnpbs_placement placement = new_placement(it, &first);
-    expect(pnpbs_placement_write_checkpoint(placement, path) == PNPBS_ERROR_STATE, "no nodes yet");
+    expect_of_stage(pnpbs_placement_write_checkpoint(placement, path) == PNPBS_ERROR_STATE,
+                    "no nodes yet");
     for (stage = 0; stage <= at; ++stage) {
       if (stage != IN_RUN) {
         advance(placement, it, stage - 1, &second);
       } else if (stage == at) {
         struct watch watch = {placement, 0, 0};
         pnpbs_placement_set_monitor(placement, write_and_stop, &watch);
-        expect(pnpbs_placement_run(placement) >= 0, "a run that is stopped");
-        expect(watch.written >= 1, "nothing written from the monitor");
+        expect_of_stage(pnpbs_placement_run(placement) >= 0, "a run that is stopped");
+        expect_of_stage(watch.written >= 1, "nothing written from the monitor");
       }
     }
     if (at != IN_RUN)
-      expect(pnpbs_placement_write_checkpoint(placement, path) == PNPBS_OK, "written");
+      expect_of_stage(pnpbs_placement_write_checkpoint(placement, path) == PNPBS_OK, "written");
     pnpbs_placement_destroy(&placement);
   }
-  end(&comm);
+  end(&some);
 }
 
 /* Read there, and all that comes then. */
@@ -237,11 +243,11 @@ static void read_and_go_on(const struct checkpoint_case* it, int ranks, int at,
                            char notes[STAGES][200]) {
   struct graded first = {it->d, 0.3}, second = {0.9 * it->d, 0.9};
   char now[200];
-  MPI_Comm comm;
+  struct first_ranks some;
   int stage;
-  if (begin(ranks, &comm)) {
+  if (begin(ranks, &some)) {
     pnpbs_placement placement = new_placement(it, at == ADAPTED ? &second : &first);
-    expect(pnpbs_placement_read_checkpoint(placement, path) == PNPBS_OK, "read");
+    expect_of_stage(pnpbs_placement_read_checkpoint(placement, path) == PNPBS_OK, "read");
     for (stage = at; stage < STAGES; ++stage) {
       if (stage == IN_RUN) continue;
       if (stage > at) advance(placement, it, stage == RUN ? STEPPED + 1 : stage - 1, &second);
@@ -254,7 +260,7 @@ static void read_and_go_on(const struct checkpoint_case* it, int ranks, int at,
     }
     pnpbs_placement_destroy(&placement);
   }
-  end(&comm);
+  end(&some);
 }
 
 /* ---------------------------------------------------------------- all ------------------- */
@@ -269,22 +275,19 @@ static int files_in(const char* folder) {
   return files;
 }
 
-int main(int argc, char** argv) {
+static void check_all(void) {
   const int pairs[][2] = {{1, 3}, {3, 2}, {5, 1}, {2, 5}};
   char folder[] = "checkpointsXXXXXX", notes[STAGES][200];
-  int k, at, turn = 0, all_failures;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  int k, at, turn = 0;
   if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
-  MPI_Bcast(folder, (int)sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
+  MPI_Bcast(folder, (int)sizeof folder, MPI_CHAR, 0, group);
   sprintf(path, "%s/case.vtkhdf", folder);
   for (k = 0; k < CASES; ++k) {
-    if (argc > 1 && strcmp(argv[1], cases[k].name) != 0) continue;
+    if (arguments[0] && strcmp(arguments[0], cases[k].name) != 0) continue;
     case_name = cases[k].name;
     stage_name = "";
     run_all(&cases[k], size < 2 ? 1 : 2, notes);
-    MPI_Bcast(notes, (int)sizeof notes, MPI_CHAR, 0, MPI_COMM_WORLD);
+    MPI_Bcast(notes, (int)sizeof notes, MPI_CHAR, 0, group);
     for (at = 0; at < STAGES; ++at, ++turn) {
       const int* pair = pairs[turn % 4];
       stage_name = stage_names[at];
@@ -293,11 +296,10 @@ int main(int argc, char** argv) {
     }
   }
   if (rank == 0) {
-    expect(files_in(folder) == 1, "files are left");
+    expect_of_stage(files_in(folder) == 1, "files are left");
     unlink(path);
     rmdir(folder);
   }
-  MPI_Allreduce(&failures, &all_failures, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  MPI_Finalize();
-  return all_failures > 0;
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

@@ -2,7 +2,7 @@
 // The triangles that the ranks hand out are one conforming triangulation of the domain, the one
 // that another library (CGAL) makes of all nodes; each comes once, from the rank that its least
 // corner belongs to. Nothing but the public interface is asked. Usage:
-//   conformity [CASE]...
+//   conformity [ROUND]... [CASE]...
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <cmath>
@@ -15,7 +15,6 @@
 
 #include "evaluate.hpp"
 #include "gathered_triangulation.hpp"
-#include "pnpbs/pnpbs_mpi.h"
 
 namespace {
 
@@ -29,14 +28,11 @@ using Triangle = std::array<std::int64_t, 3>;  // places of nodes, in increasing
 
 constexpr std::int32_t kInnerTag = 7777;
 
-int rank = 0, ranks = 1, failures = 0;
-pnpbs_context context = nullptr;
-
 // ------------------------------------------------------------------ what must hold -------------
 
 void expect(bool condition, const std::string& what, const std::string& wrong) {
   if (condition) return;
-  std::fprintf(stderr, "%d ranks, %s: %s\n", ranks, what.c_str(), wrong.c_str());
+  std::fprintf(stderr, "%d ranks, %s: %s\n", size, what.c_str(), wrong.c_str());
   ++failures;
 }
 
@@ -237,7 +233,7 @@ class Job {
     std::vector<double> xy;
     std::vector<std::int64_t> ids;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (static_cast<int>(i) % ranks != rank) continue;
+      if (static_cast<int>(i) % size != rank) continue;
       xy.insert(xy.end(), nodes[i].begin(), nodes[i].end());
       ids.push_back(static_cast<std::int64_t>((i * 7919) % nodes.size()) + 100);
     }
@@ -377,24 +373,18 @@ const std::map<std::string, void (*)()> kCases{{"graded-square", graded_square},
                                                {"jumps", jumps},
                                                {"scattered", scattered_nodes}};
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  require(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "context");
+void check_cases() {
   for (const auto& [name, run] : kCases) {
-    bool wanted = argc < 2;
-    for (int a = 1; a < argc; ++a) wanted = wanted || name == argv[a];
+    bool wanted = !arguments[0];
+    for (char** argument = arguments; *argument; ++argument) wanted = wanted || name == *argument;
     if (!wanted) continue;
     const double start = MPI_Wtime();
     run();
     if (rank == 0)
       std::printf("%s: %.1f s, %d failed so far\n", name.c_str(), MPI_Wtime() - start, failures);
   }
-  MPI_Bcast(&failures, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  pnpbs_context_destroy(&context);
-  MPI_Finalize();
-  return failures != 0;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_cases); }

@@ -308,7 +308,7 @@ void check_facets(const Part& p, const Reference& all, const Owners& owners) {
     expect(sorted(element) == key, "the corner opposite to a facet");
   }
   expect(found == here && static_cast<std::int64_t>(found.size()) == p.facets, "facets");
-  MPI_Allreduce(MPI_IN_PLACE, &owned, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, &owned, 1, MPI_INT64_T, MPI_SUM, group);
   expect(owned == static_cast<std::int64_t>(all.facets.size()), "each facet has one owner");
 }
 
@@ -401,12 +401,12 @@ void check_errors() {
   pnpbs_domain_destroy(&domain);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  begin_ranks(&argc, &argv);
+void check_all() {
   for (const Case& it : kCases) check_case(it);
   for (const Case& it : kRegionCases) check_case(it);
   check_errors();
-  return end_ranks();
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

@@ -58,9 +58,9 @@ static void exchange(const struct pattern* p, double* values, int width) {
   for (k = 0; k < p->neighbours; ++k) {
     const int64_t to = p->send_offsets[k], from = p->receive_offsets[k];
     MPI_Irecv(in + from * width, (int)((p->receive_offsets[k + 1] - from) * width), MPI_DOUBLE,
-              p->ranks[k], 5, MPI_COMM_WORLD, &requests[2 * k]);
+              p->ranks[k], 5, group, &requests[2 * k]);
     MPI_Isend(out + to * width, (int)((p->send_offsets[k + 1] - to) * width), MPI_DOUBLE,
-              p->ranks[k], 5, MPI_COMM_WORLD, &requests[2 * k + 1]);
+              p->ranks[k], 5, group, &requests[2 * k + 1]);
   }
   MPI_Waitall(2 * p->neighbours, requests, MPI_STATUSES_IGNORE);
   for (s = 0; s < p->receives; ++s)
@@ -72,7 +72,7 @@ static void exchange(const struct pattern* p, double* values, int width) {
 static void expect_symmetric(const struct pattern* p) {
   int *named = array(size, sizeof(int)), *names_us = array(size, sizeof(int)), r;
   for (r = 0; r < p->neighbours; ++r) named[p->ranks[r]] = 1;
-  MPI_Alltoall(named, 1, MPI_INT, names_us, 1, MPI_INT, MPI_COMM_WORLD);
+  MPI_Alltoall(named, 1, MPI_INT, names_us, 1, MPI_INT, group);
   expect(memcmp(named, names_us, (size_t)size * sizeof(int)) == 0, "neighbours name each other");
   expect(!named[rank], "no rank is its own neighbour");
   free(named), free(names_us);
@@ -108,7 +108,7 @@ static void check(pnpbs_placement placement) {
   expect(
       pnpbs_placement_get_numbering(placement, ghosts, &first, &count, ghost_numbers) == PNPBS_OK,
       "numbering");
-  MPI_Exscan(&nodes, &before, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Exscan(&nodes, &before, 1, MPI_INT64_T, MPI_SUM, group);
   expect(count == nodes && first == (rank > 0 ? before : 0), "a range of numbers for each rank");
 
   p = get_pattern(placement);
@@ -134,7 +134,7 @@ static void check(pnpbs_placement placement) {
     expect(0, "a ghost got another node's values");
     break;
   }
-  MPI_Allreduce(&ghosts, &all, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(&ghosts, &all, 1, MPI_INT64_T, MPI_SUM, group);
   expect(size == 1 ? all == 0 : all > 0, "there are ghosts to test");
 
   if (ghosts > 0 && rank == size - 1) --p.receives; /* too small on one rank: an error on all */
@@ -147,11 +147,10 @@ static void check(pnpbs_placement placement) {
   free_pattern(&p);
 }
 
-int main(int argc, char** argv) {
+static void check_all(void) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   pnpbs_domain domain;
   pnpbs_placement placement;
-  begin_ranks(&argc, &argv);
   pnpbs_domain_create(context, 2, &domain);
   pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0);
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
@@ -162,5 +161,6 @@ int main(int argc, char** argv) {
   check(placement);
   pnpbs_placement_destroy(&placement);
   pnpbs_domain_destroy(&domain);
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

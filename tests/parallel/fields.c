@@ -235,7 +235,7 @@ static void check(int32_t dim) {
   pnpbs_placement placement = placed(dim);
   struct nodes v = get_nodes(placement);
   int64_t ghosts = v.all - v.owned, all;
-  MPI_Allreduce(&ghosts, &all, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(&ghosts, &all, 1, MPI_INT64_T, MPI_SUM, group);
   expect(size == 1 ? all == 0 : all > 0, "there are ghosts to test");
   check_update(placement, &v, 1);
   check_update(placement, &v, 5);
@@ -259,10 +259,10 @@ static void check_without_nodes(void) {
   pnpbs_domain_destroy(&domain);
 }
 
-int main(int argc, char** argv) {
-  begin_ranks(&argc, &argv);
+static void check_all(void) {
   check_without_nodes();
   check(2);
   check(3);
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

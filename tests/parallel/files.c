@@ -14,8 +14,8 @@
 /* All ranks must have got this status, and the message must have this part. */
 static void expect_on_all(pnpbs_status status, pnpbs_status wanted, const char* part) {
   int least, most, mine = (int)status;
-  MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, group);
+  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, group);
   expect(least == (int)wanted && most == (int)wanted, "another status was expected");
   expect(strstr(pnpbs_last_error(context), part) != NULL, part);
 }
@@ -74,7 +74,7 @@ static void test_large_ids(void) {
   if (rank == 0) expect(check_ids("ids.csv") == nodes, "ids in the file");
   expect(pnpbs_placement_write(placement, "ids.node", 1) == PNPBS_OK, "ids.node");
   pnpbs_placement_destroy(&placement);
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
   if (rank == 0)
     expect(unlink("ids.csv") == 0 && unlink("ids.node") == 0 && unlink("ids.ele") == 0, "files");
 }
@@ -136,16 +136,16 @@ static void test_faults(void) {
   pnpbs_placement_destroy(&placement);
 }
 
-int main(int argc, char** argv) {
+static void check_all(void) {
   char folder[] = "/tmp/pnpbs-files-XXXXXX";
-  begin_ranks(&argc, &argv);
   if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
-  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
+  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, group);
   expect(chdir(folder) == 0, "folder");
   test_large_ids();
   test_faults();
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
   /* Fails if there is anything left, under any name. */
   if (rank == 0) expect(rmdir(folder) == 0, "something was left behind");
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

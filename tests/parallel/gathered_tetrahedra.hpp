@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all ranks hand out of a placement in space, brought together on rank 0: only a test may do
-// so.
+// Gathers the results of a placement in space from all ranks of the group on rank 0: only a test may
+// do so.
 #pragma once
 
 #include "gathered_triangulation.hpp"
@@ -29,12 +29,6 @@ struct Volume {
   std::vector<std::array<std::int64_t, 2>> star_neighbours;  // (node, neighbour) of every star
 };
 
-inline int this_rank() {
-  int rank;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
 // The nodes of this rank, then its ghosts: in the order of local indices.
 inline std::vector<SpaceNode> local_space_nodes(pnpbs_placement p, std::int64_t& owned) {
   std::int64_t ghosts;
@@ -44,7 +38,7 @@ inline std::vector<SpaceNode> local_space_nodes(pnpbs_placement p, std::int64_t&
   const auto room = static_cast<std::size_t>(max);
   std::vector<double> xyz(3 * room), d(room);
   std::vector<std::int64_t> ids(room);
-  std::vector<std::int32_t> tags(room), owners(room, this_rank());
+  std::vector<std::int32_t> tags(room), owners(room, rank);
   std::vector<SpaceNode> nodes;
   const auto append = [&](std::int64_t n) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
@@ -75,7 +69,7 @@ inline std::vector<OwnedTetrahedron> local_tetrahedra(pnpbs_placement p,
   std::vector<OwnedTetrahedron> tetrahedra(static_cast<std::size_t>(count));
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     for (std::size_t k = 0; k < 4; ++k) tetrahedra[t].ids[k] = id_at(nodes, corners[4 * t + k]);
-    tetrahedra[t].rank = this_rank();
+    tetrahedra[t].rank = rank;
   }
   return tetrahedra;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all ranks hand out of a placement, brought together on rank 0: only a test may do so.
+// Gathers the results of a placement from all ranks of the group on rank 0: only a test may do so.
 #pragma once
-
-#include <mpi.h>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +9,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "pnpbs/pnpbs.h"
+extern "C" {
+#include "rank_program.h"
+}
 
 namespace gathered {
 
@@ -38,9 +38,8 @@ struct Triangulation {
 
 inline void require(bool condition, const char* what) {
   if (condition) return;
-  int rank;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  std::fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(nullptr));
+  std::fprintf(stderr, "rank %d of %d: %s; last error: %s\n", rank, size, what,
+               pnpbs_last_error(nullptr));
   MPI_Abort(MPI_COMM_WORLD, 1);
 }
 
@@ -48,17 +47,14 @@ inline void require(pnpbs_status status, const char* what) { require(status >= 0
 
 template <class T>
 std::vector<T> on_rank_0(const std::vector<T>& mine) {
-  int rank, size;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
   const int bytes = static_cast<int>(mine.size() * sizeof(T));
   std::vector<int> counts(static_cast<std::size_t>(size)), starts(counts.size(), 0);
-  MPI_Gather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
+  MPI_Gather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, group);
   for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
   std::vector<T> all(rank == 0 ? static_cast<std::size_t>(starts.back() + counts.back()) / sizeof(T)
                                : 0);
   MPI_Gatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE, 0,
-              MPI_COMM_WORLD);
+              group);
   return all;
 }
 
@@ -72,8 +68,6 @@ inline std::vector<Node> local_nodes(pnpbs_placement p, std::int64_t& owned) {
   std::vector<std::int64_t> ids(static_cast<std::size_t>(max));
   std::vector<std::int32_t> owners(static_cast<std::size_t>(max));
   std::vector<Node> nodes;
-  int rank;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const auto append = [&](std::int64_t n) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
       nodes.push_back({ids[i], xy[2 * i], xy[2 * i + 1], owners[i]});

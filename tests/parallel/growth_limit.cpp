@@ -204,7 +204,7 @@ void check_failures() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return rank_checks::run(argc, argv, [] {
+  return rank_checks::run_in_groups(argc, argv, [] {
     for (const Case& c : cases()) check_case(c);
     check_volume();
     check_failures();

@@ -50,7 +50,7 @@ static uint64_t hash_of_lists(pnpbs_placement placement, int over_ranks, int64_t
     hash += list;
     if (offsets[i + 1] - offsets[i] > *longest) *longest = offsets[i + 1] - offsets[i];
   }
-  if (over_ranks) MPI_Allreduce(MPI_IN_PLACE, &hash, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  if (over_ranks) MPI_Allreduce(MPI_IN_PLACE, &hash, 1, MPI_UINT64_T, MPI_SUM, group);
   free(ids), free(offsets), free(neighbours);
   return hash;
 }
@@ -65,7 +65,7 @@ static void check(int32_t dim) {
   hash_of_nodes(shorts, other);
   expect(strcmp(hash, other) == 0, "the nodes do not depend on the radius");
   expect(pnpbs_placement_check(longs) == PNPBS_OK, "check");
-  MPI_Allreduce(&longest, &most, 1, MPI_INT64_T, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Allreduce(&longest, &most, 1, MPI_INT64_T, MPI_MAX, group);
   expect(most > (dim == 2 ? 45 : 200), "lists are long");
   pnpbs_placement_destroy(&longs);
   pnpbs_placement_destroy(&shorts);
@@ -83,9 +83,9 @@ static void check(int32_t dim) {
   context = all;
 }
 
-int main(int argc, char** argv) {
-  begin_ranks(&argc, &argv);
+static void check_all(void) {
   check(2);
   check(3);
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

@@ -52,9 +52,9 @@ const Case kRegions[] = {{"regions", 2, plane_with_regions, 0.05},
 
 // The tag that the group of a part stands for; -6 is none that a group can have.
 bool is_of_tag(const File& file, const Entity& entity, std::int32_t tag) {
-  const std::int64_t group = file.parts.at(entity).group;
-  if (tag > 0) return group == tag;
-  return file.names.at({entity[0], group}) == "\"tag_" + std::to_string(tag) + "\"";
+  const std::int64_t number = file.parts.at(entity).group;
+  if (tag > 0) return number == tag;
+  return file.names.at({entity[0], number}) == "\"tag_" + std::to_string(tag) + "\"";
 }
 
 // The group has none of these names.
@@ -208,8 +208,8 @@ void check_all_files(const File& file, const Part& p, const Ids& facets) {
 
 // Its names are quoted.
 void check_names(const File& file, const Case& it) {
-  const auto is_named = [&](const Entity& group, const char* name) {
-    const auto found = file.names.find(group);
+  const auto is_named = [&](const Entity& entity, const char* name) {
+    const auto found = file.names.find(entity);
     expect(found != file.names.end() && found->second == name, name);
   };
   if (it.body == plane_with_curve) {
@@ -267,7 +267,7 @@ void check_case(const Case& it, const std::string& prefix) {
     if (layers == 1) counts[3] = static_cast<std::int64_t>(file.ghosts.size());
   }
   pnpbs_placement_destroy(&placement);
-  MPI_Allreduce(MPI_IN_PLACE, &counts[3], 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, &counts[3], 1, MPI_INT64_T, MPI_SUM, group);
   if (rank == 0)
     std::printf("%s: %lld nodes, %lld elements, %lld facets, %lld ghosts%s\n", it.name,
                 static_cast<long long>(counts[0]), static_cast<long long>(counts[1]),
@@ -310,20 +310,20 @@ void check_errors(const std::string& folder) {
 
   std::ofstream(own_path(prefix)) << "old";
   const std::string blocked = prefix + "_" + std::to_string(size) + ".msh";
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
   if (rank == last) {
     fs::remove(blocked);
     fs::create_directory(blocked);
   }
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
   expect_error(mesh, prefix.c_str(), PNPBS_ERROR_FILE, ("'" + blocked + "'").c_str());
   expect(rank == last || contents(own_path(prefix)) == "old", "an existing file is unchanged");
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
   if (rank == last) fs::remove(blocked);
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
   expect(pnpbs_mesh_write(mesh, prefix.c_str()) == PNPBS_OK, "write");
   expect(contents(own_path(prefix)).starts_with("$MeshFormat"), "and is replaced");
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
   const auto files = std::distance(fs::directory_iterator(folder), fs::directory_iterator());
   expect(files == 2 * size, "nothing else is left");
 
@@ -334,17 +334,17 @@ void check_errors(const std::string& folder) {
   pnpbs_domain_destroy(&domain);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  begin_ranks(&argc, &argv);
+void check_all() {
   char folder[] = "/tmp/pnpbs_mesh_files_XXXXXX";
   if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
-  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
+  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, group);
   for (const Case& it : kCases) check_case(it, std::string(folder) + "/mesh");
   for (const Case& it : kRegions) check_case(it, std::string(folder) + "/mesh");
   check_errors(folder);
-  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Barrier(group);
   if (rank == 0) fs::remove_all(folder);
-  return end_ranks();
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

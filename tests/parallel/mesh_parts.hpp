@@ -139,11 +139,11 @@ inline Part part_of(pnpbs_mesh mesh) {
 inline Ids gathered(const Ids& mine) {
   int n = static_cast<int>(mine.size());
   std::vector<int> sizes(static_cast<std::size_t>(size)), at(sizes.size() + 1, 0);
-  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, group);
   for (std::size_t r = 0; r < sizes.size(); ++r) at[r + 1] = at[r] + sizes[r];
   Ids all(static_cast<std::size_t>(at.back()) + 1);
   MPI_Allgatherv(mine.data(), n, MPI_INT64_T, all.data(), sizes.data(), at.data(), MPI_INT64_T,
-                 MPI_COMM_WORLD);
+                 group);
   all.pop_back();
   return all;
 }

@@ -80,10 +80,10 @@ class File {
 
   void read_names() {
     for (std::int64_t n = number(); n > 0; --n) {
-      const Entity group{number(), number()};
+      const Entity entity{number(), number()};
       std::string name;
       std::getline(in_ >> std::ws, name);
-      expect(names.emplace(group, name).second, "one name of each group");
+      expect(names.emplace(entity, name).second, "one name of each group");
     }
   }
 

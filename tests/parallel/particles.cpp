@@ -304,10 +304,10 @@ Told made_alone(const Case& it, const char* data) {
 Told of_rank_0(Told told) {
   std::vector<std::pair<std::int64_t, Node>> list(told.particles.begin(), told.particles.end());
   std::int64_t counts[] = {std::int64_t(list.size()), told.all, told.left_out, told.moved};
-  MPI_Bcast(counts, 4, MPI_INT64_T, 0, MPI_COMM_WORLD);
-  MPI_Bcast(&told.closest, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  MPI_Bcast(counts, 4, MPI_INT64_T, 0, group);
+  MPI_Bcast(&told.closest, 1, MPI_DOUBLE, 0, group);
   list.resize(std::size_t(counts[0]));
-  MPI_Bcast(list.data(), int(list.size() * sizeof list[0]), MPI_BYTE, 0, MPI_COMM_WORLD);
+  MPI_Bcast(list.data(), int(list.size() * sizeof list[0]), MPI_BYTE, 0, group);
   told.particles = NodesById(list.begin(), list.end());
   told.all = counts[1], told.left_out = counts[2], told.moved = counts[3];
   return told;
@@ -329,10 +329,10 @@ void check_case(const Case& it, const char* data) {
   if (failures > before) std::printf("rank %d, %s: WRONG\n", rank, it.name);
 }
 
+void check_all() {
+  for (const Case& it : kCases) check_case(it, arguments[0]);
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-  begin_ranks(&argc, &argv);
-  for (const Case& it : kCases) check_case(it, argv[1]);
-  return end_ranks();
-}
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What C++ programs over ranks that see the inside of the library share: MPI and Kokkos run while
-// the checks do, and what fails is told with the rank.
+// Common part of the C++ programs that test the inside of the library over ranks: runs the checks
+// on groups of ranks, while MPI and Kokkos run, and reports failures with the rank.
 #pragma once
 
 #include <mpi.h>
@@ -13,11 +13,13 @@
 
 #include "base/kokkos_runtime.hpp"
 #include "comm/communicator.hpp"
+#include "rank_groups.h"
 
 namespace rank_checks {
 
-inline std::shared_ptr<const pnpbs::Communicator> comm;
-inline std::int64_t failures = 0;
+inline MPI_Comm group = MPI_COMM_NULL;  // of the ranks that run the checks together
+inline std::shared_ptr<const pnpbs::Communicator> comm;  // over `group`
+inline std::int64_t failures = 0;                        // of this rank, in all rounds
 
 inline void expect(bool condition, const std::string& what) {
   if (condition) return;
@@ -25,17 +27,31 @@ inline void expect(bool condition, const std::string& what) {
     std::fprintf(stderr, "rank %d of %d: %s\n", comm->rank(), comm->size(), what.c_str());
 }
 
-// Runs the checks; the exit status of the program.
-inline int run(int argc, char** argv, const std::function<void()>& checks) {
+// Runs the checks on each group of each round that the leading arguments describe (rank_groups.h).
+// Begins and ends MPI and Kokkos. Returns the exit status of the program.
+inline int run_in_groups(int argc, char** argv, const std::function<void()>& checks) {
   MPI_Init(&argc, &argv);
-  comm = pnpbs::mpi_communicator(MPI_Comm_c2f(MPI_COMM_WORLD));
-  pnpbs::start_kokkos(0, comm->ranks_on_node(), [] {});
-  checks();
-  const std::uint64_t all = comm->allreduce_sum(static_cast<std::uint64_t>(failures));
-  if (comm->rank() == 0)
-    std::printf("%d ranks: %llu failed\n", comm->size(), static_cast<unsigned long long>(all));
+  const int rounds = count_rounds(argv + 1);
+  if (rounds < 0) {
+    MPI_Finalize();
+    return WRONG_ROUNDS;
+  }
+  auto world = pnpbs::mpi_communicator(MPI_Comm_c2f(MPI_COMM_WORLD));
+  pnpbs::start_kokkos(0, world->ranks_on_node(), [] {});
+  for (int k = 0; k == 0 || k < rounds; ++k) {
+    group = split_into_groups(rounds > 0 ? argv[1 + k] : nullptr);
+    if (group != MPI_COMM_NULL) {
+      comm = pnpbs::mpi_communicator(MPI_Comm_c2f(group));
+      checks();
+      comm.reset();
+      MPI_Comm_free(&group);
+    }
+    wait_for_all_ranks();
+  }
+  const std::uint64_t all = world->allreduce_sum(static_cast<std::uint64_t>(failures));
+  if (world->rank() == 0) std::printf("%llu failed\n", static_cast<unsigned long long>(all));
   pnpbs::end_kokkos();
-  comm.reset();
+  world.reset();
   MPI_Finalize();
   return all != 0;
 }

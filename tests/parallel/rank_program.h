@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What C programs over ranks that see the public interface share: what fails is told with the rank,
- * and the program fails on all ranks. */
+ * Common part of the C programs that test the public interface over ranks: runs the checks on
+ * groups of ranks and reports failures with the rank. A failure on one rank makes the program fail
+ * on all. */
 #ifndef PNPBS_TESTS_RANK_PROGRAM_H
 #define PNPBS_TESTS_RANK_PROGRAM_H
 
@@ -10,20 +11,33 @@
 #include <stdio.h>
 #include <string.h>
 
-static pnpbs_context context;
-static int rank, size, failures;
+#include "rank_groups.h"
+
+static MPI_Comm group;        /* communicator of the ranks that run the checks together */
+static pnpbs_context context; /* on `group` */
+static int rank, size;        /* in `group` */
+static int failures;          /* of this rank, in all rounds */
+static char** arguments; /* of the program, behind those that describe rounds; ends with NULL */
 
 static inline void expect(int condition, const char* what) {
   if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
+  fprintf(stderr, "rank %d of %d: %s; last error: %s\n", rank, size, what,
+          pnpbs_last_error(context));
   ++failures;
 }
 
+/* Sets `group` and what belongs to it. Collective over the communicator. */
+static inline void begin_group(MPI_Comm communicator) {
+  group = communicator;
+  MPI_Comm_rank(group, &rank);
+  MPI_Comm_size(group, &size);
+  expect(pnpbs_context_create_mpi(group, &context) == PNPBS_OK, "context");
+}
+
+/* For programs that run on all ranks alone: see run_in_groups for others. */
 static inline void begin_ranks(int* argc, char*** argv) {
   MPI_Init(argc, argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  begin_group(MPI_COMM_WORLD);
 }
 
 /* The unit square or cube. */
@@ -52,14 +66,44 @@ static inline void hash_of_nodes(pnpbs_placement placement, char hash[32]) {
   strncpy(hash, text, 31)[31] = 0;
 }
 
-/* The exit status of the program. */
-static inline int end_ranks(void) {
-  int all;
-  pnpbs_context_destroy(&context);
+/* Ends MPI. Returns the exit status of the program: 0 if no rank of MPI_COMM_WORLD has failures. */
+static inline int end_mpi(void) {
+  int all, rank_in_world;
   MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_in_world);
+  if (rank_in_world == 0) printf("%d failed\n", all);
   MPI_Finalize();
   return all != 0;
+}
+
+/* Ends what begin_ranks has begun. Returns the exit status of the program. */
+static inline int end_ranks(void) {
+  pnpbs_context_destroy(&context);
+  return end_mpi();
+}
+
+/* Runs the checks on each group of each round that the leading arguments describe (rank_groups.h).
+ * Begins and ends MPI. Returns the exit status of the program. */
+static inline int run_in_groups(int argc, char** argv, void (*checks)(void)) {
+  int rounds, k;
+  MPI_Init(&argc, &argv);
+  rounds = count_rounds(argv + 1);
+  if (rounds < 0) {
+    MPI_Finalize();
+    return WRONG_ROUNDS;
+  }
+  arguments = argv + 1 + rounds;
+  for (k = 0; k == 0 || k < rounds; ++k) {
+    MPI_Comm communicator = split_into_groups(rounds > 0 ? argv[1 + k] : NULL);
+    if (communicator != MPI_COMM_NULL) {
+      begin_group(communicator);
+      checks();
+      pnpbs_context_destroy(&context);
+      MPI_Comm_free(&group);
+    }
+    wait_for_all_ranks();
+  }
+  return end_mpi();
 }
 
 #endif

@@ -150,4 +150,4 @@ void check_relaxation() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_relaxation); }
+int main(int argc, char** argv) { return rank_checks::run_in_groups(argc, argv, check_relaxation); }

@@ -307,6 +307,7 @@ void check_spans() {
 }
 
 void check_all() {
+  message_counts::counts = {};
   check_rounds();
   check_mixing();
   check_records();
@@ -320,4 +321,4 @@ void check_all() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_all); }
+int main(int argc, char** argv) { return rank_checks::run_in_groups(argc, argv, check_all); }

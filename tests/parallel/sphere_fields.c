@@ -126,10 +126,9 @@ static void check_ranks_that_differ(struct field* f, int kind) {
   pnpbs_placement_destroy(&placement);
 }
 
-int main(int argc, char** argv) {
+static void check_all(void) {
   struct field f;
   int kind;
-  begin_ranks(&argc, &argv);
   f = globe();
   for (kind = 0; kind < KINDS; ++kind) check_same_nodes(&f, kind, 1);
   for (kind = 0; kind < PART_OF_GRID; ++kind) check_same_nodes(&f, kind, 0);
@@ -138,5 +137,6 @@ int main(int argc, char** argv) {
   free(f.x);
   free(f.d);
   free(f.corners);
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

@@ -172,7 +172,7 @@ static void integrate(pnpbs_placement placement, const double* values, double* i
       part[which] +=
           third * (all[FIELDS * a + which] + all[FIELDS * b + which] + all[FIELDS * e + which]);
   }
-  MPI_Allreduce(part, integrals, FIELDS, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(part, integrals, FIELDS, MPI_DOUBLE, MPI_SUM, group);
   free(x), free(all), free(corners);
 }
 
@@ -267,7 +267,7 @@ static void check_same_bits(int shape) {
   const uint64_t part = hash_after_a_change(shape);
   uint64_t together;
   pnpbs_context all = context;
-  MPI_Allreduce(&part, &together, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(&part, &together, 1, MPI_UINT64_T, MPI_SUM, group);
   expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
   if (rank == 0)
     expect(together == hash_after_a_change(shape), "other values than one process has");
@@ -275,9 +275,8 @@ static void check_same_bits(int shape) {
   context = all;
 }
 
-int main(int argc, char** argv) {
+static void check_all(void) {
   int shape;
-  begin_ranks(&argc, &argv);
   for (order = 1; order <= 2; ++order) {
     check_is_bounded();
     for (shape = GLOBE; shape < SHAPES; ++shape) {
@@ -289,5 +288,6 @@ int main(int argc, char** argv) {
   order = 1;
   check_another_point();
   check_another_radius();
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

@@ -72,7 +72,7 @@ std::vector<Interval> intervals_of_ranks(pnpbs_placement placement) {
 }
 
 void check_questions() {
-  require(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "context");
+  require(pnpbs_context_create_mpi(rank_checks::group, &context), "context");
   pnpbs_placement placement = sparse_strip();
   const std::vector<Interval> all = intervals_of_ranks(placement);
   const Interval own = all[static_cast<std::size_t>(comm->rank())];
@@ -103,4 +103,4 @@ void check_questions() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_questions); }
+int main(int argc, char** argv) { return rank_checks::run_in_groups(argc, argv, check_questions); }

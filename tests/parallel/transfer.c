@@ -105,7 +105,7 @@ static double largest_error(const double* values, const double* x, int64_t n, in
   int64_t i;
   for (i = 0; i < n; ++i)
     part = fmax(part, fabs(values[FIELDS * i + which] - field(which, x + dim * i, dim)));
-  MPI_Allreduce(&part, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Allreduce(&part, &largest, 1, MPI_DOUBLE, MPI_MAX, group);
   return largest;
 }
 
@@ -225,7 +225,7 @@ static void integrate(pnpbs_placement placement, const double* values, double* i
     for (which = 0; which < FIELDS; ++which)
       for (k = 0; k <= dim; ++k) part[which] += volume * all[FIELDS * c[k] + which] / (dim + 1);
   }
-  MPI_Allreduce(part, integrals, FIELDS, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(part, integrals, FIELDS, MPI_DOUBLE, MPI_SUM, group);
   free(x), free(all), free(corners);
 }
 
@@ -278,7 +278,7 @@ static void check_same_bits(shape s, double d) {
   uint64_t part[2], together[2], alone[2];
   pnpbs_context all = context;
   hashes(s, d, part);
-  MPI_Allreduce(part, together, 2, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(part, together, 2, MPI_UINT64_T, MPI_SUM, group);
   expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
   if (rank == 0) {
     hashes(s, d, alone);
@@ -325,7 +325,7 @@ static void check_errors(void) {
     snprintf(id, sizeof id, "component 1 at node %lld is nan", (long long)v.ids[v.n / 2]);
     values[FIELDS * (v.n / 2) + 1] = NAN;
   }
-  MPI_Bcast(id, sizeof id, MPI_CHAR, size - 1, MPI_COMM_WORLD);
+  MPI_Bcast(id, sizeof id, MPI_CHAR, size - 1, group);
   expect(pnpbs_transfer_create(placement, v.n, FIELDS, values, &transfer) == PNPBS_ERROR_ARGUMENT &&
              message_has(id) && transfer == NULL,
          "no number at a node");
@@ -368,10 +368,9 @@ static void check_errors(void) {
   pnpbs_placement_destroy(&placement);
 }
 
-int main(int argc, char** argv) {
+static void check_all(void) {
   const double d[SHAPES] = {0.1, 0.1, 0.28, 0.25};
   shape s;
-  begin_ranks(&argc, &argv);
   for (order = 1; order <= 2; ++order)
     for (s = SQUARE; s < SHAPES; ++s) {
       check_exactness(s, d[s]);
@@ -382,5 +381,6 @@ int main(int argc, char** argv) {
       check_points(s, d[s]);
     }
   check_errors();
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

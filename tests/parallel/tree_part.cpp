@@ -168,7 +168,7 @@ void check_trees(double fine) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return rank_checks::run(argc, argv, [] {
+  return rank_checks::run_in_groups(argc, argv, [] {
     check_trees<2>(0.004);
     check_trees<3>(0.05);
   });

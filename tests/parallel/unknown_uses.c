@@ -39,19 +39,19 @@ static int64_t uses_in(int32_t dim, const char* const* options) {
   return uses;
 }
 
-int main(int argc, char** argv) {
+static void check_all(void) {
   static const char* const enough[][3] = {{"exchange_interval", "8", NULL},
                                           {"method", "paper", NULL}};
   static const char* const seldom[] = {"exchange_interval", "8", NULL};
   int32_t dim;
   size_t k;
-  begin_ranks(&argc, &argv);
   for (dim = 2; dim <= 3; ++dim) {
-    if (argc > 1)
+    if (arguments[0])
       expect(uses_in(dim, seldom) > 0, "thin layers of ghosts are found out");
     else
       for (k = 0; k < sizeof enough / sizeof enough[0]; ++k)
         expect(uses_in(dim, enough[k]) == 0, "what decides is known");
   }
-  return end_ranks();
 }
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

@@ -2,11 +2,10 @@
 // The tetrahedra that the ranks hand out are one conforming triangulation of the body, the one that
 // another library (CGAL) makes of all nodes; each comes once, from the rank that its least corner
 // belongs to. Nothing but the public interface is asked. Usage:
-//   volume_conformity [CASE]...
+//   volume_conformity [ROUND]... [CASE]...
 #include <cstring>
 #include <string>
 
-#include "pnpbs/pnpbs_mpi.h"
 #include "volume_cases.h"
 #include "volume_judge.hpp"
 
@@ -17,9 +16,6 @@ using volume_judge::Body;
 using volume_judge::Point;
 
 constexpr const char* kData = PNPBS_SOURCE_DIR "/examples/data";
-
-int rank = 0, ranks = 1, failures = 0;
-pnpbs_context context = nullptr;
 
 // ------------------------------------------------------------------ bodies ---------------------
 
@@ -101,7 +97,7 @@ class Job {
     std::vector<double> xyz;
     std::vector<std::int64_t> ids;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (static_cast<int>(i) % ranks != rank) continue;
+      if (static_cast<int>(i) % size != rank) continue;
       xyz.insert(xyz.end(), nodes[i].begin(), nodes[i].end());
       ids.push_back(static_cast<std::int64_t>((i * 7919) % nodes.size()) + 100);
     }
@@ -123,7 +119,7 @@ class Job {
   void judge(const char* stage) {
     const gathered::Volume all = gathered::gather_volume(p_);
     if (rank != 0) return;
-    const std::string name = std::to_string(ranks) + " ranks, " + what_ + ", " + stage;
+    const std::string name = std::to_string(size) + " ranks, " + what_ + ", " + stage;
     failures += volume_judge::Judge(all, body_, name).judge();
   }
 
@@ -187,24 +183,18 @@ const std::map<std::string, void (*)()> kCases{
     {"adapting", adapting},
     {"empty-ranks", empty_ranks}};
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  require(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "context");
+void check_cases() {
   for (const auto& [name, place] : kCases) {
-    bool wanted = argc < 2;
-    for (int a = 1; a < argc; ++a) wanted = wanted || name == argv[a];
+    bool wanted = !arguments[0];
+    for (char** argument = arguments; *argument; ++argument) wanted = wanted || name == *argument;
     if (!wanted) continue;
     const double start = MPI_Wtime();
     place();
     if (rank == 0)
       std::printf("%s: %.1f s, %d failed so far\n", name.c_str(), MPI_Wtime() - start, failures);
   }
-  MPI_Bcast(&failures, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  pnpbs_context_destroy(&context);
-  MPI_Finalize();
-  return failures == 0 ? 0 : 1;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_cases); }

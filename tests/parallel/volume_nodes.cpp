@@ -130,4 +130,4 @@ void check_nodes() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_nodes); }
+int main(int argc, char** argv) { return rank_checks::run_in_groups(argc, argv, check_nodes); }

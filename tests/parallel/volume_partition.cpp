@@ -199,4 +199,4 @@ void check_partition() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_partition); }
+int main(int argc, char** argv) { return rank_checks::run_in_groups(argc, argv, check_partition); }

@@ -237,11 +237,11 @@ void check_numbers(const Cells& own) {
   for (const auto& [id, cell] : own) ids.push_back(id);
   std::vector<int> counts(static_cast<std::size_t>(size)), starts(counts.size());
   const int count = static_cast<int>(ids.size());
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, group);
   std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
   all.resize(static_cast<std::size_t>(starts.back() + counts.back()));
   MPI_Allgatherv(ids.data(), count, MPI_INT64_T, all.data(), counts.data(), starts.data(),
-                 MPI_INT64_T, MPI_COMM_WORLD);
+                 MPI_INT64_T, group);
   for (const auto& [id, cell] : own)
     for (const Face& face : cell.faces)
       expect(all.at(static_cast<std::size_t>(face.number)) == face.id, "number of a neighbour");
@@ -321,11 +321,11 @@ void check_errors() {
   pnpbs_domain_destroy(&domain);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  begin_ranks(&argc, &argv);
+void check_all() {
   for (const Case& it : kCases) check_case(it);
   check_errors();
-  return end_ranks();
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_in_groups(argc, argv, check_all); }

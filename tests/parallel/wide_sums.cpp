@@ -82,4 +82,4 @@ void check_all() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_all); }
+int main(int argc, char** argv) { return rank_checks::run_in_groups(argc, argv, check_all); }

@@ -182,7 +182,7 @@ END_TEST
 
 }  // namespace
 
-int main() {
+TEST_SUITE(mutate_checkpoint) {
   Suite* suite = suite_create("mutate_checkpoint");
   TCase* tests = tcase_create("mutate_checkpoint");
   tcase_add_test(tests, damaged);

@@ -196,4 +196,4 @@ Suite* suite() {
 
 }  // namespace
 
-int main() { return run_suite(suite()); }
+TEST_SUITE(mutate_poly) { return run_suite(suite()); }

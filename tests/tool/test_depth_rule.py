@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 
 from rasters import write_geotiff, write_netcdf
+from builds import exists_if
 from test_grids import GridsTest
 from test_rasters import BUILT, BayTest
 
@@ -22,7 +23,7 @@ def by_slopes(depth, slope, nodes, least=10):
         return np.where(depth > least, 2 * np.pi * depth / (nodes * slope), np.inf)
 
 
-@unittest.skipUnless(BUILT, "built without GDAL")
+@exists_if(BUILT)
 class InThePlane(BayTest):
     """10 to 24 m, 5 m more per degree to the east and 4 m to the north."""
 
@@ -125,7 +126,7 @@ class InThePlane(BayTest):
         self.assertTrue(np.any(np.hypot(table["x"] - x, table["y"] - y) == 0))
 
 
-@unittest.skipUnless(BUILT, "built without GDAL")
+@exists_if(BUILT)
 class OnASphere(GridsTest):
     """Elevations of all the Earth, from 0 to 360 degrees, and some land without data."""
 

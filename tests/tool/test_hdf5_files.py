@@ -9,13 +9,10 @@ import xml.etree.ElementTree
 import h5py
 import meshio
 import numpy
+import pyvista
 import vtk
 
-try:
-    import pyvista
-except ImportError:
-    pyvista = None
-
+from builds import exists_if
 from command import BAD_INPUT, COMMAND, FAILED, MPIEXEC, CommandTest
 from readers import grid_arrays, read_with_vtk
 
@@ -86,7 +83,7 @@ class Hdf5Files(CommandTest):
                 numpy.testing.assert_array_equal(ours, theirs)
 
     def check_pyvista(self, name):
-        for end in ("vtu", "vtkhdf", "xdmf") if pyvista else ():
+        for end in ("vtu", "vtkhdf", "xdmf"):
             mesh = pyvista.read(self.folder / f"{name}.{end}")
             numpy.testing.assert_array_equal(mesh.points, self.expected["points"])
             self.assertEqual(mesh.n_cells, len(self.expected["types"]))
@@ -167,7 +164,7 @@ class Refused(CommandTest):
                            **more)
 
     # Before the run, which would take hours.
-    @unittest.skipUnless(NO_HDF5, "nothing is preloaded before sanitizers")
+    @exists_if(NO_HDF5)
     def test_hdf5_is_not_found(self):
         for name in ("a.vtkhdf", "a.xdmf", "a.hdf5"):
             message = self.refuse("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.001", "-o", name,

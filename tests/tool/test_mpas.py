@@ -11,6 +11,7 @@ import netCDF4
 import numpy as np
 import scipy.sparse
 
+from builds import exists_if
 from command import CommandTest
 
 RADIUS = 6371220.0  # metres
@@ -245,7 +246,7 @@ class MpasGrids(CommandTest):
         for line, row, count in zip(lines[1:], grid["cellsOnCell"], grid["nEdgesOnCell"], strict=True):
             self.assertEqual([int(word) for word in line.split()], row[:count].tolist())
 
-    @unittest.skipUnless(os.environ.get("PNPBS_MPIEXEC"), "built without MPI")
+    @exists_if(os.environ.get("PNPBS_MPIEXEC"))
     def test_ranks_write_the_same(self):
         self.whole(ranks=1)
         files = [(self.folder / name).read_bytes() for name in ("grid.nc", "graph.graph")]
@@ -259,7 +260,7 @@ class MpasGrids(CommandTest):
         for name in ("grid.mpas", "grid.graph"):
             self.assertIn("cells of a sphere", self.refuse("--domain", self.square, "--spacing", "0.1", "--output", name))
 
-    @unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
+    @exists_if(os.environ["PNPBS_GEO"] == "1")
     def test_a_sea_without_a_node_inside(self):
         pond = self.folder / "pond.geojson"
         pond.write_text(json.dumps({"type": "Polygon", "coordinates": [[[0, 0], [5, 0], [0, 5], [0, 0]]]}))
@@ -268,7 +269,7 @@ class MpasGrids(CommandTest):
                                   "--output", name)
             self.assertIn("would have none: all nodes are on the boundary", message)
 
-    @unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
+    @exists_if(os.environ["PNPBS_GEO"] == "1")
     def test_a_sea_is_a_culled_grid(self):
         ring = [[40 * np.cos(t), 30 * np.sin(t)] for t in np.radians(range(0, 360, 15))]
         coast = self.folder / "island.geojson"

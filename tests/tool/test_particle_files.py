@@ -13,6 +13,7 @@ try:
 except ImportError:
     h5py = None
 
+from builds import exists_if
 from command import COMMAND, MPIEXEC, CommandTest
 from readers import read_csv
 from test_regions import CUBES
@@ -148,7 +149,7 @@ class ParticleFiles(CommandTest):
         expected = numpy.where(low < 0, high - low + 2 * size, high + size)
         numpy.testing.assert_allclose(box, expected, rtol=1e-12)
 
-    @unittest.skipUnless(HDF5, "built without HDF5")
+    @exists_if(HDF5)
     def test_gadget(self):
         square = ("--domain", self.square, "--spacing", "0.02 + 0.03*x", "--nodes-at", "centers")
         for ask, dimension in ((CUBE, 3), (square, 2)):
@@ -178,7 +179,7 @@ class ParticleFiles(CommandTest):
         self.check_ranks(ask, (*TEXTS, *names))
 
     # Walls and what they are around, in one frame.
-    @unittest.skipUnless(HDF5, "built without HDF5")
+    @exists_if(HDF5)
     def test_walls(self):
         self.run_on_ranks("--domain", self.square, "--spacing", "0.1", "--nodes-at", "walls", "--density",
                    "3", *self.outputs("a.hdf5", "a.csv"))
@@ -209,7 +210,7 @@ class Refused(CommandTest):
                           self.ask("--domain", "box(1,0,-1, 3,2,1)", "--spacing", "0.5", *DENSITY,
                                    "--surfaces-only", "-o", f"a.{name}"))
 
-    @unittest.skipUnless(HDF5, "built without HDF5")
+    @exists_if(HDF5)
     def test_no_stream(self):
         self.assertIn("standard output", self.ask(*DENSITY, "-o", "-", "--format", "hdf5"))
 

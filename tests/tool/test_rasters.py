@@ -8,6 +8,7 @@ import unittest
 
 import numpy as np
 
+from builds import exists_if
 from command import COMMAND, FAILED, NOT_CONVERGED
 from rasters import write_geotiff, write_netcdf
 from test_grids import QUICK, GridsTest
@@ -15,7 +16,7 @@ from test_grids import QUICK, GridsTest
 BUILT = os.environ["PNPBS_GEO"] == "1"
 
 
-@unittest.skipIf(BUILT, "built with GDAL")
+@exists_if(not BUILT)
 class Without(GridsTest):
     def test_says_how_to_get_it(self):
         (self.folder / "g.tif").write_bytes(b"II")
@@ -59,7 +60,7 @@ class BayTest(GridsTest):
         np.testing.assert_allclose(table["spacing"], expected, rtol=0.01)
 
 
-@unittest.skipUnless(BUILT, "built without GDAL")
+@exists_if(BUILT)
 class Rasters(BayTest):
     def test_geotiff_in_degrees(self):
         write_geotiff(self.folder / "d.tif", self.depths(17.5, 55.5, 0.05, 60, 40), 17.5, 55.5,
@@ -133,7 +134,7 @@ class Rasters(BayTest):
         _, _, err = self.table(*self.ask, "--spacing-grid", "d.tif")
         self.assertIn("covers only a part of the domain", err)
 
-    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks(self):
         write_geotiff(self.folder / "d.tif", self.depths(19, 55.5, 0.05, 60, 40), 19, 55.5, 0.05,
                       4326)

@@ -248,7 +248,7 @@ class Command(RegionTest):
                "--region", "0.5,0.5:7", "-o", "a.vtu")
         process = self.start(*ask, "-o", "a.vtkhdf", "-o", "a.xdmf")
         _, err = process.communicate()
-        if b"HDF5" in err:
+        if b"built without HDF5" in err:
             self.skipTest("built without HDF5")
         expected = meshio.read(self.folder / "a.vtu").cell_data["region"][0]
         for name, kind in (("a.vtkhdf", vtk.vtkHDFReader), ("a.xdmf", vtk.vtkXdmfReader)):

@@ -10,6 +10,7 @@ import unittest
 import netCDF4
 import numpy as np
 
+from builds import exists_if
 from command import SQUARE, SQUARE_AREA, CommandTest
 from readers import read_csv
 
@@ -278,7 +279,7 @@ class SeaFiles(CommandTest):
             message = self.refuse("--domain", self.square, "--spacing", "0.1", "--nodes-at", "centers", "-o", name)
             self.assertIn(f"a {name[1:]} file has no place for particles", message)
 
-    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks_write_the_same_bytes(self):
         (self.folder / "a.poly").write_text(SIDES)
         texts = []
@@ -339,13 +340,13 @@ class OnSphere(CommandTest):
         self.assertEqual((gr3.open, gr3.land), ([], []))
         self.assertNotIn("NS", (self.folder / "a.2dm").read_text())
 
-    @unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
+    @exists_if(os.environ["PNPBS_GEO"] == "1")
     def test_islands_of_an_ocean(self):
         gr3 = self.sea(ANTARCTICA, ACROSS, CONTINENT, sphere=str(self.RADIUS))
         self.assertEqual(gr3.open, [])
         self.assertEqual([kind for kind, _ in gr3.land], [1, 1, 1])
 
-    @unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
+    @exists_if(os.environ["PNPBS_GEO"] == "1")
     def test_a_sea_between_lands(self):
         sphere = f"{self.RADIUS},180,0"  # the far side is land, and what was a continent is sea
         gr3 = self.sea(CONTINENT, [[[0, 0], [12, 0], [5, 8]]], sphere=sphere, spacing="150")
@@ -354,7 +355,7 @@ class OnSphere(CommandTest):
         self.assertGreater(area_of(gr3.nodes[outside]), 0)
         self.assertLess(area_of(gr3.nodes[gr3.land[2][1]]), 0)
 
-    @unittest.skipUnless(os.environ["PNPBS_GEO"] == "1" and "PNPBS_MPIEXEC" in os.environ, "without GDAL or MPI")
+    @exists_if(os.environ["PNPBS_GEO"] == "1" and "PNPBS_MPIEXEC" in os.environ)
     def test_ranks_write_the_same_bytes(self):
         texts = []
         for ranks in (1, 3):

@@ -12,6 +12,7 @@ import unittest
 
 import numpy as np
 
+from builds import exists_if
 from command import COMMAND, LAKE, LEFT_OUT, CommandTest
 
 BUILT = os.environ["PNPBS_GEO"] == "1"
@@ -41,7 +42,7 @@ class ShapesTest(CommandTest):
         return json.loads((self.folder / "report.json").read_text()), err.decode()
 
 
-@unittest.skipIf(BUILT, "built with GDAL")
+@exists_if(not BUILT)
 class Without(ShapesTest):
     def test_says_how_to_get_it(self):
         message = self.refuse("--domain", self.geojson(LAND), "--spacing", "20", code=1)
@@ -50,7 +51,7 @@ class Without(ShapesTest):
         self.assertIn(b"GDAL: none", out)
 
 
-@unittest.skipUnless(BUILT, "built without GDAL")
+@exists_if(BUILT)
 class Shapes(ShapesTest):
     def nodes(self, *arguments, spacing="20", domain=None):
         """A run in kilometres; coordinates, report and what it said."""
@@ -180,7 +181,7 @@ class Shapes(ShapesTest):
                          {"a.vtu", "a_facets.vtu", "a.csv", "a.prj", "b.node", "b.prj", "c.svg"})
         self.assertIn("b.prj", out.decode())
 
-    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks(self):
         path = self.geojson(LAND)
         ask = ("--domain", path, "--spacing", "5", "--unit", "km", "--quiet", "--output")

@@ -9,6 +9,7 @@ import unittest
 
 import numpy as np
 
+from builds import exists_if
 from command import LAKE, CommandTest
 
 RADIUS = 6371.22
@@ -147,13 +148,13 @@ class WholeSphere(CommandTest):
                 self.assertLess(off.max(), 0.05)
                 self.assertLess(off.mean(), 0.004)
 
-    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks_place_the_same_nodes(self):
         nodes, _ = self.placed()
         for ranks in (2, 3, 5):
             self.assertEqual(self.placed(ranks=ranks)[0], nodes)
 
-    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks_place_the_same_nodes_for_finite_volumes(self):
         wishes = ("--set", "centroidal_sweeps=8", "--set", "obtuse_rounds=20")
         nodes, report = self.placed(*wishes)
@@ -162,7 +163,7 @@ class WholeSphere(CommandTest):
         for ranks in (2, 3, 5):
             self.assertEqual(self.placed(*wishes, ranks=ranks)[0], nodes)
 
-    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks_go_on_from_one_file(self):
         self.placed("--checkpoint", "half.h5", "--set", "steps=20", code=3)
         goes_on = ("--restart", "half.h5", "--set", "steps=20")
@@ -179,7 +180,7 @@ class WholeSphere(CommandTest):
                                                       "--output", "gas.hdf5"))
 
 
-@unittest.skipUnless(os.environ["PNPBS_GEO"] == "1", "built without GDAL")
+@exists_if(os.environ["PNPBS_GEO"] == "1")
 class Sphere(CommandTest):
     def sea(self, *features):
         path = self.folder / "coast.geojson"
@@ -290,7 +291,7 @@ class Sphere(CommandTest):
         self.assertLess(whole, 4 * np.pi * RADIUS ** 2 / 5)
         self.assertGreater(rest["nodes"], 100)
 
-    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks_place_the_same_nodes(self):
         coast, spacing = self.sea(), "120 + 0.1*dist"
         one = self.placed(coast=coast, spacing=spacing)[2]["hash"]

@@ -12,6 +12,7 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
+from builds import exists_if
 from readers import (point_array, read_csv, read_ele, read_face, read_msh, read_node,
                      read_with_vtk)
 
@@ -303,7 +304,7 @@ class OutputFields(VolumeTest):
         self.check_vtk("a_1.vtu", vtk.vtkXMLUnstructuredGridReader)
 
 
-@unittest.skipUnless(MPIEXEC, "no MPI")
+@exists_if(MPIEXEC)
 class OverRanks(VolumeTest):
     def test_same_files(self):
         names = ("a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.node", "a.csv")

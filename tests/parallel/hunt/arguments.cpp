@@ -11,10 +11,11 @@
 namespace hunt {
 
 const char* const kUsage =
-    "usage: hunt [--seed N | --seed today] --cases A..B | --case SEED:NUMBER | --kept FILE "
-    "[--bodies FOLDER]\n"
-    "            [--seconds N] [--plane | --space] [--data FOLDER] [--files FILE,...] [--shrink] "
-    "[--all]\n"
+    "usage: hunt [--seed N | --seed today] --cases A..B | --case SEED:NUMBER | --replay FILE |\n"
+    "            --kept FILE\n"
+    "            [--dump FOLDER] [--seconds N] [--plane | --space] [--data FOLDER] "
+    "[--files FILE,...]\n"
+    "            [--shrink] [--all]\n"
     "            [--ranks N [--interval N] [--metis-seed N] [--rebalance] [--serial]]\n"
     "            [--threads N,...] [--once] [--default-options] [--share X] [--set KEY=VALUE]\n"
     "            [--option KEY=VALUE] [--nodes N [--slope X --from X,Y,Z]] "
@@ -112,8 +113,11 @@ bool take_value(const std::string& word, const std::string& value, Arguments& ma
     made.spec.data = value;
   } else if (word == "--files") {
     made.spec.files = parts_of(value);
-  } else if (word == "--bodies") {
-    made.bodies = value;
+  } else if (word == "--replay") {
+    made.spec.replay = value;
+    made.last = made.first + 1;
+  } else if (word == "--dump") {
+    made.dump = value;
   } else if (word == "--share") {
     made.spec.share = real(value);
   } else if (word == "--threads") {
@@ -159,7 +163,7 @@ std::vector<std::vector<std::string>> lines_of(const std::string& path) {
 }
 
 std::string arguments_of(const CaseSpec& spec) {
-  std::string text = "--case " + std::to_string(spec.seed) + ":" + std::to_string(spec.number);
+  std::string text = spec.replay.empty() ? "--case " + label_of(spec) : "--replay " + spec.replay;
   if (spec.dimensions != Dimensions::both)
     text += spec.dimensions == Dimensions::plane ? " --plane" : " --space";
   for (std::size_t k = 0; k < spec.files.size(); ++k)

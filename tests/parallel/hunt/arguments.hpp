@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the command line asks for, and a line of the file of kept cases, which is written alike.
+// Arguments of the command line, and of a line of the file of kept cases, which has the same
+// format.
 #pragma once
 
 #include <optional>
@@ -18,7 +19,8 @@ struct Arguments {
   std::optional<Configuration> group;  // in place of random ones
   std::vector<int> threads;            // of the ranks behind the reference
   Settings extra;                      // options of all but the reference
-  std::string kept, bodies;            // file of kept cases, folder of the files in it
+  std::string kept;                    // file of kept cases
+  std::string dump;                    // folder to which the cases are written
   bool shrinks = false, expects_differences = false, tells_all = false;
   std::string error;  // of the arguments themselves
 };

@@ -2,7 +2,9 @@
 //
 // Which kind of body a case has, and how it lies in space.
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <stdexcept>
 
 #include "body.hpp"
 
@@ -52,14 +54,20 @@ Body random_kind(Random& random, double nodes, const std::vector<std::string>& f
 
 }  // namespace
 
-Body random_file(Random& random, const std::vector<std::string>& files) {
+Body file_body(const std::string& path) {
   Body body;
-  body.file = files[static_cast<std::size_t>(random.pick(0, static_cast<int>(files.size()) - 1))];
+  body.file = path;
   std::int32_t dim = 3;
-  pnpbs_file_dimension(body.file.c_str(), &dim);
+  if (!std::ifstream(path).good() || pnpbs_file_dimension(path.c_str(), &dim) < 0)
+    throw std::runtime_error(path + ": the file of the body cannot be read.");
   body.dim = dim;
-  body.name = "file/" + body.file.substr(body.file.find_last_of('/') + 1);
+  body.name = "file/" + path.substr(path.find_last_of('/') + 1);
   return body;
+}
+
+Body random_file(Random& random, const std::vector<std::string>& files) {
+  return file_body(
+      files[static_cast<std::size_t>(random.pick(0, static_cast<int>(files.size()) - 1))]);
 }
 
 Body random_body(Random& random, int dim, double nodes, const std::vector<std::string>& files) {

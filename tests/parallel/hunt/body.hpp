@@ -98,6 +98,9 @@ Body random_blocks(Random& random, double nodes);
 Body random_plane_body(Random& random, double nodes);
 Body random_file(Random& random, const std::vector<std::string>& files);
 
+/** Body that the file describes. Throws std::runtime_error if the file cannot be read. */
+Body file_body(const std::string& path);
+
 /** One of the kinds, in a random frame. */
 Body random_body(Random& random, int dim, double nodes, const std::vector<std::string>& files);
 

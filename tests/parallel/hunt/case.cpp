@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "case.hpp"
 
+#include <cmath>
+#include <filesystem>
+
+#include "case_file.hpp"
+
 namespace hunt {
 
 namespace {
@@ -16,24 +21,34 @@ std::vector<std::string> files_of(const CaseSpec& spec) {
 
 Case explicit_case(const CaseSpec& spec) {
   Case made;
-  made.body.file = spec.files.at(0);
-  std::int32_t dim = 3;
-  pnpbs_file_dimension(made.body.file.c_str(), &dim);
-  made.body.dim = dim;
-  made.name = "file/" + made.body.file.substr(made.body.file.find_last_of('/') + 1);
+  made.body = file_body(spec.files.at(0));
+  made.name = made.body.name;
   made.spacing.kind = spec.slope > 0 ? Spacing::Kind::grows : Spacing::Kind::constant;
   made.spacing.slope = spec.slope;
   made.spacing.from = spec.from;
-  made.spacing.directions = dim;
+  made.spacing.directions = made.body.dim;
   made.wanted_nodes = spec.nodes * spec.share;
   made.options = spec.options;
   return made;
 }
 
-}  // namespace
+Case replayed_case(const CaseSpec& spec) {
+  Case made = read_case(spec.replay);
+  if (!made.body.file.empty()) made.body.dim = file_body(made.body.file).dim;
+  if (spec.default_options) made.options.clear();
+  made.options.insert(made.options.end(), spec.options.begin(), spec.options.end());
+  if (spec.once) made.by_steps = made.adapts = false;
+  made.wanted_nodes *= spec.share;
+  // Without a wanted number of nodes, the spacing decides on it.
+  if (made.wanted_nodes == 0) {
+    const double factor = std::pow(spec.share, -1.0 / made.body.dim);
+    made.spacing.base *= factor;
+    made.second.base *= factor;
+  }
+  return made;
+}
 
-Case make_case(const CaseSpec& spec) {
-  if (spec.is_explicit) return explicit_case(spec);
+Case random_case(const CaseSpec& spec) {
   Random body_random(spec.seed, spec.number, "body"),
       spacing_random(spec.seed, spec.number, "spacing"),
       option_random(spec.seed, spec.number, "options"),
@@ -64,6 +79,21 @@ Case make_case(const CaseSpec& spec) {
   if (made.by_steps) made.name += " by-steps";
   for (const auto& [key, value] : made.options) made.name += " " + key + "=" + value;
   return made;
+}
+
+}  // namespace
+
+Case make_case(const CaseSpec& spec) {
+  if (!spec.replay.empty()) return replayed_case(spec);
+  Case made = spec.is_explicit ? explicit_case(spec) : random_case(spec);
+  made.seed = spec.seed;
+  made.number = spec.number;
+  return made;
+}
+
+std::string label_of(const CaseSpec& spec) {
+  if (!spec.replay.empty()) return std::filesystem::path(spec.replay).stem().string();
+  return std::to_string(spec.seed) + ":" + std::to_string(spec.number);
 }
 
 }  // namespace hunt

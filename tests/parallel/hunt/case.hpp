@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A case: a body, a spacing, options and what is done with them, a pure function of the seed and
-// the number; and what a shrunk case leaves out.
+// A case: a body, a spacing, options and the calls of a run. It is a pure function of the seed and
+// the number, or read from a file. A specification also says what a shrunk case leaves out.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 struct CaseSpec {
   std::uint64_t seed = 1, number = 0;
+  std::string replay;  // file of a written case; empty: the case is made of the seed and the number
   Dimensions dimensions = Dimensions::both;
   std::vector<std::string> files;  // if there are any, the bodies are these
   std::string data;                // folder of the examples' bodies, "" for none
@@ -35,6 +36,7 @@ struct CaseSpec {
 };
 
 struct Case {
+  std::uint64_t seed = 1, number = 0;  // from which random groups follow
   std::string name;
   Body body;
   Spacing spacing, second;
@@ -46,7 +48,11 @@ struct Case {
   double wanted_nodes = 0;
 };
 
+/** Throws std::runtime_error if a file of the case is missing or cannot be read. */
 Case make_case(const CaseSpec& spec);
+
+/** Name of the case in reports: the seed and the number, or the file's name without its ending. */
+std::string label_of(const CaseSpec& spec);
 
 Settings random_options(Random& random, int dim);
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "number_text.hpp"
+#include "result_hashes.hpp"
 #include "watchdog.hpp"
 
 namespace hunt {
@@ -91,6 +93,7 @@ Comparison compare(const Case& job, const std::vector<Configuration>& groups,
   if (group > 0 && first[static_cast<std::size_t>(group)] == rank) send_text(packed(results));
   if (rank == 0) {
     made.verdict = verdict_of(results);
+    made.hash = hexadecimal(hash_of(packed(results)));
     for (const auto& [name, value] : results) {
       if (name == "nodes") made.nodes = value;
       if (name == "run") made.not_conforming = value == std::to_string(PNPBS_NOT_CONFORMING);

@@ -26,8 +26,9 @@ struct Comparison {
   std::size_t group = 0;  // the first that differs
   int first_rank = 0;     // of it in the world
   // On rank 0 of the world alone: what differs, why it is refused, or what the check says; how many
-  // nodes there are, and whether the run held d down or ended with PNPBS_NOT_CONFORMING.
-  std::string difference, nodes;
+  // nodes there are, a hash of all results of the reference, and whether the run held d down or
+  // ended with PNPBS_NOT_CONFORMING.
+  std::string difference, nodes, hash;
   bool held_down = false, not_conforming = false;
 };
 

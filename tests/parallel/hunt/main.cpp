@@ -8,9 +8,11 @@
 
 #include <cstdio>
 #include <ctime>
-#include <fstream>
+#include <exception>
+#include <filesystem>
 
 #include "arguments.hpp"
+#include "case_file.hpp"
 #include "shrink.hpp"
 #include "watchdog.hpp"
 
@@ -28,7 +30,7 @@ class Hunt {
 
   void run_all() {
     for (std::uint64_t number = arguments_.first; number < arguments_.last; ++number) {
-      if (number > arguments_.first && time_is_over()) break;
+      if (compared_ > 0 && time_is_over()) break;
       CaseSpec spec = arguments_.spec;
       spec.number = number;
       run(spec, arguments_.group, arguments_.extra);
@@ -36,19 +38,31 @@ class Hunt {
     if (!arguments_.kept.empty()) run_kept();
   }
 
-  /** The exit status. */
+  /** Prints the counts and returns the exit status, which is the same on all ranks. Collective. */
   int end() const {
     const bool well =
         arguments_.expects_differences ? differ_ > 0 : differ_ == 0 && failed_checks_ == 0;
     if (rank_ == 0)
       std::printf(
-          "%llu cases: %llu refused on all ranks, %llu fail the check of results, %llu "
-          "differ; %llu hold d down, %llu do not conform\n",
-          counted_, skipped_, failed_checks_, differ_, held_down_, not_conforming_);
-    return well ? 0 : 1;
+          "%llu cases: %llu compared, %llu refused on all ranks, %llu fail the check of results, "
+          "%llu differ; %llu hold d down, %llu do not conform\n",
+          counted_, compared_, skipped_, failed_checks_, differ_, held_down_, not_conforming_);
+    const bool enough = compared_ >= required();
+    if (rank_ == 0 && !enough)
+      std::printf("hunt: too few cases were compared: %llu; required: %llu.\n", compared_,
+                  required());
+    int status = well && enough && errors_ == 0 ? 0 : 1;
+    MPI_Allreduce(MPI_IN_PLACE, &status, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return status;
   }
 
  private:
+  // The number of cases that have to be compared: half of the cases. A time limit may leave few
+  // cases, and half of them may be refused by chance, so that one has to be compared.
+  unsigned long long required() const {
+    return arguments_.seconds > 0 || counted_ == 0 ? 1 : (counted_ + 1) / 2;
+  }
+
   /** The same on all ranks. */
   bool time_is_over() const {
     int over = arguments_.seconds > 0 && MPI_Wtime() - begin_ > arguments_.seconds;
@@ -67,43 +81,101 @@ class Hunt {
       threads_[r + 1] = arguments_.threads[r];
     pnpbs_context context = nullptr;
     pnpbs_context_create_serial(&context);
-    if (pnpbs_context_set_int64(context, "threads", threads_[static_cast<std::size_t>(rank_)]) < 0)
+    if (pnpbs_context_set_int64(context, "threads", threads_[static_cast<std::size_t>(rank_)]) <
+        0) {
       std::fprintf(stderr, "hunt: %s\n", pnpbs_last_error(context));
+      ++errors_;
+    }
     pnpbs_context_destroy(&context);
   }
 
-  void run(const CaseSpec& spec, const std::optional<Configuration>& group, const Settings& extra) {
-    Random random(spec.seed, spec.number, "groups");
-    std::vector<Configuration> groups;
-    int left = size_ - 1;
-    if (group && group->ranks <= left) {
-      groups = {*group};
-      left -= group->ranks;
+  // Reports an error that has the same cause on all ranks.
+  void report_error(const std::string& text) {
+    if (rank_ == 0) std::printf("hunt: %s\n", text.c_str());
+    ++errors_;
+  }
+
+  // Makes the case on every rank; reports an error if a rank cannot. Collective over the world.
+  std::optional<Case> made_case(const CaseSpec& spec) {
+    std::optional<Case> made;
+    std::string why = "a rank cannot make the case " + label_of(spec) + ".";
+    try {
+      made = make_case(spec);
+    } catch (const std::exception& error) {
+      why = error.what();
     }
-    const std::vector<Configuration> others = random_groups(random, left);
-    groups.insert(groups.end(), others.begin(), others.end());
-    const std::string name = std::to_string(spec.seed) + ":" + std::to_string(spec.number);
+    int everywhere = made.has_value();
+    MPI_Allreduce(MPI_IN_PLACE, &everywhere, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    if (everywhere) return made;
+    report_error(why);
+    return std::nullopt;
+  }
+
+  // Runs the case and counts its verdict. Returns whether its results could be compared.
+  bool run(const CaseSpec& spec, const std::optional<Configuration>& group, const Settings& extra) {
+    const std::string name = label_of(spec);
     watch(name, "");
     const std::clock_t begin = std::clock();
-    const Case job = make_case(spec);
-    const Comparison made = compare(job, groups, extra);
     ++counted_;
+    const std::optional<Case> job = made_case(spec);
+    if (!job) return false;
+    if (group && group->ranks >= size_) {
+      report_error("the case " + name + " needs at least " + std::to_string(group->ranks + 1) +
+                   " ranks.");
+      return false;
+    }
+    Random random(job->seed, job->number, "groups");
+    std::vector<Configuration> groups;
+    if (group) groups = {*group};
+    const std::vector<Configuration> others =
+        random_groups(random, size_ - 1 - (group ? group->ranks : 0));
+    groups.insert(groups.end(), others.begin(), others.end());
+    const Comparison made = compare(*job, groups, extra);
+    const bool is_compared = made.verdict != Verdict::skipped && !groups.empty();
+    compared_ += is_compared;
     skipped_ += made.verdict == Verdict::skipped;
     failed_checks_ += made.verdict == Verdict::failed_check;
     held_down_ += made.held_down;
     not_conforming_ += made.not_conforming;
     if (rank_ == 0 && arguments_.tells_all) {
       const char* words[] = {"same", "differs", "refused", "check fails"};
-      std::printf("%s %s: %s%s%s, %s nodes, %.1f s %s\n", name.c_str(), job.name.c_str(),
-                  words[static_cast<int>(made.verdict)], made.held_down ? ", d held down" : "",
+      std::printf("%s %s: %s%s%s, %s nodes, results %s, %.1f s %s\n", name.c_str(),
+                  job->name.c_str(), words[static_cast<int>(made.verdict)],
+                  made.held_down ? ", d held down" : "",
                   made.not_conforming ? ", not conforming" : "", made.nodes.c_str(),
-                  static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
+                  made.hash.c_str(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
                   made.verdict == Verdict::skipped ? made.difference.c_str() : "");
       std::fflush(stdout);
     }
-    if (made.verdict == Verdict::differs) report(spec, job, groups[made.group], made, extra);
+    if (made.verdict == Verdict::differs) report(spec, *job, groups[made.group], made, extra);
     if (made.verdict == Verdict::failed_check)
-      tell("FAILS ITS CHECK", {spec, {}, made.difference}, job.name, nullptr, extra);
+      tell("FAILS ITS CHECK", {spec, {}, made.difference}, job->name, nullptr, extra);
+    if (!arguments_.dump.empty()) dump(*job, name, made.hash, groups, extra);
+    return is_compared;
+  }
+
+  // Writes the case and runs it as written: its results must be the same. Collective over the
+  // world.
+  void dump(const Case& job, std::string name, const std::string& hash,
+            const std::vector<Configuration>& groups, const Settings& extra) {
+    for (char& c : name)
+      if (c == ':') c = '-';
+    CaseSpec spec;
+    spec.replay = (std::filesystem::path(arguments_.dump) / (name + ".txt")).string();
+    if (rank_ == 0) {
+      try {
+        write_case(job, spec.replay);
+      } catch (const std::exception& error) {
+        report_error(error.what());
+      }
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    const std::optional<Case> written = made_case(spec);
+    if (!written) return;
+    const Comparison made = compare(*written, groups, extra);
+    if (rank_ == 0 && made.hash != hash)
+      report_error(spec.replay + ": the results are " + made.hash + " and not " + hash +
+                   " as those of the case that was written.");
   }
 
   void report(const CaseSpec& spec, const Case& job, const Configuration& configuration,
@@ -136,32 +208,26 @@ class Hunt {
       Arguments defaults;
       defaults.spec.data = arguments_.spec.data;
       Arguments line = parsed(words, defaults);
+      if (line.error.empty() && line.last != line.first + 1) line.error = "a line is one case.";
       if (!line.error.empty()) {
-        if (rank_ == 0) std::printf("%s: %s\n", arguments_.kept.c_str(), line.error.c_str());
-        ++differ_;
+        report_error(arguments_.kept + ": " + line.error);
         continue;
       }
       line.spec.number = line.first;
-      if (find_bodies(line.spec)) run(line.spec, line.group, line.extra);
+      const std::filesystem::path folder = std::filesystem::path(arguments_.kept).parent_path();
+      for (std::string& file : line.spec.files) file = (folder / file).string();
+      if (!line.spec.replay.empty()) line.spec.replay = (folder / line.spec.replay).string();
+      if (!run(line.spec, line.group, line.extra))
+        report_error("the kept case " + label_of(line.spec) + " could not be compared.");
     }
-  }
-
-  // The files of a kept case, which need not be there.
-  bool find_bodies(CaseSpec& spec) const {
-    for (std::string& file : spec.files) {
-      if (!arguments_.bodies.empty()) file = arguments_.bodies + "/" + file;
-      if (std::ifstream(file).good()) continue;
-      if (rank_ == 0) std::printf("left out, as it is not here: %s\n", file.c_str());
-      return false;
-    }
-    return true;
   }
 
   const Arguments& arguments_;
   const double begin_ = MPI_Wtime();
   int rank_ = 0, size_ = 1;
   Threads threads_;
-  unsigned long long counted_ = 0, skipped_ = 0, failed_checks_ = 0, differ_ = 0;
+  unsigned long long counted_ = 0, compared_ = 0, skipped_ = 0, failed_checks_ = 0, differ_ = 0;
+  unsigned long long errors_ = 0;                          // files, arguments and settings
   unsigned long long held_down_ = 0, not_conforming_ = 0;  // first runs, on rank 0
 };
 

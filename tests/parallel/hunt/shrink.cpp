@@ -9,7 +9,7 @@ namespace {
 
 // Takes the trial in the failure's place if it fails.
 bool still_fails(Failure& failure, Failure trial, const Settings& extra) {
-  watch(std::to_string(trial.spec.seed) + ":" + std::to_string(trial.spec.number) + ", shrunk", "");
+  watch(label_of(trial.spec) + ", shrunk", "");
   const Comparison made = compare(make_case(trial.spec), {trial.configuration}, extra);
   if (made.verdict != Verdict::differs) return false;
   trial.difference = made.difference;
