@@ -27,7 +27,8 @@ set(PNPBS_TESTS_OF_quick
     parallel_transfer parallel_tree_part parallel_volume_halo parallel_volume_partition
     parallel_voronoi_cells parallel_wide_sums
     # the command
-    command_density command_files command_groups command_input command_stopping volume_files
+    command_colors command_density command_files command_grids command_groups
+    command_input command_mpas command_shape_spacing command_stopping volume_files
     # languages
     fortran_library fortran_domain fortran_placement fortran_ranks_3
     python_declarations python_package python_ranks_3
@@ -38,8 +39,8 @@ set(PNPBS_TESTS_OF_quick
     linkage_signatures linkage_signatures_geo
     install_check_lines install_tree install_contents install_headers install_pkg_config
     install_c_smallest install_fortran_smallest
-    docs_constants docs_floors docs_install docs_links docs_map docs_peers docs_page_readme
-    docs_page_mpi docs_page_place_nodes
+    docs_constants docs_floors docs_install docs_links docs_map docs_peers docs_page_meshio
+    docs_page_mpi docs_page_place_nodes docs_page_readme
     packaging_recipes)
 
 # What a build without MPI, on a shared Kokkos and with the static library can change.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gathers the results of a placement in space from all ranks of the group on rank 0: only a test may
-// do so.
+// Gathers the results of a placement in space from all ranks of the group on rank 0: only a test
+// may do so.
 #pragma once
 
 #include "gathered_triangulation.hpp"

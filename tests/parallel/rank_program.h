@@ -34,7 +34,7 @@ static inline void begin_group(MPI_Comm communicator) {
   expect(pnpbs_context_create_mpi(group, &context) == PNPBS_OK, "context");
 }
 
-/* For programs that run on all ranks alone: see run_in_groups for others. */
+/* Starts MPI and makes all ranks the group, for programs that do not use run_in_groups. */
 static inline void begin_ranks(int* argc, char*** argv) {
   MPI_Init(argc, argv);
   begin_group(MPI_COMM_WORLD);
