@@ -12,7 +12,7 @@ usage() {
 usage: scripts/setup.sh [--tests | --all] [--kokkos VERSION]...
 
   --tests           also install what the quick tests need
-  --all             also install what all tests need: GDAL, CGAL, Julia, VTK
+  --all             also install what all tests need: GDAL, CGAL, Julia, mypy
   --kokkos VERSION  also build this Kokkos, static, into .deps/kokkos-VERSION; with "-shared"
                     behind the version a shared one, with "-clang" one that Clang compiles.
                     Known versions: 4.7.0, 4.5.1

@@ -28,7 +28,7 @@ set(PNPBS_TESTS_OF_quick
     parallel_voronoi_cells parallel_wide_sums
     # the command
     command_colors command_density command_files command_grids command_groups
-    command_input command_mpas command_shape_spacing command_stopping volume_files
+    command_input command_mpas command_regions command_shape_spacing command_stopping volume_files
     # languages
     fortran_library fortran_domain fortran_placement fortran_ranks_3
     python_declarations python_package python_ranks_3
