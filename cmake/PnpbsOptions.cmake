@@ -78,7 +78,7 @@ endif()
 
 # Optimised builds compile the kernels with -O3, whose vector loops they need, also where a project or
 # distribution sets CMAKE_CXX_FLAGS_RELEASE to -O2. All other code is compiled with -O1: it takes half of
-# the compiler's time of -O3, and runs are as fast. A level below -O2 in CMAKE_CXX_FLAGS_RELEASE is kept.
+# the compiler's time of -O3, and runs take about one per cent longer. A level below -O2 in CMAKE_CXX_FLAGS_RELEASE is kept.
 add_library(pnpbs_kernel_optimisation INTERFACE)
 add_library(pnpbs_other_optimisation INTERFACE)
 foreach(build_type Release RelWithDebInfo)

@@ -5,7 +5,7 @@
 #
 #   quick     the default: the release build and the tests that find most faults in the shortest time,
 #             of every module and every language the machine has, on one and several ranks. The list
-#             is tests/quick_tests.cmake
+#             is tests/selections.cmake
 #   full      the release build with all tests but those of nightly. After quick in one call, only the
 #             tests that quick has left out
 #   nightly   hunts for differences between ranks with the date as seed, soak, and studies; the build
@@ -14,7 +14,7 @@
 #             the oldest Kokkos we promise; no Fortran, whose compiler cannot link with Clang's
 #             sanitizers. Tests of the interface, of ranks and of the command
 #   no-mpi    without MPI, with the static library, on a shared Kokkos that a host program brings: what
-#             can differ there, which is linkage, installed copies and one test of each language
+#             can differ there: linkage, installed copies, some tests of each language
 #   inner     as sanitize, the tests of the inside (tests/geometry, tests/core)
 #   files     every file compiled by itself, by Clang, as users' builds without a preset do; no tests
 #
@@ -35,8 +35,8 @@ for configuration in "${wanted[@]}"; do
     sanitize | inner | files) setup+=(--all --kokkos 4.5.1-clang) ;;
     no-mpi) setup+=(--kokkos 4.7.0-shared) ;;
     *)
-      echo "test.sh: unknown configuration '$configuration'" >&2
-      sed -n 's/^#   \([a-z]\)/  \1/p' "${BASH_SOURCE[0]}" >&2
+      echo "test.sh: unknown configuration '$configuration'; there are quick, full, nightly, sanitize," \
+        "no-mpi, inner and files" >&2
       exit 2
       ;;
   esac
