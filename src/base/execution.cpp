@@ -12,12 +12,10 @@ void for_each_range(const char* label, std::int64_t n,
                     FunctionRef<void(std::int64_t begin, std::int64_t end)> body) {
   if (n <= 0) return;
   const auto ranges = static_cast<std::int64_t>(Exec().concurrency());
-  const auto first_of = [&](std::int64_t range) {
-    return n / ranges * range + n % ranges * range / ranges;
-  };
   Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, ranges),
                        [&](std::int64_t range) {
-                         const std::int64_t begin = first_of(range), end = first_of(range + 1);
+                         const std::int64_t begin = n * range / ranges;
+                         const std::int64_t end = n * (range + 1) / ranges;
                          if (begin < end) body(begin, end);
                        });
 }
