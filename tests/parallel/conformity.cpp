@@ -15,6 +15,7 @@
 
 #include "evaluate.hpp"
 #include "gathered_triangulation.hpp"
+#include "named_cases.hpp"
 
 namespace {
 
@@ -373,17 +374,7 @@ const std::map<std::string, void (*)()> kCases{{"graded-square", graded_square},
                                                {"jumps", jumps},
                                                {"scattered", scattered_nodes}};
 
-void check_cases() {
-  for (const auto& [name, run] : kCases) {
-    bool wanted = !arguments[0];
-    for (char** argument = arguments; *argument; ++argument) wanted = wanted || name == *argument;
-    if (!wanted) continue;
-    const double start = MPI_Wtime();
-    run();
-    if (rank == 0)
-      std::printf("%s: %.1f s, %d failed so far\n", name.c_str(), MPI_Wtime() - start, failures);
-  }
-}
+void check_cases() { run_named_cases(kCases); }
 
 }  // namespace
 

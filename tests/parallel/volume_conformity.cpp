@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include "named_cases.hpp"
 #include "volume_cases.h"
 #include "volume_judge.hpp"
 
@@ -183,17 +184,7 @@ const std::map<std::string, void (*)()> kCases{
     {"adapting", adapting},
     {"empty-ranks", empty_ranks}};
 
-void check_cases() {
-  for (const auto& [name, place] : kCases) {
-    bool wanted = !arguments[0];
-    for (char** argument = arguments; *argument; ++argument) wanted = wanted || name == *argument;
-    if (!wanted) continue;
-    const double start = MPI_Wtime();
-    place();
-    if (rank == 0)
-      std::printf("%s: %.1f s, %d failed so far\n", name.c_str(), MPI_Wtime() - start, failures);
-  }
-}
+void check_cases() { run_named_cases(kCases); }
 
 }  // namespace
 
