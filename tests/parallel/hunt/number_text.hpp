@@ -3,9 +3,9 @@
 // Numbers as text.
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 
 namespace hunt {
@@ -20,11 +20,7 @@ inline std::string text_of(double value) {
 /** The shortest decimal number that reads back as the same bits. */
 inline std::string decimal_text(double value) {
   char text[40];
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value) break;
-  }
-  return text;
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 /** To the last bit. */
