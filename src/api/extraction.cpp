@@ -5,9 +5,9 @@
 
 #include "api/placement_calls.hpp"
 #include "base/space_vectors.hpp"
-#include "placement/element_regions.hpp"
-#include "placement/node_normal.hpp"
-#include "placement/result_check.hpp"
+#include "check/result_check.hpp"
+#include "results/element_regions.hpp"
+#include "results/node_normal.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;

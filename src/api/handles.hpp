@@ -17,10 +17,10 @@
 #include "io/output_fields.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "particles/particles.hpp"
-#include "placement/field_transfer.hpp"
 #include "placement/placement_of.hpp"
 #include "pnpbs/pnpbs.h"
 #include "settings/options.hpp"
+#include "transfer/field_transfer.hpp"
 #include "voronoi/voronoi_cells.hpp"
 
 namespace pnpbs::api {

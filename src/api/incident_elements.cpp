@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The elements that touch a rank's own nodes, handed out through the C interface.
-#include "placement/incident_elements.hpp"
+#include "results/incident_elements.hpp"
 
 #include <algorithm>
 

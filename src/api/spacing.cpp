@@ -8,7 +8,7 @@
 #include "api/spacing_callback.hpp"
 #include "api/sphere_points.hpp"
 #include "domain/given_values.hpp"
-#include "placement/nodal_values.hpp"
+#include "results/nodal_values.hpp"
 #include "spacing/beside_domain.hpp"
 #include "spacing/files/field_file.hpp"
 #include "spacing/given_field.hpp"

@@ -13,7 +13,7 @@
 
 #include "base/types.hpp"
 #include "cgrid/star_rings.hpp"
-#include "placement/results.hpp"
+#include "results/results.hpp"
 
 namespace pnpbs {
 

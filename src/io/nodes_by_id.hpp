@@ -8,8 +8,8 @@
 
 #include "comm/id_blocks.hpp"
 #include "io/node_source.hpp"
-#include "placement/element_regions.hpp"
-#include "placement/results.hpp"
+#include "results/element_regions.hpp"
+#include "results/results.hpp"
 
 namespace pnpbs::io {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "placement/nodal_results.hpp"
+#include "results/nodal_results.hpp"
 
 namespace pnpbs::io {
 

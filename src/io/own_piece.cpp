@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "io/rows.hpp"
-#include "placement/element_regions.hpp"
+#include "results/element_regions.hpp"
 
 namespace pnpbs::io {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/node_source.hpp"
-#include "placement/results.hpp"
+#include "results/results.hpp"
 
 namespace pnpbs::io {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "io/node_source.hpp"
-#include "placement/results.hpp"
+#include "results/results.hpp"
 
 namespace pnpbs::io {
 

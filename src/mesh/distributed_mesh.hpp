@@ -10,7 +10,7 @@
 
 #include "comm/communicator.hpp"
 #include "formats/group_names.hpp"
-#include "placement/nodal_results.hpp"
+#include "results/nodal_results.hpp"
 
 namespace pnpbs {
 

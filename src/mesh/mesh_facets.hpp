@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/elements_at_nodes.hpp"
-#include "placement/results.hpp"
+#include "results/results.hpp"
 
 namespace pnpbs {
 

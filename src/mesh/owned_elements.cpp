@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "placement/element_regions.hpp"
-#include "placement/incident_elements.hpp"
+#include "results/element_regions.hpp"
+#include "results/incident_elements.hpp"
 
 namespace pnpbs {
 

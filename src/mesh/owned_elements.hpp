@@ -7,7 +7,7 @@
 
 #include "mesh/mesh_records.hpp"
 #include "mesh/rank_ranges.hpp"
-#include "placement/results.hpp"
+#include "results/results.hpp"
 
 namespace pnpbs {
 

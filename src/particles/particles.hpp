@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "domain/domain.hpp"
-#include "placement/results.hpp"
+#include "results/results.hpp"
 
 namespace pnpbs {
 

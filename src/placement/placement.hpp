@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "checkpoint/option_changes.hpp"
 #include "comm/communicator.hpp"
+#include "estimate/node_estimate.hpp"
 #include "implicit/repair_distances.hpp"
 #include "level/population_events.hpp"
-#include "placement/monitoring.hpp"
-#include "placement/nodal_results.hpp"
-#include "placement/node_estimate.hpp"
-#include "placement/option_changes.hpp"
-#include "placement/outcome.hpp"
-#include "placement/run_state.hpp"
+#include "results/nodal_results.hpp"
+#include "run/monitoring.hpp"
+#include "run/outcome.hpp"
+#include "run/run_state.hpp"
 #include "settings/options.hpp"
 #include "sphere/stereographic_chart.hpp"
 

@@ -7,16 +7,16 @@
 
 #include "base/kokkos_runtime.hpp"
 #include "base/lack_of_room.hpp"
+#include "checkpoint/domain_fingerprint.hpp"
+#include "checkpoint/option_changes.hpp"
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/reach.hpp"
 #include "method/constants.hpp"
-#include "placement/closing_patch.hpp"
-#include "placement/domain_fingerprint.hpp"
-#include "placement/estimate.hpp"
-#include "placement/holding_spacing.hpp"
-#include "placement/option_changes.hpp"
-#include "placement/warnings.hpp"
+#include "run/warnings.hpp"
+#include "sizing/closing_patch.hpp"
+#include "sizing/estimate.hpp"
+#include "sizing/holding_spacing.hpp"
 #include "spacing/nodal_spacing.hpp"
 
 namespace pnpbs {

@@ -8,17 +8,17 @@
 #include <utility>
 #include <vector>
 
+#include "checkpoint/saving.hpp"
 #include "level/finer_places.hpp"
 #include "level/level.hpp"
-#include "placement/finished_round.hpp"
-#include "placement/level_builder.hpp"
-#include "placement/limiting_growth.hpp"
-#include "placement/measuring_finish.hpp"
-#include "placement/placed_spacing.hpp"
 #include "placement/placement.hpp"
-#include "placement/results.hpp"
-#include "placement/saving.hpp"
-#include "placement/simulation.hpp"
+#include "results/results.hpp"
+#include "run/finished_round.hpp"
+#include "run/level_builder.hpp"
+#include "run/measuring_finish.hpp"
+#include "run/simulation.hpp"
+#include "sizing/limiting_growth.hpp"
+#include "sizing/placed_spacing.hpp"
 #include "spacing/nodal_patch.hpp"
 
 namespace pnpbs {

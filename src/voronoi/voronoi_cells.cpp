@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/chunked_rows.hpp"
-#include "placement/results.hpp"
+#include "results/results.hpp"
 #include "voronoi/element_parts.hpp"
 #include "voronoi/elements_of_sites.hpp"
 #include "voronoi/few_nodes.hpp"

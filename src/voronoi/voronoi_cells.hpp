@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "placement/nodal_results.hpp"
+#include "results/nodal_results.hpp"
 
 namespace pnpbs {
 

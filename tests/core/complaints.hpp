@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "check/result_check.hpp"
 #include "check_runner.h"
 #include "placement/placement_of.hpp"
-#include "placement/result_check.hpp"
 
 // Empty where it finds nothing wrong.
 template <int Dim>

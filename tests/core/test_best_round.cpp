@@ -2,7 +2,7 @@
 // Of the rounds of a run, which counts, and whether there is another one.
 #include <utility>
 
-#include "placement/finished_round.hpp"
+#include "run/finished_round.hpp"
 #include "run_kernel_suite.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "placement/boundary_topology.hpp"
+#include "check/boundary_topology.hpp"
 #include "placement/placement_of.hpp"
 #include "quick_assert.hpp"
 #include "run_kernel_suite.hpp"

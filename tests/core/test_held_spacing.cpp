@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "level/level.hpp"
-#include "placement/holding_spacing.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
+#include "sizing/holding_spacing.hpp"
 
 using Point3 = pnpbs::Point<3>;
 

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "placement/narrow_places.hpp"
 #include "placement/placement_of.hpp"
 #include "quick_assert.hpp"
 #include "run_kernel_suite.hpp"
+#include "sizing/narrow_places.hpp"
 
 using Point3 = pnpbs::Point<3>;
 using Source = pnpbs::GrowthSource<3>;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/point_text.hpp"
+#include "check/conformity.hpp"
+#include "check/element_measure.hpp"
 #include "complaints.hpp"
-#include "placement/conformity.hpp"
-#include "placement/element_measure.hpp"
 #include "run_kernel_suite.hpp"
 
 using Point3 = pnpbs::Point<3>;

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/conformity.hpp"
+
+#include "base/found_indices.hpp"
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "check/flat_elements.hpp"
+#include "check/surface_edges.hpp"
+#include "spacing/spacing_range.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Where the boundary of the tetrahedra is not that of the domain.
+constexpr const char* kWaysOut =
+    "make it smaller there, try the option resolve, or repair the body to a resolution of the "
+    "spacing, which removes what is finer (pnpbs_domain_set_repair, in the command --repair auto)";
+
+bool in_no_element(const Level<2>& level, std::int64_t i) {
+  bool none = true;
+  level.stars.for_simplices(i, [&](const DelaunayStars::Corners&) { none = false; });
+  return none;
+}
+bool in_no_element(const Level<3>& level, std::int64_t i) {
+  if (!level.ground.surfaces_alone()) return level.stars.size(i) == 0;
+  bool none = true;
+  level.stars.for_triangles(i, [&](const std::array<std::int32_t, 2>&) { none = false; });
+  return none;
+}
+
+FoundNodes<2> unmatched_edges(const Results<2>&, std::vector<Point<2>>&) { return {}; }
+FoundNodes<3> unmatched_edges(const Results<3>& results, std::vector<Point<3>>& places) {
+  FoundNodes<3> found;
+  if (!results.surfaces_alone()) return found;
+  for_unmatched_edges(results, [&](const SurfaceEdge& edge) {
+    found.add(1, edge.low, edge.at);
+    places.push_back(edge.at);
+  });
+  return over_ranks(results.communicator(), found);
+}
+
+ElementMeasure measure_in(const Results<2>&) { return {}; }
+ElementMeasure measure_in(const Results<3>& results) { return measure_if_far_off(results); }
+
+BoundaryTopology topology_of(const Results<2>&, Conformity<2>&) { return {}; }
+BoundaryTopology topology_of(const Results<3>& results, Conformity<3>& result) {
+  return results.surfaces_alone() ? BoundaryTopology{} : boundary_topology(results, result.torn);
+}
+
+FoundNodes<2> flat_in(const Results<2>&, std::vector<Point<2>>&) { return {}; }
+FoundNodes<3> flat_in(const Results<3>& results, std::vector<Point<3>>& places) {
+  return results.surfaces_alone() ? FoundNodes<3>{} : flat_elements(results.level(), places);
+}
+
+const char* elements_of(const Results<2>&) { return "triangle"; }
+const char* elements_of(const Results<3>& results) {
+  return results.surfaces_alone() ? "triangle" : "tetrahedron";
+}
+
+}  // namespace
+
+template <int Dim>
+Conformity<Dim> conformity_of(const Results<Dim>& results) {
+  const Communicator& comm = results.communicator();
+  const Level<Dim>& level = results.level();
+  const Nodes<Dim>& nodes = level.nodes;
+  Conformity<Dim> result;
+  FoundNodes<Dim> isolated;
+  agreed(comm, [&] {
+    const auto is_isolated = [&](std::int64_t i) {
+      return nodes.owned(i) && in_no_element(level, i);
+    };
+    for (const std::int64_t i : indices_where("pnpbs::conformity", nodes.count, is_isolated)) {
+      isolated.add(1, nodes.id(i), nodes.position(i));
+      result.torn.push_back(nodes.position(i));
+    }
+  });
+  result.nodes = results.global_count();
+  result.isolated = over_ranks(comm, isolated);
+  agreed(comm, [&] {
+    result.unmatched = unmatched_edges(results, result.torn);
+    result.measure = measure_in(results);
+    result.boundary = topology_of(results, result);
+    result.flat = flat_in(results, result.torn);
+  });
+  return result;
+}
+
+template <int Dim>
+std::string text_of(const Conformity<Dim>& conformity, const Results<Dim>& results) {
+  const Level<Dim>& level = results.level();
+  const std::string element = elements_of(results);
+  if (!conformity.any_elements()) {
+    const SpacingRange d = spacing_range<Dim>(*level.comm, level.nodes);
+    const double side = size_of<Dim>(level.ground.bounds());
+    return "no " + element + " at all, among " + std::to_string(conformity.nodes) + " nodes" +
+           (d.empty() ? "" : " with a spacing of " + rounded_text(d.min) + " or more") +
+           ": the longest side of the domain is " + rounded_text(side) +
+           ", and the spacing does not resolve its shape: make it smaller";
+  }
+  if (conformity.isolated.count > 0)
+    return "in no " + element + ": " + std::to_string(conformity.isolated.count) +
+           " nodes, one of them at " + rounded_point_text<Dim>(conformity.isolated.at) +
+           "; the spacing is too coarse for the shape: make it smaller there";
+  if (conformity.unmatched.count > 0)
+    return "the triangles do not join at " + std::to_string(conformity.unmatched.count) +
+           " edges, one of them at " + rounded_point_text<Dim>(conformity.unmatched.at) +
+           ", where the surface is rougher than the spacing resolves: use a smaller spacing "
+           "there, or a larger feature_angle";
+  if (conformity.flat.count > 0)
+    return "of no volume: " + std::to_string(conformity.flat.count) +
+           " tetrahedra, one of them at " + rounded_point_text<Dim>(conformity.flat.at) +
+           ", where a wall or a bar is thinner than the spacing, and its nodes lie in one plane: "
+           "make it smaller there";
+  if (conformity.measure.far_off())
+    return (element == "triangle" ? "the triangles have the area "
+                                  : "the tetrahedra have the volume ") +
+           rounded_text(conformity.measure.elements) + ", the domain " +
+           rounded_text(conformity.measure.domain) + ", and no more than " +
+           rounded_text(conformity.measure.between) +
+           " can lie between them: the spacing does not resolve the shape: make it smaller";
+  if (conformity.boundary.torn.count > 0)
+    return "the boundary of the tetrahedra is torn at " +
+           std::to_string(conformity.boundary.torn.count) + " nodes, one of them at " +
+           rounded_point_text<3>(conformity.boundary.torn.at) +
+           ": sheets of the surface are nearer to each other there, or rougher, than the spacing "
+           "resolves: " +
+           kWaysOut;
+  if (conformity.boundary.euler != conformity.boundary.euler_of_domain)
+    return "the boundary of the tetrahedra has the Euler characteristic " +
+           std::to_string(conformity.boundary.euler) + ", the surfaces of the domain " +
+           std::to_string(conformity.boundary.euler_of_domain) +
+           ": the spacing is too coarse somewhere, so that a wall has a hole, a gap is bridged or "
+           "a neck is cut: " +
+           kWaysOut;
+  if (conformity.boundary.pieces != conformity.boundary.pieces_of_domain)
+    return "the boundary of the tetrahedra is of " + std::to_string(conformity.boundary.pieces) +
+           " pieces, that of the domain of " +
+           std::to_string(conformity.boundary.pieces_of_domain) +
+           ": the spacing is too coarse somewhere: " + kWaysOut;
+  return "";
+}
+
+template struct Conformity<2>;
+template struct Conformity<3>;
+template Conformity<2> conformity_of(const Results<2>&);
+template Conformity<3> conformity_of(const Results<3>&);
+template std::string text_of(const Conformity<2>&, const Results<2>&);
+template std::string text_of(const Conformity<3>&, const Results<3>&);
+
+}  // namespace pnpbs

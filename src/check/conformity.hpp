@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Do the elements fill the domain? What can be told of that for certain: the same at the end of a
+// run, for its outcome and its warning, and by the check of the results.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/boundary_topology.hpp"
+#include "check/element_measure.hpp"
+#include "level/found_nodes.hpp"
+#include "results/results.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+struct Conformity {
+  std::int64_t nodes = 0;     // over all ranks, as all here
+  FoundNodes<Dim> isolated;   // nodes in no element
+  FoundNodes<Dim> unmatched;  // edges of surfaces alone with more or fewer triangles than sheets
+                              // meet there; found at the end that has the lesser id
+  ElementMeasure measure;     // in space, if what the elements fill may be far off
+  BoundaryTopology boundary;  // of bodies
+  FoundNodes<Dim> flat;       // of bodies: elements without a volume
+  // This rank's places where elements are lacking: nodes in none, edges that do not join, where the
+  // boundary is torn, and corners of elements without a volume.
+  std::vector<Point<Dim>> torn;
+
+  bool any_elements() const { return isolated.count < nodes; }
+  bool fills() const {
+    return any_elements() && isolated.count == 0 && unmatched.count == 0 && flat.count == 0 &&
+           !measure.far_off();
+  }
+  bool holds() const { return fills() && boundary.agrees(); }
+};
+
+// After prepare_stars. Collective.
+template <int Dim>
+Conformity<Dim> conformity_of(const Results<Dim>& results);
+
+// What is wrong, with places; empty if nothing is. Collective.
+template <int Dim>
+std::string text_of(const Conformity<Dim>& conformity, const Results<Dim>& results);
+
+}  // namespace pnpbs

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/element_measure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/space_vectors.hpp"
+#include "check/surface_edges.hpp"
+#include "check/volume_node_check.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kTolerance = 1e-9;  // of the domain, for rounding
+constexpr double kSmall = 1e-3;      // of the domain
+constexpr double kFoundTo = 1e-6;    // of its resolution: as well as edges of a level set are known
+
+class Measuring : public VolumeNodeCheck {
+ public:
+  explicit Measuring(const Results<3>& results)
+      : VolumeNodeCheck(results),
+        alone_(results.surfaces_alone()),
+        domain_(alone_ ? ground_.domain().area() : ground_.measure()) {}
+
+  ElementMeasure all() const {
+    ElementMeasure measure = of_elements();
+    if (alone_)
+      add_to_area(measure);
+    else
+      add_to_volume(measure);
+    measure.rounding += kTolerance * domain_;
+    return measure;
+  }
+
+  // Without what lies between.
+  ElementMeasure of_elements() const {
+    ElementMeasure measure;
+    measure.domain = domain_;
+    measure.elements = alone_ ? area_of_triangles() : volume_of_tetrahedra();
+    return measure;
+  }
+
+ private:
+  double volume_of_tetrahedra() const {
+    constexpr std::int64_t kChunk = 4096;  // places whose sums are added in order
+    const std::int64_t chunks = (p_.count() + kChunk - 1) / kChunk;
+    const View<double> volumes = make_view<double>("pnpbs::volume_of_tetrahedra", chunks);
+    for_each("pnpbs::volume_of_tetrahedra", chunks, [&](std::int64_t chunk) {
+      volumes(chunk) =
+          volume_of_tetrahedra(chunk * kChunk, std::min(p_.count(), (chunk + 1) * kChunk));
+    });
+    return sum_over_ranks(std::accumulate(volumes.data(), volumes.data() + chunks, 0.0), domain_);
+  }
+
+  double volume_of_tetrahedra(std::int64_t begin, std::int64_t end) const {
+    double sum = 0;
+    p_.for_elements(begin, end, [&](const std::array<std::int64_t, 4>& places) {
+      const Point<3> x = position(p_.node_at(places[0]));
+      const auto [a, b, c] = positions_at({places[1], places[2], places[3]});
+      sum += dot(difference(a, x), cross(difference(b, x), difference(c, x))) / 6;
+    });
+    return sum;
+  }
+
+  double area_of_triangles() const {
+    double mine = 0;
+    p_.for_open_facets(
+        [&](const Three& places) { mine += 0.5 * twice_area(positions_at(places)); });
+    return sum_over_ranks(mine, domain_);
+  }
+
+  static double twice_area(const std::array<Point<3>, 3>& x) {
+    const Point<3> normal = cross(difference(x[1], x[0]), difference(x[2], x[0]));
+    return std::sqrt(dot(normal, normal));
+  }
+
+  // What they enclose, how far rounding may put that off, and how much of the body may lie on the
+  // other side of them.
+  void add_to_volume(ElementMeasure& measure) const {
+    constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+    double enclosed = 0, rounding = 0, cut_off = 0;
+    p_.for_open_facets([&](const Three& places) {
+      const std::array<Point<3>, 3> x = positions_at(places);
+      const Point<3>& low = ground_.bounds().low;
+      const Point<3> p = difference(x[0], low), q = difference(x[1], low),
+                     r = difference(x[2], low);
+      enclosed += dot(p, cross(q, r)) / 6;
+      rounding += 4 * kEpsilon * std::sqrt(dot(p, p) * dot(q, q)) * std::sqrt(dot(r, r));
+      // Gaps are about as wide as at the worst of these places, or a third less; twice as wide has
+      // room for what lies between.
+      cut_off += twice_area(x) * (max_gap(x) + kFoundTo * resolution_);
+    });
+    measure.enclosed = sum_over_ranks(enclosed, domain_);
+    measure.rounding = sum_over_ranks(rounding, domain_);
+    measure.between = sum_over_ranks(cut_off, domain_);
+  }
+
+  void add_to_area(ElementMeasure& measure) const {
+    double missed = 0;
+    p_.for_open_facets([&](const Three& places) {
+      const std::array<Point<3>, 3> x = positions_at(places);
+      missed += missed_beside(x);
+      for (std::size_t k = 0; k < 3; ++k) {
+        missed += kFoundTo * resolution_ * distance<3>(x[k], x[(k + 1) % 3]);
+        if (sheets_at(p_, p_.node_at(places[k]), p_.node_at(places[(k + 1) % 3])) > 0)
+          missed += missed_at_feature(x[k], x[(k + 1) % 3]);
+      }
+    });
+    measure.between = sum_over_ranks(missed, domain_);
+  }
+
+  // What a surface that rises that far from a triangle, and sinks to its corners, may have more of
+  // area than that.
+  double missed_beside(const std::array<Point<3>, 3>& corners) const {
+    constexpr double kSafe = 16;  // eight for a dome
+    const auto [a, b, c] = corners;
+    const double area = twice_area(corners);
+    const double longest = std::max({distance<3>(a, b), distance<3>(b, c), distance<3>(c, a)});
+    const double rise = max_gap(corners) * longest / area;  // over the least height
+    return 0.5 * area * std::min(kSafe * rise * rise, 1.0);
+  }
+
+  // What lies between a feature edge and an element's edge that follows it, of one of the sheets
+  // that meet there: on the surface as far as the feature edge is, or beyond it, as far as the
+  // surface is. The sheet of a triangle ends at the one and the triangle at the other, so this is
+  // of first order in how far they are apart, even where the triangle lies in a flat sheet.
+  double missed_at_feature(const Point<3>& a, const Point<3>& b) const {
+    const Point<3> middle = middle_of<3>(a, b);
+    const double length = distance<3>(a, b);
+    const NearestPoint<3> nearest =
+        ground_.domain().index().nearest(middle, std::numeric_limits<double>::infinity());
+    if (ground_.surface().patch(nearest.facet) < 0) return 0;
+    const double beside = ground_.surface().feature_clearance({nearest.facet, nearest.x}, length);
+    return 2 * length * (beside + nearest.gap);
+  }
+
+  bool alone_;
+  double domain_;
+};
+
+}  // namespace
+
+double ElementMeasure::difference() const { return std::fabs(elements - domain); }
+
+bool ElementMeasure::far_off() const { return difference() > kSmall * domain && !agrees(); }
+
+ElementMeasure measure_of_elements(const Results<3>& results) { return Measuring(results).all(); }
+
+ElementMeasure measure_if_far_off(const Results<3>& results) {
+  const Measuring measuring(results);
+  const ElementMeasure elements = measuring.of_elements();
+  return elements.difference() <= kSmall * elements.domain ? ElementMeasure() : measuring.all();
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checkpoint/saving.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "checkpoint/domain_fingerprint.hpp"
+#include "checkpoint/option_changes.hpp"
+#include "comm/records.hpp"
+#include "level/exchange.hpp"
+#include "level/node_spacing.hpp"
+#include "level/plane/closed_sphere.hpp"
+#include "level/reach.hpp"
+#include "spacing/nodal_spacing.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+[[noreturn]] void damaged(const std::string& what) { throw Error(ErrorKind::file, what); }
+
+bool is_flag(std::int64_t value) { return value == 0 || value == 1; }
+
+// Is this a node that a level with that ground can have?
+bool fits_ground(const Ground<2>& ground, const PackedNode<2>& node) {
+  if (node.carrier == Carrier::free) return node.boundary_node == -1;
+  if (node.carrier != Carrier::fixed) return false;
+  if (node.boundary_node == -1) return ground.domain().is_in_margin(node.x);  // held there
+  return node.boundary_node >= 0 && node.boundary_node < ground.boundary_nodes() &&
+         ground.boundary().nodes[static_cast<std::size_t>(node.boundary_node)].position == node.x;
+}
+bool fits_ground(const Ground<3>& ground, const PackedNode<3>& node) {
+  const auto in = [](std::int32_t index, std::size_t n) {
+    return index >= 0 && static_cast<std::size_t>(index) < n;
+  };
+  switch (node.carrier) {
+    case Carrier::free:
+      return node.boundary_node == -1 && node.reference_on == -1;
+    case Carrier::surface:
+      return in(node.boundary_node, ground.boundary().facets.size()) &&
+             in(node.reference_on, ground.boundary().facets.size());
+    case Carrier::fixed:
+    case Carrier::curve:
+      return in(node.boundary_node, ground.features().nodes.size()) &&
+             in(node.reference_on, ground.features().nodes.size());
+  }
+  return false;
+}
+
+template <int Dim>
+void require_possible_node(const Level<Dim>& level, const SavedState& state,
+                           const PackedNode<Dim>& node) {
+  const Box<Dim>& bounds = level.ground.bounds();
+  const double margin = size_of(bounds);  // nodes on a level set may lie a little outside
+  bool inside = true;
+  for (int k = 0; k < Dim; ++k)
+    inside = inside && node.x[k] >= bounds.low[k] - margin && node.x[k] <= bounds.high[k] + margin;
+  const std::string which = "node " + std::to_string(node.id) + " at " + point_text(node.x);
+  if (node.id < 0 || node.id >= state.next_id)
+    damaged(which + ": ids are from 0 up to " + std::to_string(state.next_id) +
+            " without it: it is damaged");
+  if (!inside || (node.carrier == Carrier::free &&
+                  level.map().leaf_outside(level.map().tree().leaf_at(node.x))))
+    damaged(which + " is outside of the domain: it is damaged");
+  if (!is_usable(node.v) || !is_usable(node.reference) || !(node.d > 0) || !is_usable(node.d))
+    damaged(which +
+            ": its velocity, reference position or spacing is no number that a node can "
+            "have: it is damaged");
+}
+
+// No id twice. Collective.
+template <int Dim>
+void require_different_ids(const Communicator& comm, const std::vector<SavedNode<Dim>>& nodes) {
+  std::vector<std::int64_t> ids;
+  for (const SavedNode<Dim>& saved : nodes) ids.push_back(saved.node.id);
+  std::vector<std::int64_t> here = redistribute<std::int64_t>(comm, ids, [&](std::int64_t id) {
+    return static_cast<int>(static_cast<std::uint64_t>(id) %
+                            static_cast<std::uint64_t>(comm.size()));
+  });
+  agreed(comm, [&] {
+    std::sort(here.begin(), here.end());
+    const auto twice = std::adjacent_find(here.begin(), here.end());
+    if (twice != here.end())
+      damaged("node " + std::to_string(*twice) + " comes twice: it is damaged");
+  });
+}
+
+// Each to the rank that owns its place.
+template <int Dim>
+void put_saved_nodes(Level<Dim>& level, const SavedState& state,
+                     std::vector<SavedNode<Dim>>& saved) {
+  const Communicator& comm = *level.comm;
+  agreed(comm, [&] {
+    for (const SavedNode<Dim>& one : saved)
+      if (!is_usable(one.node.x))
+        damaged("node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
+                " is nowhere: it is damaged");
+  });
+  if (level.distributed())
+    saved = redistribute(
+        comm, saved, [&](const SavedNode<Dim>& one) { return level.tree->owner_at(one.node.x); });
+  agreed(comm, [&] {
+    Nodes<Dim>& nodes = level.nodes;
+    nodes.reserve_with_room(std::ssize(saved));
+    for (const SavedNode<Dim>& one : saved) {
+      require_possible_node(level, state, one.node);
+      append(nodes, one.node, true);
+    }
+    nodes.moving = static_cast<Carrier>(state.moving);
+  });
+  require_different_ids(comm, saved);
+  level.next_id = state.next_id;
+}
+
+// By now the boundary is that of the same spacing.
+template <int Dim>
+void require_same_boundary(const Level<Dim>& level, const std::vector<SavedNode<Dim>>& saved) {
+  agreed(*level.comm, [&] {
+    for (const SavedNode<Dim>& one : saved)
+      if (!fits_ground(level.ground, one.node))
+        damaged("node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
+                " is not where the boundary of this domain has one: it is damaged, or a curve that "
+                "a callback gives is another one");
+  });
+}
+
+// At the nodes, before any of them has moved.
+template <int Dim>
+void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<Dim>>& saved) {
+  const View<double> d = spacing_at_owned_nodes(level, level.ground.spacing());
+  agreed(*level.comm, [&] {
+    for (std::size_t k = 0; k < saved.size(); ++k) {
+      const double here = d(static_cast<std::int64_t>(k));
+      if (here == saved[k].spacing) continue;
+      throw Error(ErrorKind::spacing, "the spacing is not the one it was written with: at " +
+                                          point_text(saved[k].node.x) + " it is " +
+                                          number_text(here) + ", and was " +
+                                          number_text(saved[k].spacing));
+    }
+  });
+}
+
+// What no placement can have saved.
+void require_possible(const SavedState& s) {
+  const auto count = [](std::int64_t n) { return n >= 0; };
+  const bool flags = is_flag(s.refined) && is_flag(s.coarser) && is_flag(s.taken_over) &&
+                     is_flag(s.ended) && is_flag(s.population_settled) && is_flag(s.at_event) &&
+                     is_flag(s.spacing_saved);
+  const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
+                      count(s.inserted) && count(s.deleted) && count(s.dropped) &&
+                      count(s.held_rounds) && count(s.nodes_before_held) && count(s.rebuilds) &&
+                      count(s.rebalances) && count(s.missing_faces) && count(s.left_out) &&
+                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
+                      count(s.coarser_levels) && s.coarser_levels < 1 << 10;
+  const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
+                      (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
+                     s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
+  if (!flags || !counts || !kinds || s.coarser)
+    damaged("its record of the run is impossible: it is damaged");
+}
+
+template <int Dim>
+Held<Dim> held_in(const SavedState& state) {
+  constexpr std::size_t kRow = Dim + 1;
+  if (state.held.size() % kRow != 0)
+    damaged("a place where d is held down is cut off: it is damaged");
+  if (!(state.least_before_held >= 0) || !is_usable(state.least_before_held))
+    damaged("the least d where it is held down is " + number_text(state.least_before_held) +
+            ": it is damaged");
+  Held<Dim> held{{}, state.held_rounds, state.nodes_before_held, state.least_before_held};
+  for (std::size_t k = 0; k < state.held.size(); k += kRow) {
+    GrowthSource<Dim> place;
+    std::copy_n(state.held.begin() + static_cast<std::ptrdiff_t>(k), Dim, place.x.begin());
+    place.d = state.held[k + Dim];
+    if (!is_usable(place.x) || !(place.d > 0) || !is_usable(place.d))
+      damaged("d is held down to " + number_text(place.d) + " at " + point_text(place.x) +
+              ": it is damaged");
+    held.places.push_back(place);
+  }
+  return held;
+}
+
+}  // namespace
+
+template <int Dim>
+Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacing<Dim>& given,
+                    const RunState& run, const Options& options, bool at_event) {
+  Saved<Dim> saved;
+  SavedState& s = saved.state;
+  saved.nodes = &level.nodes;
+  saved.spacing = spacing_at_owned_nodes(level, level.ground.spacing());
+  std::uint64_t checksum = 0;
+  agreed(*level.comm, [&] {
+    for (std::int32_t i = 0; i < level.nodes.count; ++i)
+      if (level.nodes.owned(i)) saved.owned.push_back(i);
+    for (std::int64_t k = 0; k < saved.count(); ++k) checksum += checksum_of(saved.node(k));
+    for (std::size_t w = run.warnings_of_level; w < run.warnings.size(); ++w)
+      s.warnings += run.warnings[w] + "\n";
+    s.options = lines_of_deciding(options.in(Dim));
+    if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(&given))
+      saved.patch = &nodal->patch();
+  });
+  s.dimension = Dim;
+  s.nodes = static_cast<std::int64_t>(
+      level.comm->allreduce_sum(static_cast<std::uint64_t>(saved.count())));
+  s.next_id = level.next_id;
+  s.moving = static_cast<int>(level.nodes.moving);
+  s.step = run.schedule.step;
+  s.refined = run.schedule.refined();
+  s.coarser = run.schedule.role != LevelRole::result;
+  s.taken_over = run.schedule.taken_over();
+  s.ended = run.schedule.ended();
+  s.population_settled = run.schedule.population_settled;
+  s.quiet_events = run.schedule.quiet_events;
+  s.at_event = at_event || run.schedule.progress == Progress::at_event;
+  s.coarser_levels = run.coarser_levels;
+  s.steps_done = run.steps_done;
+  s.inserted = run.inserted;
+  s.deleted = run.deleted;
+  s.dropped = run.dropped;
+  s.rebuilds = run.rebuilds_before + level.neighbourhood.rebuilds();
+  s.rebalances = run.rebalances_before + level.rebalances;
+  s.stop_reason = static_cast<int>(run.stop_reason);
+  s.missing_faces = run.surface_fit.missing_faces;
+  s.left_out = level.left_out;
+  s.spacing_saved = saved.patch != nullptr;
+  s.max_speed = run.last_speeds.max;
+  s.mean_speed = run.last_speeds.mean;
+  s.meeting_radius = meeting_radius(level.settings);
+  s.held_rounds = held.rounds;
+  s.nodes_before_held = held.nodes_before;
+  s.least_before_held = held.least_before;
+  for (const GrowthSource<Dim>& place : held.places) {
+    s.held.insert(s.held.end(), place.x.begin(), place.x.end());
+    s.held.push_back(place.d);
+  }
+  s.domain_fingerprint = fingerprint_of(level.ground.domain());
+  s.checksum = level.comm->allreduce_sum(checksum) + checksum_of(s.held);
+  return saved;
+}
+
+void require_savable_spacing(bool replaced, const Options& now, const Options& then) {
+  const auto refuse = [](const std::string& what) {
+    throw Error(ErrorKind::state, "the nodes are those of another " + what +
+                                      ": write the checkpoint before it is set, or after a run");
+  };
+  if (replaced) refuse("spacing");
+  if (now.integer("resolve") != then.integer("resolve")) refuse("value of the option resolve");
+  for (const char* option : {"wanted_nodes", "growth_limit"})
+    if (now.real(option) != then.real(option) || now.is_set(option) != then.is_set(option))
+      refuse(std::string("value of the option ") + option);
+}
+
+template <int Dim>
+void require_same_as(const SavedState& saved, const Communicator& comm, Domain<Dim>& domain,
+                     const Options& options) {
+  agreed(comm, [&] { domain.check(); });
+  require_same_domain(comm, domain);
+  if (saved.dimension != Dim)
+    throw Error(ErrorKind::argument, "it is of a placement in " + std::to_string(saved.dimension) +
+                                         " dimensions, not in " + std::to_string(Dim));
+  require_possible(saved);
+  if (saved.domain_fingerprint != fingerprint_of(domain))
+    throw Error(ErrorKind::domain, "the domain is not the one it was written with");
+  changes_since(saved.options, options.in(Dim));
+}
+
+template <int Dim>
+std::unique_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
+                                        LevelBuilder<Dim>& builder,
+                                        const SpacingToPlace<Dim>& to_place,
+                                        const Settings& settings, PlacedSpacing<Dim>& placed) {
+  placed.held = held_in<Dim>(saved);
+  std::unique_ptr<Level<Dim>> level = builder.level_to_place(to_place, settings, placed);
+  put_saved_nodes(*level, saved, nodes);
+  require_same_spacing(*level, nodes);
+  require_same_boundary(*level, nodes);
+  // As it would have been at the next step after the options were changed.
+  if (saved.meeting_radius != meeting_radius(settings)) level->nodes.set_reference_positions();
+  recognise_margin(*level);
+  exchange(*level, kStarHops);
+  return level;
+}
+
+template <int Dim>
+void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
+  run.schedule = Schedule();
+  run.schedule.step = s.step;
+  run.schedule.first_nodes = first_nodes_of(s.refined, s.taken_over);
+  run.schedule.progress = s.ended      ? Progress::ended
+                          : s.at_event ? Progress::at_event
+                                       : Progress::steps;
+  run.schedule.population_settled = s.population_settled;
+  run.schedule.quiet_events = static_cast<int>(s.quiet_events);
+  run.coarser_levels = static_cast<int>(s.coarser_levels);
+  run.last_speeds = {s.max_speed, s.mean_speed};
+  run.steps_done = s.steps_done;
+  run.inserted = s.inserted;
+  run.deleted = s.deleted;
+  run.dropped = s.dropped;
+  run.rebuilds_before = s.rebuilds;
+  run.rebalances_before = s.rebalances;
+  run.stop_reason = static_cast<StopReason>(s.stop_reason);
+  run.surface_fit.missing_faces = s.missing_faces;
+  level.left_out = s.left_out;
+  level.held_rounds = s.held_rounds;
+  std::istringstream lines(s.warnings);
+  for (std::string line; std::getline(lines, line);) run.warnings.push_back(line);
+}
+
+template Saved<2> saved_of(const Level<2>&, const Held<2>&, const Spacing<2>&, const RunState&,
+                           const Options&, bool);
+template void require_same_as<2>(const SavedState&, const Communicator&, Domain<2>&,
+                                 const Options&);
+template std::unique_ptr<Level<2>> saved_level(const SavedState&, std::vector<SavedNode<2>>,
+                                               LevelBuilder<2>&, const SpacingToPlace<2>&,
+                                               const Settings&, PlacedSpacing<2>&);
+template void adopt_state(const SavedState&, RunState&, Level<2>&);
+template Saved<3> saved_of(const Level<3>&, const Held<3>&, const Spacing<3>&, const RunState&,
+                           const Options&, bool);
+template void require_same_as<3>(const SavedState&, const Communicator&, Domain<3>&,
+                                 const Options&);
+template std::unique_ptr<Level<3>> saved_level(const SavedState&, std::vector<SavedNode<3>>,
+                                               LevelBuilder<3>&, const SpacingToPlace<3>&,
+                                               const Settings&, PlacedSpacing<3>&);
+template void adopt_state(const SavedState&, RunState&, Level<3>&);
+
+}  // namespace pnpbs

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// In which region of the domain elements lie.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "results/results.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class ElementRegions {
+ public:
+  // Of elements as they come from results.for_elements.
+  explicit ElementRegions(const Results<Dim>& results)
+      : results_(results),
+        regions_(results.has_nodes() ? results.level().ground.domain().regions() : nullptr) {
+    if (regions_) of_node_.assign(static_cast<std::size_t>(results.held()), kUnknown);
+  }
+
+  bool any() const { return regions_ != nullptr; }
+
+  // The tag of its region, 0 if that has none. Elements end at the facets of regions, so it is that
+  // of any of its corners that is on none of them: of the one with the least id. If all are, that
+  // of its middle.
+  std::int32_t operator()(const std::array<std::int64_t, Dim + 1>& places) {
+    if (!regions_) return 0;
+    std::array<std::int64_t, Dim + 1> nodes;
+    std::ranges::transform(places, nodes.begin(), [&](auto p) { return results_.node_at(p); });
+    std::ranges::sort(nodes, {}, [&](std::int64_t i) { return all().id(i); });
+    for (const std::int64_t i : nodes)
+      if (all().tag(i) == 0) return at_node(i);
+    Point<Dim> middle{};
+    for (const std::int64_t i : nodes)
+      for (std::size_t k = 0; k < Dim; ++k) middle[k] += all().position(i)[k] / (Dim + 1);
+    return regions_->tag_at(middle);
+  }
+
+  // The same of a node, by its place alone. If there are any.
+  std::int32_t at_node(std::int64_t i) {
+    std::int64_t& known = of_node_[static_cast<std::size_t>(i)];
+    if (known == kUnknown) known = regions_->tag_at(all().position(i));
+    return static_cast<std::int32_t>(known);
+  }
+
+ private:
+  static constexpr std::int64_t kUnknown = std::int64_t{1} << 40;  // is no tag
+
+  const Nodes<Dim>& all() const { return results_.level().nodes; }
+
+  const Results<Dim>& results_;
+  const RegionIndex<Dim>* regions_;
+  std::vector<std::int64_t> of_node_;
+};
+
+}  // namespace pnpbs

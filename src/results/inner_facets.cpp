@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "results/inner_facets.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/space_vectors.hpp"
+#include "delaunay/volume/element_rule.hpp"
+#include "geometry/volume/triangles.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+bool is_inner_triangle(const BoundaryTriangle& facet) {
+  const auto& [a, b, c] = facet.nodes;
+  return facet.front_inside && facet.back_inside && a != b && b != c && c != a;
+}
+
+}  // namespace
+
+InnerFacets::InnerFacets(const Level<3>& level)
+    : level_(level), any_(level.ground.has_inner_surfaces()) {}
+
+const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
+  const Nodes<3>& nodes = level_.nodes;
+  const auto on_surface = [&](std::int64_t j) { return nodes.carrier(j) != Carrier::free; };
+  found_.clear();
+  if (!any_ || !on_surface(i)) return found_;
+  faces_.clear();
+  level_.stars.for_simplices(i, [&](const Stars<3>::Corners& others) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<std::int64_t, 2> two{others[k], others[(k + 1) % 3]};
+      const std::int64_t apex = others[(k + 2) % 3];
+      if (nodes.id(two[0]) > nodes.id(two[1])) std::swap(two[0], two[1]);
+      if (nodes.id(two[0]) < nodes.id(i) || !on_surface(two[0]) || !on_surface(two[1])) continue;
+      faces_.push_back({{nodes.id(two[0]), nodes.id(two[1])},
+                        {i, two[0], two[1]},
+                        nodes.id(apex),
+                        centroid(ordered_by_id(tetrahedron_of(nodes, {i, two[0], two[1], apex})))});
+    }
+  });
+  std::ranges::sort(faces_, {}, [](const Face& f) { return std::pair(f.ids, f.apex); });
+  for (std::size_t f = 1; f < faces_.size(); ++f)
+    if (faces_[f - 1].ids == faces_[f].ids) judge(faces_[f - 1], faces_[f]);
+  return found_;
+}
+
+void InnerFacets::judge(const Face& one, const Face& other) {
+  const std::int32_t f = crossed_facet(one.centroid, other.centroid);
+  if (f < 0) return;
+  const Ground<3>& ground = level_.ground;
+  const std::int32_t patch = ground.domain().features().patch[static_cast<std::size_t>(f)];
+  for (const std::int64_t i : one.nodes)
+    if (!on_patch(i, patch)) return;
+  const BoundaryTriangle& facet = ground.boundary().facets[static_cast<std::size_t>(f)];
+  InnerFacet found{one.nodes, facet.tag};
+  const Nodes<3>& nodes = level_.nodes;
+  const Point<3> x = nodes.position(found.nodes[0]);
+  const Point<3> normal = cross(difference(nodes.position(found.nodes[1]), x),
+                                difference(nodes.position(found.nodes[2]), x));
+  if (dot(normal, facet_normal(ground.boundary(), facet)) < 0)
+    std::swap(found.nodes[1], found.nodes[2]);
+  found_.push_back(found);
+}
+
+bool InnerFacets::on_patch(std::int64_t i, std::int32_t patch) const {
+  bool there = false;
+  level_.ground.surface().for_sides(
+      level_.ground.place(level_.nodes.carrier(i), level_.nodes.boundary_node(i)),
+      [&](const SurfaceSide& side) { there = there || side.patch == patch; });
+  return there;
+}
+
+// The first of the inner surfaces' facets that the way crosses, if it crosses them an odd number of
+// times; else -1.
+std::int32_t InnerFacets::crossed_facet(const Point<3>& from, const Point<3>& to) {
+  const FacetIndex<3>& sides = level_.ground.domain().index().sides();
+  const Point<3> middle = middle_of<3>(from, to);
+  constexpr double kRounding = 1 + 1e-9;
+  crossed_.clear();
+  sides.for_facets_near(middle, 0.5 * kRounding * distance<3>(from, to), [&](std::int32_t f) {
+    if (is_inner_triangle(sides.facet(f)) && crosses(from, to, sides.corners(f)))
+      crossed_.push_back(f);
+  });
+  std::ranges::sort(crossed_);  // a facet may come more than once
+  crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
+  return crossed_.size() % 2 == 1 ? crossed_.front() : -1;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "results/node_normal.hpp"
+
+#include <cstddef>
+
+#include "base/index.hpp"
+#include "base/space_vectors.hpp"
+#include "domain/volume/crease_nodes.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+Point<3> mean_of(const Point<3>& sum) {
+  constexpr double kAgainst = 1e-6;  // the length of what is left of unit vectors that cancel
+  return length(sum) > kAgainst ? unit_vector(sum) : Point<3>{};
+}
+
+Point<3> normal_of_facets(const Level<3>& level, std::int64_t i) {
+  Point<3> sum{};
+  if (level.nodes.carrier(i) == Carrier::free) return sum;
+  level.ground.surface().for_sides(
+      level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i)),
+      [&](const SurfaceSide& side) { sum = shifted(sum, 1, side.normal); });
+  return mean_of(sum);
+}
+
+// The gradient as the facets look: a level set may bound a cavity.
+Point<3> as_seen(const Point<3>& gradient, const Point<3>& facets) {
+  return dot(gradient, facets) < 0 ? shifted({}, -1, gradient) : gradient;
+}
+
+// Where a facet and those around it look: by area, so that thin ones do not count.
+Point<3> area_around(const Surface& surface, std::int32_t facet) {
+  Point<3> sum{};
+  const auto add = [&](std::int32_t f) {
+    const auto [a, b, c] = surface.corners(f);
+    sum = shifted(sum, 1, cross(difference(b, a), difference(c, a)));
+  };
+  add(facet);
+  for (int k = 0; k < 3; ++k)
+    if (surface.across(facet, k) >= 0) add(surface.across(facet, k));
+  return sum;
+}
+
+void take_gradients(const Level<3>& level, std::span<const std::int64_t> nodes,
+                    std::vector<Point<3>>& normals) {
+  const LevelSetTriangles& sets = level.ground.domain().level_sets();
+  for (const auto& set : sets.sets) {
+    if (!set) continue;
+    std::vector<std::size_t> on_set;
+    std::vector<Point<3>> places;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (level.nodes.carrier(nodes[k]) == Carrier::surface &&
+          sets.at(level.nodes.boundary_node(nodes[k])) == set.get()) {
+        on_set.push_back(k);
+        places.push_back(level.nodes.position(nodes[k]));
+      }
+    const std::vector<LevelSetSlope> slopes = set->slopes(places);
+    for (std::size_t k = 0; k < on_set.size(); ++k) {
+      const std::int32_t facet = level.nodes.boundary_node(nodes[on_set[k]]);
+      const Point<3> up = slopes[k].normal();
+      if (up != Point<3>{})
+        normals[on_set[k]] = as_seen(up, area_around(level.ground.surface(), facet));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Point<3>> node_normals(const Level<3>& level, std::span<const std::int64_t> nodes) {
+  std::vector<Point<3>> normals;
+  for (const std::int64_t i : nodes) normals.push_back(normal_of_facets(level, i));
+  take_gradients(level, nodes, normals);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (level.nodes.carrier(nodes[k]) != Carrier::curve) continue;
+    const FeatureNode& node =
+        level.ground.features().nodes[index(level.nodes.boundary_node(nodes[k]))];
+    const auto [left, right] = normals_beside(level.ground.domain().resolved(), node);
+    if (left != Point<3>{}) normals[k] = as_seen(mean_of(shifted(left, 1, right)), normals[k]);
+  }
+  return normals;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a level of a placement tells: its nodes in the order of their ids, lists, stars, elements,
+// facets and figures. They are prepared on request and kept until its nodes move.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "domain/domain.hpp"
+#include "level/level.hpp"
+#include "level/rebalance.hpp"
+#include "results/facet_tag.hpp"
+#include "results/inner_facets.hpp"
+#include "results/nodal_results.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class Results : public NodalResults {
+ public:
+  // Of none yet.
+  Results(std::shared_ptr<const Communicator> comm, std::shared_ptr<const Domain<Dim>> domain)
+      : NodalResults(std::move(comm)), domain_(std::move(domain)) {}
+
+  // From now on of this level, or of none.
+  void show(Level<Dim>* level) { level_ = level; }
+  Level<Dim>* shown() const { return level_; }
+
+  int dimension() const override { return Dim; }
+  int coordinates() const override { return chart() ? 3 : Dim; }
+  const StereographicChart* chart() const { return chart_of(*domain_); }
+  bool has_nodes() const override { return level_ != nullptr; }
+  const Level<Dim>& level() const { return *level_; }
+  // The user's, who may have changed it since.
+  const Domain<Dim>& domain() const { return *domain_; }
+  // Counts them, unless the order of nodes has.
+  std::int64_t count() const override;
+  std::int64_t held() const override { return level_ ? level_->nodes.count : 0; }
+  NodeColumns nodes() const override;
+  void prepare_order() override;
+  void prepare_lists() override;
+  void prepare_stars() override;
+  // Calls visit(places of its corners) for every element, a triangle or a tetrahedron, once, over
+  // all ranks: at the owner of its node with the least id, which comes first. After prepare_stars.
+  template <class Visit>
+  void for_elements(const Visit& visit) const {
+    for_elements(0, count(), visit);
+  }
+  // Only those whose first node has a place from begin up to end, by that place.
+  template <class Visit>
+  void for_elements(std::int64_t begin, std::int64_t end, const Visit& visit) const;
+  // Calls visit(places of its nodes, tag) for every facet of the boundary once, over all ranks. In
+  // the plane an edge comes at the owner of the node it begins with, after prepare_order; in space
+  // it is the open facets, after prepare_stars.
+  template <class Visit>
+  void for_boundary_facets(const Visit& visit) const;
+  template <class Visit>
+  void for_boundary_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
+      requires(Dim == 3);
+  // The same in the plane as visit(places of its nodes, edge).
+  template <class Visit>
+  void for_boundary_edges(const Visit& visit) const requires(Dim == 2);
+  // Calls visit(places) for every face of only one tetrahedron, once, over all ranks: at the owner
+  // of its node with the least id, which comes first; so that from outside they turn
+  // counter-clockwise. After prepare_stars.
+  template <class Visit>
+  void for_open_facets(const Visit& visit) const requires(Dim == 3) {
+    for_open_facets(0, count(), visit);
+  }
+  // Only those whose first node has a place from begin up to end, by that place. Of surfaces alone,
+  // all triangles.
+  template <class Visit>
+  void for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
+      requires(Dim == 3);
+  // Calls visit(places of its nodes, tag) for every face between tetrahedra that stands for a
+  // surface inside, once, over all ranks: at the owner of its node with the least id, which comes
+  // first and has a place from begin up to end. They turn as the surface does. After prepare_stars.
+  template <class Visit>
+  void for_inner_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
+      requires(Dim == 3);
+  template <class Visit>
+  void for_inner_facets(const Visit& visit) const requires(Dim == 3) {
+    for_inner_facets(0, count(), visit);
+  }
+  bool surfaces_alone() const override {
+    if (level_) return level_->ground.surfaces_alone();
+    if constexpr (Dim == 3) return !domain_->filled();
+    return false;
+  }
+  // Of a node, as it is handed out: on a sphere not that of the chart; z is 0 in the plane.
+  Point<3> place_in_space(std::int64_t node) const;
+  double spacing_at(std::int64_t node) const;
+  int owner_of(std::int64_t node) const {
+    return level_->tree->owner_at(level_->nodes.position(node));
+  }
+  std::shared_ptr<const ExchangePattern> exchange_pattern() override;
+
+  LevelFigures level_figures() const override;
+  Speeds speeds() const override { return level_ ? speeds_of(*level_) : Speeds{}; }
+  std::int64_t boundary_nodes() const override;
+  double imbalance() const override { return level_ ? imbalance_of(*level_) : 1; }
+  NearestNeighbourError spacing_error() override;
+  const ElementQuality& element_quality() override;
+  std::uint64_t hash() const override;
+
+ private:
+  void require_nodes() const;
+  LevelStamp stamp() const override { return level_ ? level_->stamp() : LevelStamp(); }
+
+  void put_on_sphere() const;
+
+  std::shared_ptr<const Domain<Dim>> domain_;
+  Level<Dim>* level_ = nullptr;
+  // On a sphere: of the nodes as they lie in memory, made when they are asked for.
+  mutable std::array<View<double>, 3> on_sphere_;
+  mutable View<double> spacing_on_sphere_;
+  mutable LevelStamp on_sphere_stamp_;
+};
+
+// While it is there, results are those of another level, which is worked on.
+template <int Dim>
+class Showing {
+ public:
+  Showing(Results<Dim>& results, Level<Dim>* level) : results_(results), before_(results.shown()) {
+    results.show(level);
+  }
+  Showing(const Showing&) = delete;
+  Showing& operator=(const Showing&) = delete;
+  ~Showing() { results_.show(before_); }
+
+ private:
+  Results<Dim>& results_;
+  Level<Dim>* before_;
+};
+
+extern template class Results<2>;
+extern template class Results<3>;
+
+template <int Dim>
+template <class Visit>
+void Results<Dim>::for_elements(std::int64_t begin, std::int64_t end, const Visit& visit) const {
+  const NodeArray<std::int64_t>& id = level_->nodes.id;
+  for (std::int64_t p = begin; p < end; ++p) {
+    const std::int64_t i = node_at(p);
+    level_->stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
+      std::array<std::int64_t, Dim + 1> places{p};
+      for (std::size_t k = 0; k < Dim; ++k) {
+        if (id(others[k]) < id(i)) return;
+        places[k + 1] = place_of(others[k]);
+      }
+      visit(places);
+    });
+  }
+}
+
+template <int Dim>
+template <class Visit>
+void Results<Dim>::for_boundary_facets(const Visit& visit) const {
+  if constexpr (Dim == 2)
+    for_boundary_edges([&](const std::array<std::int64_t, 2>& places, const BoundaryEdge& e) {
+      visit(places, e.tag);
+    });
+  else
+    for_boundary_facets(0, count(), visit);
+}
+
+template <int Dim>
+template <class Visit>
+void Results<Dim>::for_boundary_edges(const Visit& visit) const requires(Dim == 2) {
+  const Boundary& boundary = level_->ground.boundary();
+  const Nodes<2>& nodes = level_->nodes;
+  std::vector<std::int64_t> place(boundary.nodes.size(), -1);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (const std::int32_t b = nodes.boundary_node(i); b >= 0)
+      place[static_cast<std::size_t>(b)] = place_of(i);
+  const std::int64_t owned = count();
+  for (const BoundaryEdge& e : boundary.facets) {
+    if (e.begin == e.end) continue;                                 // a fixed node
+    if (level_->ground.domain().closing() && e.bounds()) continue;  // there is a triangle behind
+    const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
+    if (begin >= 0 && begin < owned)
+      visit(std::array<std::int64_t, 2>{begin, place[static_cast<std::size_t>(e.end)]}, e);
+  }
+}
+
+template <int Dim>
+template <class Visit>
+void Results<Dim>::for_boundary_facets(std::int64_t begin, std::int64_t end,
+                                       const Visit& visit) const requires(Dim == 3) {
+  for_open_facets(begin, end, [&](const std::array<std::int64_t, 3>& places) {
+    const auto [a, b, c] = places;
+    visit(places, facet_tag(*level_, {node_at(a), node_at(b), node_at(c)}));
+  });
+}
+
+template <int Dim>
+template <class Visit>
+void Results<Dim>::for_inner_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
+    requires(Dim == 3) {
+  InnerFacets facets(*level_);
+  for (std::int64_t p = begin; p < (facets.any() ? end : begin); ++p)
+    for (const InnerFacet& facet : facets.at(node_at(p)))
+      visit(std::array<std::int64_t, 3>{p, place_of(facet.nodes[1]), place_of(facet.nodes[2])},
+            facet.tag);
+}
+
+// Of the tetrahedra around a node, those of its faces that come once.
+template <int Dim>
+template <class Visit>
+void Results<Dim>::for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
+    requires(Dim == 3) {
+  const NodeArray<std::int64_t>& id = level_->nodes.id;
+  struct Face {
+    std::int64_t low, high;               // ids of the other two nodes
+    std::array<std::int64_t, 3> turning;  // places, as seen from outside
+  };
+  std::vector<Face> faces;
+  for (std::int64_t p = begin; p < end; ++p) {
+    const std::int64_t i = node_at(p);
+    level_->stars.for_triangles(i, [&](const std::array<std::int32_t, 2>& others) {
+      const auto [a, b] = others;
+      if (id(i) < id(a) && id(i) < id(b))
+        visit(std::array<std::int64_t, 3>{p, place_of(a), place_of(b)});
+    });
+    if (level_->stars.closed(i)) continue;
+    faces.clear();
+    level_->stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
+      // (i, a, b, c) turns right-handed: from outside, its faces with i turn as i, b, a.
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int64_t a = others[k], b = others[(k + 1) % 3];
+        if (id(a) < id(i) || id(b) < id(i)) continue;
+        faces.push_back(
+            {std::min(id(a), id(b)), std::max(id(a), id(b)), {p, place_of(b), place_of(a)}});
+      }
+    });
+    std::sort(faces.begin(), faces.end(), [](const Face& f, const Face& g) {
+      return f.low != g.low ? f.low < g.low : f.high < g.high;
+    });
+    const auto same = [&](std::size_t f, std::size_t g) {
+      return g < faces.size() && faces[f].low == faces[g].low && faces[f].high == faces[g].high;
+    };
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (!same(f, f + 1) && !(f > 0 && same(f, f - 1))) visit(faces[f].turning);
+  }
+}
+
+// Calls work(results) with them as what they are.
+template <class Work>
+auto in_its_dimension(NodalResults& results, const Work& work) {
+  if (results.dimension() == 2) return work(static_cast<Results<2>&>(results));
+  return work(static_cast<Results<3>&>(results));
+}
+
+}  // namespace pnpbs

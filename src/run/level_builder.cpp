@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/level_builder.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "level/expected_nodes.hpp"
+#include "level/first_nodes.hpp"
+#include "level/refinement.hpp"
+#include "level/volume/gaps.hpp"
+#include "run/settling_surfaces.hpp"
+#include "run/simulation.hpp"
+#include "sizing/closing_patch.hpp"
+#include "sizing/coarser_levels.hpp"
+#include "sizing/holding_spacing.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// All nodes of a level are numbered anew.
+template <int Dim>
+IncomingNodes<Dim> new_nodes(IncomingNodes<Dim> nodes) {
+  for_each("pnpbs::new_nodes", static_cast<std::int64_t>(nodes.size()),
+           [&](std::int64_t k) { nodes[static_cast<std::size_t>(k)].id = -1; });
+  return nodes;
+}
+
+// The trees of both are partitioned alike: a sphere is closed closer to the point, and so farther
+// out in the chart, where d is less.
+void take_bounds(PlaneDomain& domain, const PlaneDomain& finer) {
+  if (domain.is_whole_sphere()) domain.take_bounds(finer.bounds());
+}
+void take_bounds(VolumeDomain&, const VolumeDomain&) {}
+
+}  // namespace
+
+// ------------------------------------------------------------------ levels without nodes -------
+
+template <int Dim>
+std::unique_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(
+    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings, const Level<Dim>* like) {
+  std::unique_ptr<Level<Dim>> level;
+  agreed(*comm_, [&] {
+    const PhaseTimer timer(timers_, Phase::boundary);
+    // A copy: the caller may go on to change the domain.
+    auto domain = std::make_shared<Domain<Dim>>(*closed_for(domain_, *spacing));
+    if (like) take_bounds(*domain, like->ground.domain());
+    level = std::make_unique<Level<Dim>>(comm_, std::move(domain), std::move(spacing), settings,
+                                         timers_);
+  });
+  level->grow_tree(like);
+  return level;
+}
+
+template <int Dim>
+std::unique_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPlace<Dim>& to_place,
+                                                              const Settings& settings,
+                                                              PlacedSpacing<Dim>& placed) {
+  placed.unheld = to_place.spacing_to_place(settings);
+  const auto limit_growth = [&] {
+    placed.unheld = growth_limited(to_place, std::move(placed.unheld), settings);
+  };
+  if (settings.user_limits_growth()) limit_growth();
+  hold_down(*comm_, placed, settings);
+  std::unique_ptr<Level<Dim>> next = empty_level(placed.d, settings);
+  if (!settings.user_limits_growth()) {
+    const PhaseTimer timer(timers_, Phase::spacing);
+    placed.steepest = steepest_growth<Dim>(
+        *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
+        next->ground.evaluator(), placed.unheld->known_values(), chart_of(*domain_));
+  }
+  if (too_steep(placed.steepest) && settings.growth_limit > 0) {
+    next.reset();
+    limit_growth();
+    hold_down(*comm_, placed, settings);
+    next = empty_level(placed.d, settings);
+  }
+  settings.node_limit().require_memory_for(expected_nodes(*next));
+  return next;
+}
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> LevelBuilder<Dim>::growth_limited(
+    const SpacingToPlace<Dim>& to_place, std::shared_ptr<const Spacing<Dim>> spacing,
+    const Settings& settings) {
+  context_.monitoring.watch("the growth of the spacing was limited", context_.results.count(),
+                            [&](const std::function<void()>& beat) {
+                              const PhaseTimer timer(timers_, Phase::spacing);
+                              spacing = to_place.growth_limited(std::move(spacing), settings, beat);
+                            });
+  return spacing;
+}
+
+// ------------------------------------------------------------------ first nodes ----------------
+
+template <int Dim>
+MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::unique_ptr<Level<Dim>> level,
+                                                   PlacedSpacing<Dim> placed,
+                                                   const Settings& settings,
+                                                   const NodesBefore<Dim>& before) {
+  MadeLevel<Dim> made;
+  made.level = std::move(level);
+  made.placed = std::move(placed);
+  made.level->held_rounds = made.placed.held.rounds;
+  context_.run.coarser_levels = 0;
+  filled_levels_ = 0;
+  if (context_.results.surfaces_alone()) {
+    begin_on_surfaces(made, settings, before);
+  } else if (before.level) {
+    take_kept_nodes(made, *before.level);
+  } else if (before.given) {
+    take_given_nodes(made, *before.given);
+  } else {
+    begin_anew(made, settings);
+  }
+  const bool taken_over = before.level || before.given || made.outcome == Outcome::stopped;
+  made.first_nodes = first_nodes_of(filled_levels_ > 0, taken_over);
+  return made;
+}
+
+template <int Dim>
+void LevelBuilder<Dim>::take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before) {
+  Level<Dim>& level = *made.level;
+  IncomingNodes<Dim> kept = refined(before, *made.placed.d);
+  level.next_id = before.next_id;
+  if constexpr (Dim == 3) settle_surfaces(level, kept, made.outcome, LevelRole::surfaces, context_);
+  made.taken = take(level, std::move(kept), level.next_id);
+  // Where d was far larger, or the shape is thin.
+  made.inserted = made.taken.numbered;
+  if constexpr (Dim == 3) made.inserted += fill_gaps_inside(level);
+  made.taken.left_out = 0;  // not the user's
+}
+
+template <int Dim>
+void LevelBuilder<Dim>::take_given_nodes(MadeLevel<Dim>& made, IncomingNodes<Dim> given) {
+  Level<Dim>& level = *made.level;
+  if constexpr (Dim == 3)
+    settle_surfaces(level, given, made.outcome, LevelRole::surfaces, context_);
+  made.taken = take(level, std::move(given), level.next_id);
+}
+
+template <int Dim>
+void LevelBuilder<Dim>::begin_anew(MadeLevel<Dim>& made, const Settings& settings) {
+  int& coarser_levels = context_.run.coarser_levels;
+  filled_levels_ = coarser_levels = coarser_levels_that_pay(*made.level, *domain_, made.placed.d);
+  if constexpr (Dim == 3)
+    coarser_levels = std::max(coarser_levels, surface_levels_that_pay(*made.level));
+  IncomingNodes<Dim> nodes;
+  if (coarser_levels > 0) nodes = nodes_from_coarser_levels(made, settings, made.outcome);
+  put_first_nodes(*made.level, nodes, 0, made.outcome);
+}
+
+// The nodes that surfaces alone begin with: those there are, those given, or what coarser levels
+// lead to.
+template <int Dim>
+void LevelBuilder<Dim>::begin_on_surfaces(MadeLevel<Dim>& made, const Settings& settings,
+                                          const NodesBefore<Dim>& before) {
+  if constexpr (Dim == 3) {
+    IncomingNodes<3> nodes;
+    TakenNodes& taken = made.taken;
+    if (before.level) {
+      nodes = refined(*before.level, *made.placed.d);
+      made.level->next_id = before.level->next_id;
+      taken.numbered = over_ranks(std::ranges::count(nodes, -1, &IncomingNode<3>::id));
+    } else if (before.given) {
+      nodes = *before.given;
+      agreed(*comm_, [&] { taken.left_out = bring_to_surfaces(*made.level, nodes); });
+      taken.left_out = over_ranks(taken.left_out);
+    } else {
+      int& coarser_levels = context_.run.coarser_levels;
+      filled_levels_ = coarser_levels = surface_levels_that_pay(*made.level);
+      if (coarser_levels > 0) nodes = nodes_from_coarser_levels(made, settings, made.outcome);
+    }
+    taken.thinned = over_ranks(put_on_surfaces(*made.level, std::move(nodes)));
+    made.inserted = taken.numbered;
+  }
+}
+
+// From the coarsest level down to twice the spacing, each with a simulation of its own. If the
+// monitor stops them, refined nodes are returned nevertheless, as they are.
+template <int Dim>
+IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const MadeLevel<Dim>& finest,
+                                                                const Settings& settings,
+                                                                Outcome& outcome) {
+  const auto spacing_of = [&](int level) { return spacing_of_level(finest.placed.d, level); };
+  RunState& run = context_.run;
+  const int levels = run.coarser_levels;
+  IncomingNodes<Dim> nodes;
+  std::unique_ptr<Level<Dim>> coarser;
+  const Showing<Dim> showing(context_.results, nullptr);
+  for (int l = levels; l > 0; --l) {
+    std::unique_ptr<Level<Dim>> level =
+        empty_level(spacing_of(l), settings_of_level(settings, l == levels), finest.level.get());
+    put_first_nodes(*level, nodes, l, outcome);
+    if (coarser) run.keep_counts(*coarser);
+    run.forget_finish();
+    coarser = std::move(level);
+    context_.results.show(coarser.get());
+    Schedule schedule;
+    schedule.role = LevelRole::coarser;
+    Simulation<Dim> simulation(*coarser, schedule, run, context_.monitoring);
+    const ProgressPart part{kCoarseShare * (levels - l) / levels,
+                            kCoarseShare * (levels - l + 1) / levels};
+    if (outcome != Outcome::stopped && l <= filled_levels_)
+      outcome = simulation.advance(coarser->settings.steps, part);
+    if (outcome != Outcome::stopped && l <= filled_levels_) simulation.repair_defects();
+    nodes = new_nodes<Dim>(refined(*coarser, *spacing_of(l - 1)));
+  }
+  if (coarser) run.keep_counts(*coarser);
+  if (outcome != Outcome::stopped) outcome = Outcome::converged;
+  return nodes;
+}
+
+// The nodes that one of several levels begins with: those of the level before, refined, or on the
+// first one a fill.
+template <int Dim>
+void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& from_coarser,
+                                        int which, Outcome& outcome) {
+  if constexpr (Dim == 3) {
+    if (context_.results.surfaces_alone()) {
+      put_on_surfaces(level, std::move(from_coarser));
+      return;
+    }
+    settle_surfaces(level, from_coarser, outcome,
+                    which > 0 ? LevelRole::coarser : LevelRole::surfaces, context_);
+    from_coarser = new_nodes<Dim>(std::move(from_coarser));
+    level.next_id = 0;
+  }
+  if (which > filled_levels_) return;  // surfaces alone
+  if (which == filled_levels_) {
+    fill(level, laid_nodes(level.ground, from_coarser));
+    return;
+  }
+  take(level, std::move(from_coarser), 0);
+  if constexpr (Dim == 3) fill_gaps_inside(level);
+}
+
+template <int Dim>
+void LevelBuilder<Dim>::fill(Level<Dim>& level, LaidNodes<Dim> laid) {
+  context_.monitoring.watch("the first nodes were laid", context_.results.count(),
+                            [&](const std::function<void()>& beat) {
+                              pnpbs::fill(level, std::move(laid), beat,
+                                          lattice_is_stretched(options_));
+                            });
+}
+
+template <int Dim>
+std::int64_t LevelBuilder<Dim>::over_ranks(std::int64_t mine) const {
+  return static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(mine)));
+}
+
+template class LevelBuilder<2>;
+template class LevelBuilder<3>;
+
+}  // namespace pnpbs

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes levels: boundary, tree, growth limit, and the nodes that they begin with. What is made is
+// handed to the caller, who makes it the level there is.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "initial/incoming_nodes.hpp"
+#include "level/laid_nodes.hpp"
+#include "level/level.hpp"
+#include "level/taken_nodes.hpp"
+#include "run/level_context.hpp"
+#include "run/outcome.hpp"
+#include "run/schedule.hpp"
+#include "settings/options.hpp"
+#include "sizing/limiting_growth.hpp"
+#include "sizing/placed_spacing.hpp"
+
+namespace pnpbs {
+
+// The nodes that a level may begin with: those of the level before or, if there is none, those
+// given, each null if there are none; else it is filled.
+template <int Dim>
+struct NodesBefore {
+  Level<Dim>* level = nullptr;
+  const IncomingNodes<Dim>* given = nullptr;
+};
+
+template <int Dim>
+struct MadeLevel {
+  std::unique_ptr<Level<Dim>> level;
+  PlacedSpacing<Dim> placed;
+  FirstNodes first_nodes = FirstNodes::laid;
+  TakenNodes taken;
+  std::int64_t inserted = 0;             // nodes that came with it, on all ranks
+  Outcome outcome = Outcome::converged;  // or stopped by the monitor
+};
+
+// All functions are collective.
+template <int Dim>
+class LevelBuilder {
+ public:
+  LevelBuilder(std::shared_ptr<const Communicator> comm, std::shared_ptr<const Domain<Dim>> domain,
+               const Options& options, Timers& timers, LevelContext<Dim> context)
+      : comm_(std::move(comm)),
+        domain_(std::move(domain)),
+        options_(options),
+        timers_(timers),
+        context_(context) {}
+
+  // A level without nodes for the user's spacing, whose growth is limited where the user wants it
+  // so or, by how steep it is, where nodes could not follow it. `placed` tells where it is held
+  // down, and is told what the spacing is.
+  std::unique_ptr<Level<Dim>> level_to_place(const SpacingToPlace<Dim>& to_place,
+                                             const Settings& settings, PlacedSpacing<Dim>& placed);
+  // A level without inner nodes yet, partitioned like another one if that is given.
+  std::unique_ptr<Level<Dim>> empty_level(std::shared_ptr<const Spacing<Dim>> spacing,
+                                          const Settings& settings,
+                                          const Level<Dim>* like = nullptr);
+  // Puts nodes on a level that has none: those before, refined where they are of a coarser level,
+  // those that coarser levels lead to, or a fill.
+  MadeLevel<Dim> with_first_nodes(std::unique_ptr<Level<Dim>> level, PlacedSpacing<Dim> placed,
+                                  const Settings& settings, const NodesBefore<Dim>& before);
+
+ private:
+  std::shared_ptr<const Spacing<Dim>> growth_limited(const SpacingToPlace<Dim>& to_place,
+                                                     std::shared_ptr<const Spacing<Dim>> spacing,
+                                                     const Settings& settings);
+  void take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before);
+  void take_given_nodes(MadeLevel<Dim>& made, IncomingNodes<Dim> given);
+  void begin_anew(MadeLevel<Dim>& made, const Settings& settings);
+  void begin_on_surfaces(MadeLevel<Dim>& made, const Settings& settings,
+                         const NodesBefore<Dim>& before);  // in space
+  IncomingNodes<Dim> nodes_from_coarser_levels(const MadeLevel<Dim>& finest,
+                                               const Settings& settings, Outcome& outcome);
+  void put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& from_coarser, int which,
+                       Outcome& outcome);
+  void fill(Level<Dim>& level, LaidNodes<Dim> laid);
+  std::int64_t over_ranks(std::int64_t mine) const;
+
+  std::shared_ptr<const Communicator> comm_;
+  std::shared_ptr<const Domain<Dim>> domain_;
+  const Options& options_;
+  Timers& timers_;
+  LevelContext<Dim> context_;
+  int filled_levels_ = 0;  // of the coarser ones, those with their inside filled
+};
+
+extern template class LevelBuilder<2>;
+extern template class LevelBuilder<3>;
+
+}  // namespace pnpbs

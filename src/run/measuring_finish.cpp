@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/measuring_finish.hpp"
+
+#include <string>
+
+#include "base/point_text.hpp"
+#include "check/conformity.hpp"
+#include "method/constants.hpp"
+#include "results/element_angles.hpp"
+#include "sizing/holding_spacing.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+void gather_unknown_uses(const Level<Dim>& level, RunState& run) {
+  run.unknown_uses = static_cast<std::int64_t>(level.comm->allreduce_sum(
+      static_cast<std::uint64_t>(run.unknown_uses_before + level.unknown_uses)));
+  if (run.unknown_uses > 0)
+    run.warnings.push_back(
+        "the nodes may depend on the number of ranks: " + std::to_string(run.unknown_uses) +
+        " decisions looked beyond what a rank knows (statistic unknown_uses); on "
+        "one rank they do not");
+}
+
+void measure_finish(Results<2>&, const PlacedSpacing<2>&, RunState&) {}
+
+void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunState& run) {
+  results.prepare_stars();
+  const Level<3>& level = results.level();
+  const PhaseTimer timer(level.timers, Phase::conformity);
+  const View<char> held = held_nodes(level, placed);  // there d is not the user's
+  agreed(*level.comm, [&] {
+    run.edge_bands = edge_bands_to_judge<3>(*level.comm, {level.nodes}, level.stars, held);
+  });
+  run.surface_fit = measure_surface_fit(level);
+}
+
+namespace {
+
+// Elements that can be used, but hardly: d is held down there next, if the user wants that.
+void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unresolved) {
+  if (level.ground.surfaces_alone()) return;
+  const double min_angle = level.settings.min_angle,
+               below = min_angle > 0 ? min_angle : method::kSmallAngle;
+  SmallAngleElements found = small_angle_elements(level, below);
+  if (found.all.count == 0) return;
+  run.warn("dihedral angles below " + number_text(below) +
+           " degrees: " + std::to_string(found.all.count) + " tetrahedra, one of them at " +
+           rounded_point_text<3>(found.all.at) +
+           ", where the body has walls, gaps or steps much smaller than the spacing: make it "
+           "smaller there" +
+           (min_angle > 0 ? "" : ", or set the option min_angle"));
+  if (min_angle == 0) return;
+  unresolved.small_angles = found.all.count;
+  unresolved.places = std::move(found.places);
+}
+
+}  // namespace
+
+// In the plane they do, as soon as the boundary is one that encloses something.
+bool elements_conform(Results<2>&, RunState&, Unresolved<2>&) { return true; }
+
+bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresolved) {
+  const Communicator& comm = results.communicator();
+  const PhaseTimer timer(results.level().timers, Phase::conformity);
+  const Conformity<3> conformity = conformity_of(results);
+  run.warn(text_of(conformity, results));
+  unresolved = {};
+  if (conformity.holds()) {
+    find_small_angles(results.level(), run, unresolved);
+    return true;
+  }
+  if (!conformity.any_elements()) return false;  // d means another body
+  std::vector<Point<3>>& places = unresolved.places;
+  const auto none = [&] { return comm.allreduce_sum(places.size()) == 0; };
+  places = conformity.torn;
+  if (none()) places = places_of_other_topology(results.level());
+  if (none()) places = run.surface_fit.places;
+  return false;
+}
+
+template void gather_unknown_uses(const Level<2>&, RunState&);
+template void gather_unknown_uses(const Level<3>&, RunState&);
+
+}  // namespace pnpbs

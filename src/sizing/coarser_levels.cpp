@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/coarser_levels.hpp"
+
+#include <cmath>
+
+#include "initial/initial_fill.hpp"
+#include "level/expected_nodes.hpp"
+#include "method/constants.hpp"
+#include "sizing/closing_patch.hpp"
+#include "spacing/multiplied_spacing.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Those of the patch of a whole sphere do not count: each level has its own, at rest from the
+// start.
+double boundary_nodes(const PlaneDomain& domain, std::size_t all) {
+  return static_cast<double>(static_cast<std::int64_t>(all) - domain.patch_nodes());
+}
+
+double coarser_by(int level) { return std::ldexp(1.0, level); }
+
+// Corners, the few nodes that a small hole needs, and fixed nodes are on every level, however
+// coarse: where they are many among a level's nodes, it settles nothing, bubbles come and go
+// between them, and each has dozens of edges near it. Of a coarser level with this spacing, is what
+// its boundary has beyond its share of the finest one's little beside all of its nodes? (In space
+// it is a matter of the surfaces, which settle before.)
+template <int Dim>
+bool boundary_leaves_room(const Level<Dim>& finest, const Domain<Dim>& domain,
+                          const Spacing<Dim>& coarser, double factor, double nodes) {
+  if constexpr (Dim == 2) {
+    double laid = 0;
+    agreed(*finest.comm, [&] {
+      const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+        evaluate_spacing<2>(coarser, measure_of(domain), n, x, d);
+      };
+      laid = boundary_nodes(domain, discretize_boundary(domain, checked).nodes.size());
+    });
+    const Ground<2>& ground = finest.ground;
+    return laid - boundary_nodes(ground.domain(), ground.boundary().nodes.size()) / factor <=
+           method::kMaxForced * (nodes / std::pow(factor, 2));
+  }
+  return true;
+}
+
+}  // namespace
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> spacing_of_level(
+    const std::shared_ptr<const Spacing<Dim>>& spacing, int level) {
+  if (level == 0) return spacing;
+  return std::make_shared<MultipliedSpacing<Dim>>(spacing, coarser_by(level));
+}
+
+Settings settings_of_level(Settings settings, bool coarsest) {
+  // Of the finest level's tolerance: steps are cheap here.
+  const double more_rest =
+      settings.dimension == 2 ? method::kCoarserRestInPlane : method::kCoarserRestInSpace;
+  settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
+  settings.population_share = method::kCoarserPopulationShare;
+  settings.defects.bad_below = 0;  // no triangle is handed on
+  settings.tolerance_mean *= more_rest;
+  if (settings.dimension == 3) settings.population.mean_distance *= method::kCoarserDistanceInSpace;
+  return settings;
+}
+
+template <int Dim>
+int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
+                            const std::shared_ptr<const Spacing<Dim>>& spacing) {
+  const SpacingVariation d = spacing_variation(finest);
+  const double nodes = expected_nodes(finest);
+  int levels = 0;
+  const auto pays = [&](const Spacing<Dim>& coarser, double factor) {
+    return d.max > method::kPatchVariation * d.min &&
+           nodes >= method::kMinNodesOfCoarsest * std::pow(factor, Dim) &&
+           d.steepest * factor <= method::kSteepestOnCoarsest && can_be_closed(domain, coarser) &&
+           boundary_leaves_room(finest, domain, coarser, factor, nodes);
+  };
+  while (levels < finest.settings.levels &&
+         pays(*spacing_of_level(spacing, levels + 1), coarser_by(levels + 1)))
+    ++levels;
+  return levels;
+}
+
+template int coarser_levels_that_pay(const Level<2>&, const PlaneDomain&,
+                                     const std::shared_ptr<const Spacing<2>>&);
+template int coarser_levels_that_pay(const Level<3>&, const VolumeDomain&,
+                                     const std::shared_ptr<const Spacing<3>>&);
+template std::shared_ptr<const Spacing<2>> spacing_of_level(
+    const std::shared_ptr<const Spacing<2>>&, int);
+template std::shared_ptr<const Spacing<3>> spacing_of_level(
+    const std::shared_ptr<const Spacing<3>>&, int);
+
+}  // namespace pnpbs

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/holding_spacing.hpp"
+
+#include <algorithm>
+
+#include "base/point_text.hpp"
+#include "comm/records.hpp"
+#include "level/node_spacing.hpp"
+#include "method/constants.hpp"
+#include "sizing/narrow_places.hpp"
+#include "spacing/held_spacing.hpp"
+#include "spacing/spacing_with_places.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::int64_t kFewElements = 100000;  // with small angles, whose corners one rank can have
+
+// Those of all ranks, each once, in one order on all of them. Collective.
+template <int Dim>
+std::vector<Point<Dim>> gathered(const Communicator& comm, const std::vector<Point<Dim>>& own) {
+  std::vector<Point<Dim>> all = of_all_ranks(comm, own);
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+// d at places, which must be the same on all ranks. Collective.
+template <int Dim>
+std::vector<double> spacing_at(const Level<Dim>& level,
+                               const std::vector<GrowthSource<Dim>>& places) {
+  std::vector<double> d(places.size());
+  agreed(*level.comm, [&] {
+    std::vector<Point<Dim>> x;
+    for (const GrowthSource<Dim>& place : places) x.push_back(place.x);
+    evaluate_spacing<Dim>(level.ground.spacing(), measure_of(level.ground.domain()), std::ssize(x),
+                          x.data(), d.data());
+  });
+  return d;
+}
+
+// Half of d where the last round does not conform, and what is narrow around these places, in the
+// body if there are none. Collective.
+template <int Dim>
+std::vector<GrowthSource<Dim>> places_to_hold(const Level<Dim>& level,
+                                              const std::vector<Point<Dim>>& unresolved,
+                                              std::int64_t round) {
+  std::vector<GrowthSource<Dim>> places;
+  for (const Point<Dim>& x : unresolved) places.push_back({x, 0});
+  const std::vector<double> d = spacing_at(level, places);
+  for (std::size_t k = 0; k < places.size(); ++k) places[k].d = d[k];
+  std::vector<GrowthSource<Dim>> result;
+  if (places.empty() || round > method::kRoundsOfHalves) result = narrow_places(level, places);
+  for (const GrowthSource<Dim>& place : places)
+    result.push_back({place.x, method::kHeldTo * place.d});
+  return result;
+}
+
+// Triangles that stand for a level set follow it to a d that is no smaller than its resolution.
+double resolution_of(const PlaneDomain&) { return 0; }
+double resolution_of(const VolumeDomain& domain) {
+  double coarsest = 0;
+  for (const auto& set : domain.level_sets().sets) coarsest = std::max(coarsest, set->resolution());
+  return coarsest;
+}
+
+}  // namespace
+
+template <int Dim>
+void hold_down(const Communicator& comm, PlacedSpacing<Dim>& placed, const Settings& settings) {
+  placed.d = placed.unheld;
+  const std::vector<GrowthSource<Dim>>& places = placed.held.places;
+  if (places.empty()) return;
+  const double growth = settings.growth_limit > 0
+                            ? std::min(settings.growth_limit, method::kGrowthFollowed)
+                            : method::kGrowthFollowed;
+  agreed(comm, [&] {
+    KnownValues<Dim> known;
+    known.in_domain = places;
+    placed.d = std::make_shared<SpacingWithPlaces<Dim>>(
+        std::make_shared<HeldSpacing<Dim>>(placed.unheld, places, growth), std::move(known));
+  });
+}
+
+template <int Dim>
+View<char> held_nodes(const Level<Dim>& level, const PlacedSpacing<Dim>& placed) {
+  if (placed.held.places.empty()) return {};
+  const View<double> d = spacing_at_nodes(level, level.ground.spacing());
+  const View<double> unheld = spacing_at_nodes(level, *placed.unheld);
+  View<char> held;
+  agreed(*level.comm, [&] {
+    held = make_view<char>("pnpbs::held_nodes", level.nodes.count);
+    for_each("pnpbs::held_nodes", level.nodes.count,
+             [&](std::int64_t i) { held(i) = d(i) < unheld(i); });
+  });
+  return held;
+}
+
+template <int Dim>
+bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
+                           Held<Dim>& held) {
+  const Communicator& comm = *level.comm;
+  const auto global_count = [&] {
+    return static_cast<std::int64_t>(
+        comm.allreduce_sum(static_cast<std::uint64_t>(level.owned_count())));
+  };
+  if (held.rounds >= level.settings.conforming_rounds) return false;
+  // Where places are that many, the shape is lost altogether; nor should one rank have them all.
+  // (Corners of elements with small angles may be places of several ranks: elements are counted.)
+  const bool small = unresolved.small_angles > 0;
+  const std::int64_t found =
+      small ? unresolved.small_angles
+            : static_cast<std::int64_t>(comm.allreduce_sum(unresolved.places.size()));
+  if (found > std::max(global_count(), small ? kFewElements : std::int64_t{0})) return false;
+  if (held.rounds++ == 0) held.nodes_before = global_count();
+  const std::vector<GrowthSource<Dim>> wanted =
+      places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved.places), held.rounds);
+  const std::vector<double> d = spacing_at(level, wanted);
+  if (held.rounds == 1 && !d.empty()) held.least_before = *std::ranges::min_element(d);
+  const double finest = resolution_of(level.ground.domain());
+  const std::size_t before = held.places.size();
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (const double to = std::max(wanted[k].d, finest); to < d[k])
+      held.places.push_back({wanted[k].x, to});
+  return held.places.size() > before;
+}
+
+template <int Dim>
+bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms) {
+  const auto nodes = static_cast<double>(held.nodes_before);
+  return expected_nodes >
+         std::max(method::kMaxGrowthOfNodes * nodes, conforms ? 0 : nodes + method::kFewNodesMore);
+}
+
+template <int Dim>
+std::string warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes) {
+  const GrowthSource<Dim>& finest = *std::ranges::min_element(
+      held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
+  return "the spacing did not resolve the shape at " + std::to_string(held.places.size()) +
+         " places, and is held down there, to " + rounded_text(finest.d) + " at " +
+         rounded_point_text<Dim>(finest.x) + ": " + std::to_string(nodes) + " nodes instead of " +
+         std::to_string(held.nodes_before) +
+         " (option conforming_rounds, 0 to have d as it is given)";
+}
+
+template void hold_down(const Communicator&, PlacedSpacing<2>&, const Settings&);
+template View<char> held_nodes(const Level<2>&, const PlacedSpacing<2>&);
+template bool add_unresolved_places<2>(const Level<2>&, const Unresolved<2>&, Held<2>&);
+template bool takes_too_many(double, const Held<2>&, bool);
+template std::string warning_of_held_spacing(const Held<2>&, std::int64_t);
+template void hold_down(const Communicator&, PlacedSpacing<3>&, const Settings&);
+template View<char> held_nodes(const Level<3>&, const PlacedSpacing<3>&);
+template bool add_unresolved_places<3>(const Level<3>&, const Unresolved<3>&, Held<3>&);
+template bool takes_too_many(double, const Held<3>&, bool);
+template std::string warning_of_held_spacing(const Held<3>&, std::int64_t);
+
+}  // namespace pnpbs

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/limiting_growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/lack_of_room.hpp"
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "level/finer_region.hpp"
+#include "method/constants.hpp"
+#include "sizing/closing_patch.hpp"
+#include "sizing/estimate.hpp"
+#include "spacing/growth_limit.hpp"
+#include "spacing/held_spacing.hpp"
+#include "spacing/multiplied_spacing.hpp"
+#include "spacing/resolving_sources.hpp"
+#include "spacing/spacing_with_places.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Of the domain, that d may be large.
+constexpr double kMaxSizes = 1024;
+// A little more is let pass than nodes follow, so that d which grows by that stays as it is given,
+// whatever samples make of it.
+constexpr double kTooSteep = method::kTooSteep * method::kGrowthFollowed;
+
+}  // namespace
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::spacing_to_place(
+    const Settings& settings) const {
+  const double wanted = options_.real("wanted_nodes");
+  if (wanted == 0) return bounded(spacing_, settings);
+  const double factor = factor_for(wanted, settings);
+  return bounded(resized(spacing_, factor), settings);
+}
+
+// The factor on d with which a run is expected to come to so many nodes. Their number goes with the
+// factor to the power of the dimension where the boundary has few of them, and less where its
+// vertices are many: the power is taken from the last two rounds. Below the number of vertices
+// there is nothing to find, and the search ends where the number does not change any more. Few
+// samples lead near it, and an estimate by many corrects the rest; another one, if that is much.
+template <int Dim>
+double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
+  constexpr int kMaxRounds = 10;
+  constexpr double kNear = 0.05, kNearByMany = 0.02, kSame = 1e-3, kMinPower = 0.5, kMaxStep = 64;
+  const double steepest = settings.dimension;
+  const auto more_than_wanted = [&](double factor, Samples samples) {
+    return estimated_nodes(*this, bounded(resized(spacing_, factor), settings), settings, samples) /
+           wanted_nodes;
+  };
+  double factor = factor_closed_for(*domain_, *spacing_), power = steepest, before = 0, step = 1;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const double more = more_than_wanted(factor, Samples::few);
+    if (!(more > 0)) return factor;
+    if (before > 0) {
+      if (more > 1 && std::fabs(more / before - 1) < kSame) return factor;
+      if (std::fabs(std::log(step)) > kNear)
+        power = std::clamp(-std::log(more / before) / std::log(step), kMinPower, 1.5 * steepest);
+    }
+    if (std::fabs(more - 1) < kNear) break;
+    before = more;
+    step = std::clamp(std::pow(more, 1 / power), 1 / kMaxStep, kMaxStep);
+    factor *= step;
+  }
+  for (int round = 0; round < 2; ++round) {
+    const double more = more_than_wanted(factor, Samples::many);
+    if (!(more > 0)) return factor;
+    factor *= std::pow(more, 1 / power);
+    if (std::fabs(more - 1) < kNearByMany) break;
+  }
+  return factor;
+}
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::bounded(
+    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) const {
+  agreed(*comm_, [&] {
+    spacing = std::make_shared<BoundedSpacing<Dim>>(std::move(spacing),
+                                                    kMaxSizes * size_of(domain_->bounds()));
+    if constexpr (Dim == 3) {
+      const double growth =
+          settings.growth_limit > 0 ? settings.growth_limit : method::kGrowthFollowed;
+      if (settings.resolve)
+        spacing = std::make_shared<HeldSpacing<3>>(
+            spacing, resolving_sources(*spacing, *domain_, settings.node_limit(), kResolved),
+            growth);
+    }
+  });
+  return spacing;
+}
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
+    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
+    const std::function<void()>& beat) const {
+  const auto explained = [&](const Error& error) {
+    return std::string(error.what()) + " (where d grows by at most " +
+           number_text(settings.growth_limit) + ": option growth_limit, 0 is no limit)";
+  };
+  agreed(*comm_, [&] {
+    try {
+      const SpacingEvaluator<Dim> unlimited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
+        beat();
+        evaluate_spacing<Dim>(*spacing, measure_of(*domain_), n, x, d);
+      };
+      auto ways = std::make_unique<const OpenWays<Dim>>(
+          domain_->bounds(), measure_of(*domain_),
+          indexed_boundary(*domain_, unlimited, settings.max_nodes));
+      spacing = std::make_shared<GrowthLimitedSpacing<Dim>>(
+          comm_, std::move(ways), std::move(spacing),
+          GrowthRule<Dim>{settings.growth_limit, chart_of(*domain_)}, settings.node_limit(), beat);
+    } catch (const AgreedError& error) {
+      if (!is_lack_of_room(error)) throw;
+      throw AgreedError(error.kind(), explained(error));
+    } catch (const Error& error) {
+      if (!is_lack_of_room(error)) throw;
+      throw Error(error.kind(), explained(error));
+    }
+  });
+  return spacing;
+}
+
+// As the spacing itself has them: on the level it may be multiplied by a factor.
+std::shared_ptr<const Spacing<3>> spacing_with(const FinerPlaces& found, const Communicator& comm,
+                                               const VolumeDomain& domain,
+                                               std::shared_ptr<const Spacing<3>> spacing) {
+  agreed(comm, [&] {
+    const SpacingEvaluator<3> raw = [&](std::int64_t n, const Point<3>* x, double* d) {
+      evaluate_spacing<3>(*spacing, measure_of(domain), n, x, d);
+    };
+    const auto inside = [&](const Point<3>& x) {
+      return domain.filled() && domain.index().inside(x);
+    };
+    spacing =
+        std::make_shared<SpacingWithPlaces<3>>(spacing, finer_region(found.places(), raw, inside));
+  });
+  return spacing;
+}
+
+template <int Dim>
+bool too_steep(const SteepestGrowth<Dim>& steepest) {
+  return steepest.growth > kTooSteep;
+}
+
+template <int Dim>
+std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit) {
+  const std::string found = "the spacing grows by " + rounded_text(steepest.growth) +
+                            " per unit of length near " + rounded_point_text<Dim>(steepest.at) +
+                            ", faster than nodes can follow: ";
+  if (growth_limit == 0)
+    return found + "limit its growth (option growth_limit, " +
+           number_text(method::kGrowthFollowed) + " or less)";
+  return found + "its growth is limited to " + number_text(growth_limit) +
+         "; set the option growth_limit to choose another limit, or 0 to have it as given";
+}
+
+template class SpacingToPlace<2>;
+template class SpacingToPlace<3>;
+template bool too_steep(const SteepestGrowth<2>&);
+template bool too_steep(const SteepestGrowth<3>&);
+template std::string warning_of_growth(const SteepestGrowth<2>&, double);
+template std::string warning_of_growth(const SteepestGrowth<3>&, double);
+
+}  // namespace pnpbs

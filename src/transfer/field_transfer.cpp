@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transfer/field_transfer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/exact_sum.hpp"
+#include "base/execution.hpp"
+#include "base/point_text.hpp"
+#include "comm/records.hpp"
+#include "results/ghost_values.hpp"
+#include "results/results.hpp"
+#include "spacing/nodal_search.hpp"
+#include "transfer/transfer_spaces.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Of a field that is linear on each element: integrals of its components, and last of 1.
+template <class Space, std::size_t Corners>
+std::vector<ExactSum> integrals_here(const Space& space, const typename Space::Data& patch,
+                                     const std::vector<std::array<std::int32_t, Corners>>& elements,
+                                     std::int64_t components, const std::vector<double>& values) {
+  std::vector<ExactSum> sums(static_cast<std::size_t>(components) + 1);
+  for (const auto& element : elements) {
+    std::array<Point<Space::kIn>, Corners> corners;
+    for (std::size_t k = 0; k < Corners; ++k)
+      corners[k] = patch.nodes[static_cast<std::size_t>(element[k])].x;
+    const double size = space.measure(corners);
+    for (std::int64_t c = 0; c < components; ++c) {
+      double sum = 0;
+      for (const std::int32_t node : element)
+        sum += values[static_cast<std::size_t>(node * components + c)];
+      sums[static_cast<std::size_t>(c)].add_product(size / Corners, sum);
+    }
+    sums.back().add(size);
+  }
+  return sums;
+}
+
+// Over the elements of all ranks, by exact sums: in any order they come out the same. Collective.
+template <class Space>
+std::vector<double> integrals(const Communicator& comm, const Space& space,
+                              const typename Space::Data& patch, bool on_border,
+                              std::int64_t components, const std::vector<double>& values) {
+  std::vector<ExactSum> sums;
+  std::vector<std::int64_t> entries;
+  agreed(comm, [&] {
+    if constexpr (Space::kDim == 3) {
+      if (on_border) sums = integrals_here(space, patch, patch.border, components, values);
+    }
+    if (!on_border) sums = integrals_here(space, patch, patch.simplices, components, values);
+    for (ExactSum& sum : sums) {
+      sum.carry();
+      entries.insert(entries.end(), sum.entries().begin(), sum.entries().end());
+    }
+  });
+  comm.allreduce_sum(entries);
+  std::vector<double> results;
+  auto next = entries.begin();
+  for (ExactSum& sum : sums) {
+    std::copy_n(next, ExactSum::kEntries, sum.entries().begin());
+    next += ExactSum::kEntries;
+    results.push_back(sum.value());
+  }
+  return results;
+}
+
+// All of it within the elements and up to about their size beyond the border. Farther away the
+// corners' polynomials tell nothing of the field, and it goes on linearly.
+template <int Dim>
+double part_of_curvature(const PatchWeights<Dim>& w) {
+  constexpr double kAll = 5, kNone = 9;  // sums of the weights' sizes, which are 1 within
+  double sum = 0;
+  for (const double weight : w.weights) sum += std::fabs(weight);
+  return std::clamp((kNone - sum) / (kNone - kAll), 0.0, 1.0);
+}
+
+template <class Space>
+class FieldTransferOf : public FieldTransfer {
+ public:
+  static constexpr int Dim = Space::kDim, In = Space::kIn;
+
+  FieldTransferOf(Results<Dim>& results, TransferOrder order, std::int64_t components,
+                  const double* values)
+      : space_(results),
+        search_(results.ranks(), space_.searched(space_.patch(results))),
+        values_(with_ghosts(results, components, values)),
+        integrals_(integrals(results.communicator(), space_, search_.patch().patch(),
+                             results.surfaces_alone(), components, values_)) {
+    components_ = components;
+    if (order == TransferOrder::second)
+      fits_.emplace(results, search_.patch().patch().nodes, components, values_);
+  }
+
+  int dimension() const override { return Dim; }
+  std::int64_t nodes_of_first_order() const override { return fits_ ? fits_->nodes_without() : -1; }
+  void evaluate(std::int64_t n, const double* x, double* values) const override;
+  void evaluate_at_nodes(NodalResults& results, bool conserve, double* values) const override;
+
+ private:
+  // A place on a simplex or facet of the rank that is asked.
+  struct Question {
+    Point<In> x;
+    std::int64_t row;
+  };
+
+  std::vector<Message> answered(const std::vector<Message>& asked) const;
+  void answer(const Question& question, double* values) const;
+  void add_curvature(const Point<In>& x, const PatchWeights<Dim>& w, double* values) const;
+  void conserve_integrals(Results<Dim>& results, double* values) const;
+
+  Space space_;
+  NodalSearch<typename Space::Searched> search_;
+  std::vector<double> values_;     // at the nodes of the patch
+  std::vector<double> integrals_;  // of the components, and the size of all elements
+  std::optional<typename Space::Fits> fits_;
+};
+
+// Between the values of the corners inside of a simplex, whatever is rounded; beyond the border the
+// simplex behind it goes on.
+template <class Space>
+void FieldTransferOf<Space>::answer(const Question& question, double* values) const {
+  const PatchWeights<Dim> w =
+      search_.patch().weights(question.x, static_cast<std::int32_t>(question.row));
+  for (std::int64_t c = 0; c < components_; ++c) {
+    std::array<double, Dim + 1> corner;
+    for (std::size_t k = 0; k <= Dim; ++k)
+      corner[k] = values_[static_cast<std::size_t>(w.nodes[k] * components_ + c)];
+    double value = w.inside ? w.weights[0] * corner[0] : corner[0];
+    for (std::size_t k = 1; k <= Dim; ++k)
+      value += w.weights[k] * (w.inside ? corner[k] : corner[k] - corner[0]);
+    if (w.inside) {
+      const auto [min, max] = std::minmax_element(corner.begin(), corner.end());
+      value = std::clamp(value, *min, *max);
+    }
+    values[c] = value;
+  }
+  if (fits_) add_curvature(question.x, w, values);
+}
+
+// From what is linear to the corners' polynomials, each of which counts as its corner does; so the
+// field is continuous, and one of second order is met. A corner without one stays linear.
+template <class Space>
+void FieldTransferOf<Space>::add_curvature(const Point<In>& x, const PatchWeights<Dim>& w,
+                                           double* values) const {
+  const double part = part_of_curvature(w);
+  if (part == 0) return;
+  for (std::int64_t c = 0; c < components_; ++c) {
+    double sum = 0;
+    for (std::size_t k = 0; k <= Dim; ++k) {
+      if (w.weights[k] == 0 || !fits_->has(w.nodes[k])) continue;
+      const double at_corner = values_[static_cast<std::size_t>(w.nodes[k] * components_ + c)];
+      sum += w.weights[k] * (at_corner - values[c] + fits_->rise(w.nodes[k], c, x));
+    }
+    values[c] += part * sum;
+  }
+}
+
+template <class Space>
+std::vector<Message> FieldTransferOf<Space>::answered(const std::vector<Message>& asked) const {
+  std::vector<Message> answers;
+  for (const Message& message : asked) {
+    const std::size_t n = message.bytes.size() / sizeof(Question);
+    std::vector<double> found(n * static_cast<std::size_t>(components_));
+    for_each("pnpbs::FieldTransfer::answered", static_cast<std::int64_t>(n), [&](std::int64_t k) {
+      Question question;
+      std::memcpy(&question, message.bytes.data() + static_cast<std::size_t>(k) * sizeof question,
+                  sizeof question);
+      answer(question, found.data() + k * components_);
+    });
+    answers.push_back({message.rank, Bytes(found.size() * sizeof(double))});
+    if (n > 0) std::memcpy(answers.back().bytes.data(), found.data(), answers.back().bytes.size());
+  }
+  return answers;
+}
+
+template <class Space>
+void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* values) const {
+  const Communicator& comm = search_.communicator();
+  std::vector<Point<In>> points;
+  agreed(comm, [&] {
+    points.resize(static_cast<std::size_t>(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      Point<In>& point = points[static_cast<std::size_t>(i)];
+      std::copy_n(x + In * i, In, point.begin());
+      if (!std::all_of(point.begin(), point.end(), [](double c) { return std::isfinite(c); }))
+        throw Error(ErrorKind::argument, "argument coordinates: point " + std::to_string(i) +
+                                             " is " + point_text(point) + ", which is nowhere");
+    }
+  });
+  const auto found = search_.find(n, points.data());
+  Outbox questions;
+  agreed(comm, [&] {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      pack(questions.to(found[i].rank), Question{points[i], found[i].row});
+  });
+  const std::vector<Message> asked = comm.sparse_all_to_all(questions.messages());
+  std::vector<Message> answers;
+  agreed(comm, [&] { answers = answered(asked); });
+  const std::vector<Message> told = comm.sparse_all_to_all(answers);
+  agreed(comm, [&] {
+    RankPlaces places;
+    for (const Message& theirs : told) places.add(theirs.rank);
+    std::vector<std::size_t> at(told.size());  // answers come in the order of the questions
+    const std::size_t bytes = static_cast<std::size_t>(components_) * sizeof(double);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto k = static_cast<std::size_t>(places.of(found[i].rank));
+      std::memcpy(values + static_cast<std::int64_t>(i) * components_, told[k].bytes.data() + at[k],
+                  bytes);
+      at[k] += bytes;
+    }
+  });
+}
+
+template <class Space>
+void FieldTransferOf<Space>::conserve_integrals(Results<Dim>& results, double* values) const {
+  const Communicator& comm = search_.communicator();
+  const std::vector<double> all = with_ghosts(results, components_, values);
+  const std::vector<double> now =
+      integrals(comm, space_, space_.patch(results), results.surfaces_alone(), components_, all);
+  const std::int64_t owned = results.count();
+  for (std::int64_t c = 0; c < components_; ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    const double lacking = (integrals_[k] - now[k]) / now.back();
+    for (std::int64_t i = 0; i < owned; ++i) values[i * components_ + c] += lacking;
+  }
+}
+
+template <class Space>
+void FieldTransferOf<Space>::evaluate_at_nodes(NodalResults& results, bool conserve,
+                                               double* values) const {
+  auto& in = static_cast<Results<Dim>&>(results);
+  std::vector<double> x;
+  agreed(search_.communicator(), [&] {
+    in.prepare_order();
+    const std::int64_t owned = in.count();
+    for (std::int64_t p = 0; p < owned; ++p) {
+      const Point<In> at = space_.position(in, in.node_at(p));
+      x.insert(x.end(), at.begin(), at.end());
+    }
+  });
+  evaluate(in.count(), x.data(), values);
+  if (conserve) conserve_integrals(in, values);
+}
+
+}  // namespace
+
+std::unique_ptr<FieldTransfer> make_field_transfer(NodalResults& results, TransferOrder order,
+                                                   std::int64_t components, const double* values) {
+  const auto made = [&]<class Space>(auto& in) -> std::unique_ptr<FieldTransfer> {
+    return std::make_unique<FieldTransferOf<Space>>(in, order, components, values);
+  };
+  if (results.dimension() == 3)
+    return made.operator()<FlatSpace<3>>(static_cast<Results<3>&>(results));
+  auto& in = static_cast<Results<2>&>(results);
+  return in.chart() ? made.operator()<SphereSpace>(in) : made.operator()<FlatSpace<2>>(in);
+}
+
+}  // namespace pnpbs
