@@ -15,21 +15,14 @@ using namespace pnpbs::api;
 
 namespace {
 
-pnpbs_status status_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::converged:
-      return PNPBS_OK;
-    case Outcome::stopped:
-      return PNPBS_STOPPED;
-    case Outcome::spacing_missed:
-      return PNPBS_SPACING_MISSED;
-    case Outcome::not_conforming:
-      return PNPBS_NOT_CONFORMING;
-    case Outcome::not_converged:
-      break;
-  }
-  return PNPBS_NOT_CONVERGED;
-}
+// The statistic "status" is the number of an outcome.
+static_assert(static_cast<int>(Outcome::converged) == PNPBS_OK &&
+              static_cast<int>(Outcome::not_converged) == PNPBS_NOT_CONVERGED &&
+              static_cast<int>(Outcome::stopped) == PNPBS_STOPPED &&
+              static_cast<int>(Outcome::spacing_missed) == PNPBS_SPACING_MISSED &&
+              static_cast<int>(Outcome::not_conforming) == PNPBS_NOT_CONFORMING);
+
+pnpbs_status status_of(Outcome outcome) { return static_cast<pnpbs_status>(outcome); }
 
 std::unique_ptr<Placement> placement_in(const DomainObject& domain,
                                         std::shared_ptr<const Communicator> comm,

@@ -132,6 +132,25 @@ struct Nodes {
     owned(i) = 1;
   }
 
+  // The same nodes with values of their own, to be put back later.
+  Nodes copy() const {
+    Nodes copied = *this;
+    copied.for_arrays([this](auto& array) { copy_array(array, count + 1); });
+    copied.spare_ = Spare();
+    copied.order_ = {};
+    return copied;
+  }
+
+  // Makes the stamps newer than those of nodes that this copy is put in place of: no stamp comes
+  // twice for different nodes.
+  void renew_stamps(const Nodes& replaced) noexcept {
+    const bool referenced = referenced_here();
+    arrangement_ = replaced.arrangement_ + 1;
+    positions_ = replaced.positions_ + 1;
+    references_ = replaced.references_ + 1;
+    referenced_at_ = referenced ? positions_ : -1;
+  }
+
   Point<Dim> position(std::int64_t i) const { return point_at<Dim>(x, i); }
   void set_position(std::int64_t i, const Point<Dim>& p) {
     for (int k = 0; k < Dim; ++k) x[k](i) = p[k];
@@ -192,6 +211,32 @@ struct Nodes {
     } else {
       grow(array.view(), n + 1, count);
     }
+  }
+
+  // Calls visit(array) for each attribute of the nodes.
+  template <class Visit>
+  void for_arrays(const Visit& visit) {
+    for (int k = 0; k < Dim; ++k) {
+      visit(x[k]);
+      visit(v[k]);
+      visit(reference[k]);
+    }
+    visit(d);
+    visit(id);
+    visit(tag);
+    visit(carrier);
+    visit(boundary_node);
+    visit(owned);
+    if constexpr (Dim == 3) visit(reference_on);
+  }
+
+  template <class T>
+  static void copy_array(NodeArray<T>& array, std::int64_t n) {
+    const View<T> from = array.view();
+    if (from.extent(0) == 0) return;
+    const View<T> to = make_view<T>("pnpbs::Nodes::copy", n);
+    for_each("pnpbs::Nodes::copy", n, [=](std::int64_t i) { to(i) = from(i); });
+    array = NodeArray<T>(to);
   }
 
   template <class T>

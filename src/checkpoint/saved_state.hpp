@@ -20,15 +20,20 @@ struct SavedState {
   std::int64_t step = 0, refined = 0, coarser = 0, taken_over = 0, ended = 0,
                population_settled = 0, quiet_events = 0, at_event = 0;
   std::int64_t coarser_levels = 0, steps_done = 0, inserted = 0, deleted = 0, dropped = 0,
-               rebuilds = 0, rebalances = 0, stop_reason = 0, missing_faces = 0, spacing_saved = 0,
-               left_out = 0;
+               rebuilds = 0, rebalances = 0, stop_reason = 0, outcome = 0, missing_faces = 0,
+               spacing_saved = 0, left_out = 0;
   std::int64_t held_rounds = 0, nodes_before_held = 0;
   double max_speed = 0, mean_speed = 0, meeting_radius = 0, least_before_held = 0;
   std::uint64_t domain_fingerprint = 0;
-  std::uint64_t checksum = 0;  // of the nodes, whatever their order, and of `held`
+  std::uint64_t checksum = 0;  // of the nodes, whatever their order, and of the tables
   std::string options;         // those that decide, "name = value" in lines
   std::string warnings;        // of the last run, in lines
-  std::vector<double> held;    // no field: places where d is held down, each followed by d there
+
+  // Tables, in rows of numbers: they are no fields.
+  std::vector<double> held;          // places where d is reduced, each followed by d there
+  std::vector<double> finer_places;  // SizingField::finer_places(): the same of d found there
+  std::vector<double> finer_slopes;  // places, growth from there, d there, 1 if surely inside
+  std::vector<double> edge_bands;    // of the last finish
 };
 
 // Calls visit(name, field) for each field: a number is an int64, a double or a fingerprint.
@@ -54,6 +59,7 @@ void for_fields(State& state, const Visit& visit) {
   visit("rebuilds", state.rebuilds);
   visit("rebalances", state.rebalances);
   visit("stop_reason", state.stop_reason);
+  visit("outcome", state.outcome);
   visit("missing_faces", state.missing_faces);
   visit("spacing_saved", state.spacing_saved);
   visit("left_out", state.left_out);
@@ -69,9 +75,21 @@ void for_fields(State& state, const Visit& visit) {
   visit("warnings", state.warnings);
 }
 
-inline std::uint64_t checksum_of(const std::vector<double>& numbers) {
-  std::uint64_t h = mixed(numbers.size());
-  for (const double number : numbers) h = mixed_with(h, number);
+// Calls visit(name, numbers) for each table.
+template <class State, class Visit>
+void for_tables(State& state, const Visit& visit) {
+  visit("held", state.held);
+  visit("finer_places", state.finer_places);
+  visit("finer_slopes", state.finer_slopes);
+  visit("edge_bands", state.edge_bands);
+}
+
+inline std::uint64_t checksum_of_tables(const SavedState& state) {
+  std::uint64_t h = 0;
+  for_tables(state, [&](const char*, const std::vector<double>& numbers) {
+    h = mixed(h ^ numbers.size());
+    for (const double number : numbers) h = mixed_with(h, number);
+  });
   return h;
 }
 

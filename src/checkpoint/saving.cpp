@@ -159,36 +159,101 @@ void require_possible(const SavedState& s) {
                       count(s.coarser_levels) && s.coarser_levels < 1 << 10;
   const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
                       (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
-                     s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
+                     s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor) &&
+                     s.outcome >= 0 && s.outcome <= static_cast<int>(Outcome::not_conforming);
   if (!flags || !counts || !kinds || s.coarser)
     damaged("its record of the run is impossible: it is damaged");
 }
 
+// Calls visit(row) for the rows of a table, each so long.
+template <class Visit>
+void for_rows(const std::vector<double>& table, std::size_t length, const char* what,
+              const Visit& visit) {
+  if (table.size() % length != 0)
+    damaged(std::string("its table of ") + what + " is cut off: it is damaged");
+  for (std::size_t k = 0; k < table.size(); k += length) visit(table.data() + k);
+}
+
+template <int Dim>
+Point<Dim> point_in(const double* row) {
+  Point<Dim> x;
+  std::copy_n(row, Dim, x.begin());
+  return x;
+}
+
+template <int Dim>
+void append(std::vector<double>& table, const GrowthSource<Dim>& source) {
+  table.insert(table.end(), source.x.begin(), source.x.end());
+  table.push_back(source.d);
+}
+
+template <int Dim>
+std::vector<GrowthSource<Dim>> sources_in(const std::vector<double>& table, const char* what) {
+  std::vector<GrowthSource<Dim>> sources;
+  for_rows(table, Dim + 1, what, [&](const double* row) {
+    const GrowthSource<Dim> source{point_in<Dim>(row), row[Dim]};
+    if (!is_usable(source.x) || !(source.d > 0) || !is_usable(source.d))
+      damaged(std::string("its table of ") + what + " has d = " + number_text(source.d) + " at " +
+              point_text(source.x) + ": it is damaged");
+    sources.push_back(source);
+  });
+  return sources;
+}
+
 template <int Dim>
 Held<Dim> held_in(const SavedState& state) {
-  constexpr std::size_t kRow = Dim + 1;
-  if (state.held.size() % kRow != 0)
-    damaged("a place where d is held down is cut off: it is damaged");
   if (!(state.least_before_held >= 0) || !is_usable(state.least_before_held))
     damaged("the least d where it is held down is " + number_text(state.least_before_held) +
             ": it is damaged");
-  Held<Dim> held{{}, state.held_rounds, state.nodes_before_held, state.least_before_held};
-  for (std::size_t k = 0; k < state.held.size(); k += kRow) {
-    GrowthSource<Dim> place;
-    std::copy_n(state.held.begin() + static_cast<std::ptrdiff_t>(k), Dim, place.x.begin());
-    place.d = state.held[k + Dim];
-    if (!is_usable(place.x) || !(place.d > 0) || !is_usable(place.d))
-      damaged("d is held down to " + number_text(place.d) + " at " + point_text(place.x) +
-              ": it is damaged");
-    held.places.push_back(place);
+  return {sources_in<Dim>(state.held, "places where d is held down"), state.held_rounds,
+          state.nodes_before_held, state.least_before_held};
+}
+
+template <int Dim>
+void save_finer_places(const KnownValues<Dim>& finer, SavedState& s) {
+  for (const GrowthSource<Dim>& place : finer.in_domain) append(s.finer_places, place);
+  for (const auto& slope : finer.slopes) {
+    s.finer_slopes.insert(s.finer_slopes.end(), slope.at.begin(), slope.at.end());
+    for (const double number : {slope.growth, slope.d, slope.in_domain ? 1.0 : 0.0})
+      s.finer_slopes.push_back(number);
   }
-  return held;
+}
+
+void save_edge_bands(const std::vector<EdgeBand>& bands, SavedState& s) {
+  for (const EdgeBand& band : bands)
+    for (const double number : {band.from, band.to, static_cast<double>(band.ratio.edges),
+                                band.ratio.mean, band.ratio.deviation})
+      s.edge_bands.push_back(number);
+}
+
+std::vector<EdgeBand> edge_bands_in(const SavedState& s) {
+  constexpr double kMost = 1e15;
+  std::vector<EdgeBand> bands;
+  for_rows(s.edge_bands, 5, "edges by bands of d", [&](const double* row) {
+    if (!(row[2] >= 0 && row[2] < kMost)) damaged("a band of d has no edges: it is damaged");
+    bands.push_back({row[0], row[1], {static_cast<std::int64_t>(row[2]), row[3], row[4]}});
+  });
+  return bands;
 }
 
 }  // namespace
 
 template <int Dim>
-Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacing<Dim>& given,
+KnownValues<Dim> finer_places_of(const SavedState& saved) {
+  KnownValues<Dim> finer;
+  finer.in_domain = sources_in<Dim>(saved.finer_places, "places with a smaller d");
+  for_rows(saved.finer_slopes, Dim + 3, "slopes of d", [&](const double* row) {
+    const double *growth = row + Dim, *d = growth + 1, *in_domain = d + 1;
+    if (!is_usable(point_in<Dim>(row)) || !is_usable(*growth) || !(*d > 0) || !is_usable(*d))
+      damaged("its table of slopes of d has d = " + number_text(*d) + " at " +
+              point_text(point_in<Dim>(row)) + ": it is damaged");
+    finer.slopes.push_back({*growth, *d, point_in<Dim>(row), *in_domain != 0});
+  });
+  return finer;
+}
+
+template <int Dim>
+Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const SizingField<Dim>& spacing,
                     const RunState& run, const Options& options, bool at_event) {
   Saved<Dim> saved;
   SavedState& s = saved.state;
@@ -202,7 +267,7 @@ Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacin
     for (std::size_t w = run.warnings_of_level; w < run.warnings.size(); ++w)
       s.warnings += run.warnings[w] + "\n";
     s.options = lines_of_deciding(options.in(Dim));
-    if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(&given))
+    if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(&spacing.source()))
       saved.patch = &nodal->patch();
   });
   s.dimension = Dim;
@@ -226,6 +291,7 @@ Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacin
   s.rebuilds = run.rebuilds_before + level.neighbourhood.rebuilds();
   s.rebalances = run.rebalances_before + level.rebalances;
   s.stop_reason = static_cast<int>(run.stop_reason);
+  s.outcome = static_cast<int>(run.outcome);
   s.missing_faces = run.surface_fit.missing_faces;
   s.left_out = level.left_out;
   s.spacing_saved = saved.patch != nullptr;
@@ -235,12 +301,13 @@ Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacin
   s.held_rounds = held.rounds;
   s.nodes_before_held = held.nodes_before;
   s.least_before_held = held.least_before;
-  for (const GrowthSource<Dim>& place : held.places) {
-    s.held.insert(s.held.end(), place.x.begin(), place.x.end());
-    s.held.push_back(place.d);
-  }
+  agreed(*level.comm, [&] {
+    for (const GrowthSource<Dim>& place : held.places) append(s.held, place);
+    save_finer_places(spacing.finer_places(), s);
+    save_edge_bands(run.edge_bands, s);
+  });
   s.domain_fingerprint = fingerprint_of(level.ground.domain());
-  s.checksum = level.comm->allreduce_sum(checksum) + checksum_of(s.held);
+  s.checksum = level.comm->allreduce_sum(checksum) + checksum_of_tables(s);
   return saved;
 }
 
@@ -271,12 +338,12 @@ void require_same_as(const SavedState& saved, const Communicator& comm, Domain<D
 }
 
 template <int Dim>
-std::unique_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
+std::shared_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
                                         LevelBuilder<Dim>& builder,
                                         const SpacingToPlace<Dim>& to_place,
                                         const Settings& settings, PlacedSpacing<Dim>& placed) {
   placed.held = held_in<Dim>(saved);
-  std::unique_ptr<Level<Dim>> level = builder.level_to_place(to_place, settings, placed);
+  std::shared_ptr<Level<Dim>> level = builder.level_to_place(to_place, settings, placed);
   put_saved_nodes(*level, saved, nodes);
   require_same_spacing(*level, nodes);
   require_same_boundary(*level, nodes);
@@ -306,6 +373,8 @@ void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
   run.rebuilds_before = s.rebuilds;
   run.rebalances_before = s.rebalances;
   run.stop_reason = static_cast<StopReason>(s.stop_reason);
+  run.outcome = static_cast<Outcome>(s.outcome);
+  run.edge_bands = edge_bands_in(s);
   run.surface_fit.missing_faces = s.missing_faces;
   level.left_out = s.left_out;
   level.held_rounds = s.held_rounds;
@@ -313,19 +382,21 @@ void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
   for (std::string line; std::getline(lines, line);) run.warnings.push_back(line);
 }
 
-template Saved<2> saved_of(const Level<2>&, const Held<2>&, const Spacing<2>&, const RunState&,
+template KnownValues<2> finer_places_of(const SavedState&);
+template Saved<2> saved_of(const Level<2>&, const Held<2>&, const SizingField<2>&, const RunState&,
                            const Options&, bool);
 template void require_same_as<2>(const SavedState&, const Communicator&, Domain<2>&,
                                  const Options&);
-template std::unique_ptr<Level<2>> saved_level(const SavedState&, std::vector<SavedNode<2>>,
+template std::shared_ptr<Level<2>> saved_level(const SavedState&, std::vector<SavedNode<2>>,
                                                LevelBuilder<2>&, const SpacingToPlace<2>&,
                                                const Settings&, PlacedSpacing<2>&);
 template void adopt_state(const SavedState&, RunState&, Level<2>&);
-template Saved<3> saved_of(const Level<3>&, const Held<3>&, const Spacing<3>&, const RunState&,
+template KnownValues<3> finer_places_of(const SavedState&);
+template Saved<3> saved_of(const Level<3>&, const Held<3>&, const SizingField<3>&, const RunState&,
                            const Options&, bool);
 template void require_same_as<3>(const SavedState&, const Communicator&, Domain<3>&,
                                  const Options&);
-template std::unique_ptr<Level<3>> saved_level(const SavedState&, std::vector<SavedNode<3>>,
+template std::shared_ptr<Level<3>> saved_level(const SavedState&, std::vector<SavedNode<3>>,
                                                LevelBuilder<3>&, const SpacingToPlace<3>&,
                                                const Settings&, PlacedSpacing<3>&);
 template void adopt_state(const SavedState&, RunState&, Level<3>&);

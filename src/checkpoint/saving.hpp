@@ -14,6 +14,7 @@
 #include "sizing/limiting_growth.hpp"
 #include "sizing/placed_spacing.hpp"
 #include "spacing/nodal_patch.hpp"
+#include "spacing/sizing_field.hpp"
 
 namespace pnpbs {
 
@@ -33,11 +34,16 @@ struct Saved {
   }
 };
 
-// The nodes of a level, and where its run is. `given`: the user's spacing; at_event: is the step
-// one whose event has not been asked yet if the bubbles rest? Collective.
+// The nodes of a level, and where its run is. `spacing`: the user's, with the places that runs
+// found to be finer; at_event: is the step one whose event has not been asked yet if the bubbles
+// rest? Collective.
 template <int Dim>
-Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacing<Dim>& given,
+Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const SizingField<Dim>& spacing,
                     const RunState& run, const Options& options, bool at_event);
+
+// The places that runs had found to be finer.
+template <int Dim>
+KnownValues<Dim> finer_places_of(const SavedState& saved);
 
 // Throws Error(ErrorKind::state) if the nodes wait for another spacing than they were placed for:
 // one that replaced it, or what these options have made of it since then.
@@ -49,7 +55,7 @@ void require_same_as(const SavedState& saved, const Communicator& comm, Domain<D
 // The level that goes on from there, if its boundary and its spacing are those of then. `nodes`:
 // anyone's, all of them over all ranks. Collective.
 template <int Dim>
-std::unique_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
+std::shared_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
                                         LevelBuilder<Dim>& builder,
                                         const SpacingToPlace<Dim>& to_place,
                                         const Settings& settings, PlacedSpacing<Dim>& placed);

@@ -12,11 +12,12 @@
 
 namespace pnpbs::io {
 
-inline constexpr std::int64_t kCheckpointFormat = 2;
+inline constexpr std::int64_t kCheckpointFormat = 3;
 inline constexpr const char* kVtk = "/VTKHDF";
 inline constexpr const char* kOwn = "/PNPBS";
 inline constexpr const char* kSpacing = "/PNPBS/spacing";
-inline constexpr const char* kHeld = "/PNPBS/held";  // is there where d is held down
+// The dataset of a table of the saved state; left out where the table is empty.
+inline std::string table_path(const char* name) { return std::string(kOwn) + "/" + name; }
 
 // An array of the file, and where its rows are in an array of records: `given` numbers of a record
 // lie at an offset in it, and are followed by zeros in the file.

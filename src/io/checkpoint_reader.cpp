@@ -86,7 +86,7 @@ class CheckpointReader {
     share_state();
     share(comm_, places_);
     share(comm_, patch_sizes_);
-    share(comm_, state_.held);
+    for_tables(state_, [&](const char*, std::vector<double>& numbers) { share(comm_, numbers); });
     explained([&] { placement_.require_same_as(state_); });
     std::vector<SavedNode<Dim>> nodes;
     Patch<Dim> patch;
@@ -97,8 +97,7 @@ class CheckpointReader {
     });
     std::uint64_t checksum = 0;
     for (const SavedNode<Dim>& node : nodes) checksum += checksum_of(node);
-    const bool same =
-        comm_.allreduce_sum(checksum) + pnpbs::checksum_of(state_.held) == state_.checksum;
+    const bool same = comm_.allreduce_sum(checksum) + checksum_of_tables(state_) == state_.checksum;
     const bool same_patch =
         !state_.spacing_saved || comm_.allreduce_sum(checksum_of(patch)) == patch_checksum_;
     if (!same || !same_patch) refuse("its numbers do not have their checksum");
@@ -145,7 +144,10 @@ class CheckpointReader {
     if (state_.nodes <= 0) refuse("it has no nodes");
     for (const Column& column : node_columns<Dim>(state_.nodes))
       places_.push_back(file.place_of(column.array));
-    if (file.has(kHeld)) state_.held = read_numbers<double>(file, kHeld, hdf5::Type::real);
+    for_tables(state_, [&](const char* name, std::vector<double>& numbers) {
+      const std::string path = table_path(name);
+      if (file.has(path)) numbers = read_numbers<double>(file, path, hdf5::Type::real);
+    });
     if (state_.spacing_saved) read_patch_layout(file);
   }
 

@@ -134,7 +134,9 @@ class CheckpointWriter {
     file.set(kOwn, "written_by", std::string("PNPBS ") + PNPBS_PROJECT_VERSION);
     for_fields(saved_.state,
                [&](const char* field, const auto& value) { set(file, field, value); });
-    if (!saved_.state.held.empty()) file.add_reals(kHeld, saved_.state.held);
+    for_tables(saved_.state, [&](const char* name, const std::vector<double>& numbers) {
+      if (!numbers.empty()) file.add_reals(table_path(name), numbers);
+    });
     if (!saved_.state.spacing_saved) return;
     file.add_group(kSpacing);
     set(file, "spacing_checksum", patch_checksum_);

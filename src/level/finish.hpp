@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "level/level.hpp"
@@ -12,15 +13,22 @@
 
 namespace pnpbs {
 
+// Asked between parts of the finish, on all ranks at the same place: is the rest to be left out?
+// Collective.
+using StopTest = std::function<bool()>;
+
 struct FinishResults {
   PopulationCounts counts;           // of this rank
   std::vector<EdgeBand> edge_bands;  // edge length over d, of all ranks, with d from before
+  bool stopped = false;
 };
 
 // So many sweeps, and the repair of bad ones if the settings ask for it. In space nodes only move,
-// and their edges are yet to be measured. Collective.
-FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps);
-FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps);
+// and their edges are yet to be measured. The nodes are valid where it is stopped. Collective.
+FinishResults sweep_and_repair(
+    Level<2>& level, std::int64_t sweeps, const StopTest& stops = [] { return false; });
+FinishResults sweep_and_repair(
+    Level<3>& level, std::int64_t sweeps, const StopTest& stops = [] { return false; });
 
 // For finite volumes, in the plane and on spheres alone. From fresh stars, which stay, so many
 // sweeps to the centroids of Voronoi cells; returns the bands of then, with d from before.

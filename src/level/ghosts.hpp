@@ -53,6 +53,10 @@ class Ghosts {
 
   // The next exchange must choose them.
   void choose_anew() { hops_ = 0; }
+  // States whether the ghosts are where their owners have them, as long as no node moves.
+  void set_exact(bool exact, const Nodes<Dim>& nodes) noexcept {
+    exact_at_ = exact ? nodes.positions() : -1;
+  }
   void count_step() { ++steps_since_choice_; }
   // The nodes were put into another order: what was at from(i) is at i now.
   void permute(const View<std::int32_t>& from, std::int64_t count) { halo_.permute(from, count); }

@@ -22,11 +22,11 @@ template <int Dim>
 Level<Dim>::Level(std::shared_ptr<const Communicator> communicator,
                   std::shared_ptr<const Domain<Dim>> domain,
                   std::shared_ptr<const Spacing<Dim>> spacing, const Settings& with, Timers& into)
-    : number(next_number()),
+    : LevelState<Dim>{.tree = nullptr, .nodes = {}, .ghosts = {}, .settings = with, .inexact = {}},
+      number(next_number()),
       comm(std::move(communicator)),
-      settings(with),
       timers(into),
-      ground(std::move(domain), std::move(spacing), settings.node_limit()) {
+      ground(std::move(domain), std::move(spacing), with.node_limit()) {
   neighbourhood.reset_boundary(ground);
 }
 
@@ -39,13 +39,50 @@ void Level<Dim>::grow_tree(const Level<Dim>* like) {
 
 template <int Dim>
 void Level<Dim>::adopt_partition(Distribution<Dim> next) {
-  std::unique_ptr<LevelTree<Dim>> grown =
+  std::shared_ptr<LevelTree<Dim>> grown =
       LevelTree<Dim>::grow(*comm, ground, settings, std::move(next));
   typename NearBoundary<Dim>::NearLeaves near;
   agreed(*comm, [&] { near = NearBoundary<Dim>::near_leaves(*grown, edge_radius(settings)); });
   neighbourhood.adopt(*grown, std::move(near));
   ghosts = Ghosts<Dim>();
   tree = std::move(grown);
+}
+
+template <int Dim>
+LevelCopy<Dim> Level<Dim>::copy() const {
+  LevelCopy<Dim> copied{*this, neighbourhood.figures(nodes)};
+  copied.state.nodes = nodes.copy();
+  return copied;
+}
+
+template <int Dim>
+void Level<Dim>::put_back(LevelCopy<Dim>&& earlier) noexcept {
+  LevelState<Dim>& state = earlier.state;
+  const bool exact = state.ghosts.are_exact(state.nodes, 0);
+  const std::int64_t before = version();
+  state.nodes.renew_stamps(nodes);
+  state.ghosts.set_exact(exact, state.nodes);
+  static_cast<LevelState<Dim>&>(*this) = std::move(state);
+  neighbourhood.forget(*tree, nodes, earlier.figures);
+  forget_stars();
+  settings_version += before - version() + 1;
+}
+
+template <int Dim>
+void Level<Dim>::forget_derived() noexcept {
+  ghosts.choose_anew();
+  neighbourhood.forget(*tree, nodes, neighbourhood.figures(nodes));
+  forget_stars();
+  ++settings_version;
+}
+
+template <int Dim>
+void Level<Dim>::forget_stars() noexcept {
+  stars = {};
+  stars_before.forget();
+  stars_digest = 0;
+  changed_labels = {};
+  finish_stars = -1;
 }
 
 template <int Dim>

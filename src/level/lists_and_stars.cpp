@@ -99,6 +99,9 @@ void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double ra
 
 template <int Dim>
 void sort_nodes(Level<Dim>& level) {
+  if (!level.neighbourhood.is_for(*level.tree))
+    level.neighbourhood.adopt(
+        *level.tree, NearBoundary<Dim>::near_leaves(*level.tree, edge_radius(level.settings)));
   if (level.neighbourhood.sort_nodes(level.nodes, *level.tree, level.settings))
     level.ghosts.permute(level.neighbourhood.buckets().order(), level.nodes.count);
 }

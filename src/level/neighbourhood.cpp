@@ -28,6 +28,20 @@ void Neighbourhood<Dim>::adopt(const LevelTree<Dim>& tree,
 }
 
 template <int Dim>
+void Neighbourhood<Dim>::forget(const LevelTree<Dim>& tree, const Nodes<Dim>& nodes,
+                                const Figures& figures) noexcept {
+  prepared_for_ = nullptr;
+  buckets_.reset(tree.links());
+  lists_ = {};
+  listed_ = {};
+  for_steps_ = false;
+  arrangement_ = -1;
+  rebuilds_ = figures.rebuilds;
+  owned_work_ = figures.owned_work;
+  work_counted_ = figures.work_is_current ? nodes.references() : -1;
+}
+
+template <int Dim>
 bool Neighbourhood<Dim>::sort_nodes(Nodes<Dim>& nodes, const LevelTree<Dim>& tree,
                                     const Settings& settings) {
   return buckets_.sort(tree.tree(), nodes, widest_radius(settings));

@@ -23,6 +23,19 @@ class Neighbourhood {
   void reset_boundary(const Ground<Dim>& ground) { near_boundary_.reset(ground); }
   // For another tree, or another radius of what is near nodes.
   void adopt(const LevelTree<Dim>& tree, typename NearBoundary<Dim>::NearLeaves near_leaves);
+  // Are the nodes and the tree others since then?
+  bool is_for(const LevelTree<Dim>& tree) const { return prepared_for_ == &tree; }
+
+  // What statistics tell of the lists, and what the partition is judged by.
+  struct Figures {
+    std::int64_t rebuilds = 0, owned_work = 0;
+    bool work_is_current = false;
+  };
+  Figures figures(const Nodes<Dim>& nodes) const {
+    return {rebuilds_, owned_work_, work_counted_ == nodes.references()};
+  }
+  // Forgets everything but these figures: the nodes or the tree are others. adopt() comes next.
+  void forget(const LevelTree<Dim>& tree, const Nodes<Dim>& nodes, const Figures& figures) noexcept;
 
   // Sorts the nodes in memory by bucket; returns whether they changed their places. First of all
   // before lists are made.

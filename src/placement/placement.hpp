@@ -72,6 +72,7 @@ class Placement {
   // Of a body in space; of others all are 0.
   virtual RepairDistances repair_distances() const = 0;
   StopReason stop_reason() const { return state_.stop_reason; }
+  Outcome outcome() const { return state_.outcome; }  // of the last run that came to its end
   // Has a run come to its end, and no step been done since?
   bool finished() const {
     return shows_its_level() && state_.schedule.ended() &&
@@ -85,7 +86,7 @@ class Placement {
   void require_same_options() const;
   // Since the checkpoint that is read.
   void adopt_changes(const std::vector<OptionChange>& changes);
-  void put_back(const RunState& before);
+  void put_back(RunState before) noexcept;
 
   std::shared_ptr<const Communicator> comm_;
   Options options_;

@@ -2,7 +2,7 @@
 #include "placement/placement_of.hpp"
 
 #include <limits>
-#include <new>
+#include <type_traits>
 #include <utility>
 
 #include "base/kokkos_runtime.hpp"
@@ -27,6 +27,38 @@ constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
+// ------------------------------------------------------------------ transactions ---------------
+
+template <int Dim>
+template <class Work>
+auto PlacementOf<Dim>::transaction(const Work& work) {
+  PlacementBefore<Dim> before;
+  agreed(*comm_, [&] {
+    before.state = now_;
+    before.run = state_;
+    if (now_.level) before.level = now_.level->copy();
+  });
+  before_ = &before;
+  std::invoke_result_t<Work> result{};
+  try {
+    agreed(*comm_, [&] { result = work(); });
+  } catch (...) {
+    before_ = nullptr;
+    roll_back(before);
+    throw;
+  }
+  before_ = nullptr;
+  return result;
+}
+
+template <int Dim>
+void PlacementOf<Dim>::roll_back(PlacementBefore<Dim>& before) noexcept {
+  before.put_back_level();
+  now_ = std::move(before.state);
+  results_.show(now_.level.get());
+  put_back(std::move(before.run));
+}
+
 // ------------------------------------------------------------------ levels ---------------------
 
 // Bubbles on surfaces alone are those of the plane. Ways along a surface are not measured, so the
@@ -43,19 +75,19 @@ template <int Dim>
 Outcome PlacementOf<Dim>::prepare_level() {
   const Settings settings = present_settings();
   require_same_options();
-  const bool make = !level_ || spacing_replaced_ ||
-                    settings.growth_limit != level_->settings.growth_limit ||
-                    settings.growth_limit_set != level_->settings.growth_limit_set ||
-                    settings.resolve != level_->settings.resolve;
+  const bool make = !now_.level || now_.spacing_replaced ||
+                    settings.growth_limit != now_.level->settings.growth_limit ||
+                    settings.growth_limit_set != now_.level->settings.growth_limit_set ||
+                    settings.resolve != now_.level->settings.resolve;
   if (comm_->allreduce_max(make) > 0) return make_level();
-  level_->change_settings(settings);
+  now_.level->change_settings(settings);
   return Outcome::converged;
 }
 
 // Once spacing and domain are there, right, and the same on all ranks. Collective.
 template <int Dim>
 Settings PlacementOf<Dim>::settings_for_new_level() {
-  if (!spacing_)
+  if (!now_.spacing.has_source())
     throw Error(ErrorKind::state,
                 "the placement has no spacing yet: call one of the set_spacing functions first");
   Settings settings = present_settings();
@@ -63,37 +95,41 @@ Settings PlacementOf<Dim>::settings_for_new_level() {
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain(*comm_, *domain_);
   const double wanted = options_.real("wanted_nodes");
-  agreed(*comm_, [&] { closed_ = closed_before_sizing(domain_, spacing_, wanted); });
+  agreed(*comm_, [&] { now_.closed = closed_before_sizing(domain_, now_.spacing, wanted); });
   return settings;
 }
 
 template <int Dim>
 LevelBuilder<Dim> PlacementOf<Dim>::builder() {
   const LevelContext<Dim> context{state_, monitoring_, results_, done_by_rounds(rounds_of_run_)};
-  return {comm_, closed_, options_, timers_, context};
+  return {comm_, now_.closed, options_, timers_, context};
 }
 
 template <int Dim>
 NodesBefore<Dim> PlacementOf<Dim>::nodes_before() const {
-  return {level_.get(), start_from_given_ ? &given_ : nullptr};
+  return {now_.level.get(), start_from_given_ ? &given_ : nullptr};
 }
 
 template <int Dim>
 Outcome PlacementOf<Dim>::make_level() {
   const Settings settings = settings_for_new_level();
   PlacedSpacing<Dim> placed;
-  if (level_) placed.held = placed_.held;
+  if (now_.level) placed.held = now_.placed.held;
   LevelBuilder<Dim> builder = this->builder();
-  std::unique_ptr<Level<Dim>> next = builder.level_to_place(to_place(), settings, placed);
+  std::shared_ptr<Level<Dim>> next = builder.level_to_place(to_place(), settings, placed);
   return adopt(
       builder.with_first_nodes(std::move(next), std::move(placed), settings, nodes_before()));
 }
 
-// Nothing has failed: from here on the new level counts.
+// Nothing has failed: from here on the new level counts. Where nobody asks for the one that it
+// replaces, that is what it was when the call began.
 template <int Dim>
-Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>* replaced) {
-  std::unique_ptr<Level<Dim>> before = replace_level(std::move(made.level), std::move(made.placed));
-  if (replaced) *replaced = std::move(before);
+Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made, std::shared_ptr<Level<Dim>>* replaced) {
+  std::shared_ptr<Level<Dim>> before = replace_level(std::move(made.level), std::move(made.placed));
+  if (replaced)
+    *replaced = std::move(before);
+  else
+    before_->put_back_level();
   state_.dropped = made.taken.left_out;
   state_.inserted += made.inserted;
   state_.deleted += made.taken.thinned;
@@ -102,21 +138,27 @@ Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>
   return made.outcome;
 }
 
+template <int Dim>
+void PlacementOf<Dim>::let_go_of_nodes() {
+  keep(nullptr);
+  if (before_) before_->put_back_level();
+}
+
 // Returns the one before.
 template <int Dim>
-std::unique_ptr<Level<Dim>> PlacementOf<Dim>::replace_level(std::unique_ptr<Level<Dim>> next,
+std::shared_ptr<Level<Dim>> PlacementOf<Dim>::replace_level(std::shared_ptr<Level<Dim>> next,
                                                             PlacedSpacing<Dim> placed) {
   std::vector<std::string> warnings =
-      warnings_of_level(*next, *domain_, *spacing_, placed.steepest, options_);
-  std::unique_ptr<Level<Dim>> before = std::move(level_);
+      warnings_of_level(*next, *domain_, now_.spacing, placed.steepest, options_);
+  std::shared_ptr<Level<Dim>> before = std::move(now_.level);
   if (before) state_.keep_counts(*before);
   state_.forget_finish();
   keep(std::move(next));
   state_.warnings = std::move(warnings);
   state_.warnings_of_level = state_.warnings.size();
-  placed_ = std::move(placed);
-  level_options_ = options_;
-  spacing_replaced_ = false;
+  now_.placed = std::move(placed);
+  now_.level_options = options_;
+  now_.spacing_replaced = false;
   return before;
 }
 
@@ -127,35 +169,20 @@ Outcome PlacementOf<Dim>::initialise() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   require_same_options();
-  std::unique_ptr<Level<Dim>> before = std::move(level_);
-  results_.show(nullptr);
-  const RunState state = state_;
-  try {
+  return transaction([this] {
+    let_go_of_nodes();
     return knowing_finer_places([this] { return make_level(); });
-  } catch (...) {
-    keep(std::move(before));
-    put_back(state);
-    throw;
-  }
+  });
 }
 
 // Changes the nodes there are. Afterwards every node is with the rank that owns its place, so that
-// none changes its rank when it is asked for. A rank that ran out of memory may have lost some:
-// then all let go of theirs.
+// none changes its rank when it is asked for.
 template <int Dim>
 template <class Work>
 auto PlacementOf<Dim>::while_moving(const Work& work) {
-  try {
-    const auto result = work();
-    if (!level_->ghosts.are_exact(level_->nodes, kStarHops)) exchange(*level_, kStarHops);
-    return result;
-  } catch (const Error& error) {
-    if (error.kind() == ErrorKind::memory) keep(nullptr);
-    throw;
-  } catch (const std::bad_alloc&) {
-    keep(nullptr);
-    throw;
-  }
+  const auto result = work();
+  if (!now_.level->ghosts.are_exact(now_.level->nodes, kStarHops)) exchange(*now_.level, kStarHops);
+  return result;
 }
 
 // Does what makes a level, or takes steps on one. Where nodes come upon places that its tree was
@@ -170,10 +197,10 @@ Outcome PlacementOf<Dim>::knowing_finer_places(const Work& work) {
     } catch (const FinerPlaces& found) {
       if (tries == method::kMaxTreeTries) throw;
       if constexpr (Dim == 3) {
-        spacing_ = spacing_with(found, *comm_, *domain_, spacing_);
-        spacing_replaced_ = true;
+        add_finer_places(found, *comm_, *domain_, now_.spacing);
+        now_.spacing_replaced = true;
       }
-      if (!state_.schedule.taken_over()) keep(nullptr);
+      if (!state_.schedule.taken_over()) let_go_of_nodes();
     }
   }
 }
@@ -182,11 +209,13 @@ Outcome PlacementOf<Dim>::knowing_finer_places(const Work& work) {
 template <int Dim>
 template <class Steps>
 Outcome PlacementOf<Dim>::taking_steps(const Steps& steps) {
-  return knowing_finer_places([&] {
-    if (prepare_level() == Outcome::stopped) return Outcome::stopped;
-    return while_moving([&] {
-      if (state_.schedule.ended()) state_.schedule = state_.schedule.again();
-      return steps();
+  return transaction([&] {
+    return knowing_finer_places([&] {
+      if (prepare_level() == Outcome::stopped) return Outcome::stopped;
+      return while_moving([&] {
+        if (state_.schedule.ended()) state_.schedule = state_.schedule.again();
+        return steps();
+      });
     });
   });
 }
@@ -199,14 +228,18 @@ Outcome PlacementOf<Dim>::run() {
     int& count;
     ~Rounds() { count = 0; }
   } rounds{rounds_of_run_};
-  return taking_steps([&] {
-    const Outcome outcome = rounds_with_spacing_held(steps_and_finish());
-    if (outcome == Outcome::stopped) return outcome;
-    if (!placed_.held.places.empty())
-      state_.warn(warning_of_held_spacing(placed_.held, global_count()));
-    monitoring_.stops(1.0, results_.count());
-    return outcome;
-  });
+  return taking_steps([this] { return run_to_end(); });
+}
+
+template <int Dim>
+Outcome PlacementOf<Dim>::run_to_end() {
+  const Outcome outcome = rounds_with_spacing_held(steps_and_finish());
+  if (outcome == Outcome::stopped) return outcome;
+  state_.outcome = outcome;
+  if (!now_.placed.held.places.empty())
+    state_.warn(warning_of_held_spacing(now_.placed.held, global_count()));
+  monitoring_.stops(1.0, results_.count());
+  return outcome;
 }
 
 // Ends with whether the elements are such as can be used.
@@ -214,15 +247,15 @@ template <int Dim>
 Outcome PlacementOf<Dim>::steps_and_finish() {
   state_.warnings.resize(state_.warnings_of_level);
   const ProgressPart part = part_of_steps(rounds_of_run_, state_.schedule.refined());
-  const Outcome outcome = simulation().advance(most_steps(*level_), part);
+  const Outcome outcome = simulation().advance(most_steps(*now_.level), part);
   state_.schedule.progress = Progress::ended;
   if (outcome == Outcome::stopped) return outcome;
   if (simulation().finish(part.end) == Outcome::stopped) return Outcome::stopped;
-  measure_finish(results_, placed_, state_);
-  gather_unknown_uses(*level_, state_);
+  measure_finish(results_, now_.placed, state_);
+  gather_unknown_uses(*now_.level, state_);
   state_.warn(warning_of_surface_fit(state_.surface_fit, options_));
-  state_.warn(warning_of_features_left_out(*level_));
-  const bool conforms = elements_conform(results_, state_, unresolved_);
+  state_.warn(warning_of_features_left_out(*now_.level));
+  const bool conforms = elements_conform(results_, state_, now_.unresolved);
   const std::string missed = warning_of_missed_spacing(state_.edge_bands);
   state_.warn(missed);
   return !conforms ? Outcome::not_conforming : !missed.empty() ? Outcome::spacing_missed : outcome;
@@ -235,9 +268,10 @@ template <int Dim>
 Outcome PlacementOf<Dim>::rounds_with_spacing_held(Outcome first) {
   BestRound<Dim> best;
   Outcome outcome = first;
-  while (outcome != Outcome::stopped && best.asks_for_another(outcome, unresolved_.small_angles)) {
+  while (outcome != Outcome::stopped &&
+         best.asks_for_another(outcome, now_.unresolved.small_angles)) {
     ++rounds_of_run_;
-    FinishedRound<Dim> last{nullptr, placed_, state_, outcome, unresolved_.small_angles};
+    FinishedRound<Dim> last{nullptr, now_.placed, state_, outcome, now_.unresolved.small_angles};
     const Outcome begun = hold_spacing(outcome != Outcome::not_conforming, last.level);
     if (begun == Outcome::not_conforming) break;
     best.offer(std::move(last));
@@ -258,10 +292,10 @@ Outcome PlacementOf<Dim>::rounds_with_spacing_held(Outcome first) {
 
 template <int Dim>
 Outcome PlacementOf<Dim>::return_to(FinishedRound<Dim> round) {
-  state_.keep_counts(*level_);
+  state_.keep_counts(*now_.level);
   state_.go_back_to(std::move(round.state), *round.level);
   keep(std::move(round.level));
-  placed_ = std::move(round.placed);
+  now_.placed = std::move(round.placed);
   return round.outcome;
 }
 
@@ -269,12 +303,12 @@ Outcome PlacementOf<Dim>::return_to(FinishedRound<Dim> round) {
 // converged, or stopped. Not conforming, as it is, if there is nothing to hold, it was tried often
 // enough, or would take far more nodes than were asked for; then all stays as it is. Collective.
 template <int Dim>
-Outcome PlacementOf<Dim>::hold_spacing(bool conforms, std::unique_ptr<Level<Dim>>& replaced) {
-  PlacedSpacing<Dim> placed = placed_;
+Outcome PlacementOf<Dim>::hold_spacing(bool conforms, std::shared_ptr<Level<Dim>>& replaced) {
+  PlacedSpacing<Dim> placed = now_.placed;
   const RunState before = state_;
   Outcome outcome = Outcome::not_conforming;
   try {
-    if (add_unresolved_places<Dim>(*level_, unresolved_, placed.held))
+    if (add_unresolved_places<Dim>(*now_.level, now_.unresolved, placed.held))
       outcome = begin_held_round(std::move(placed), conforms, replaced);
   } catch (const FinerPlaces&) {
     throw;  // it is tried again with these
@@ -291,11 +325,11 @@ Outcome PlacementOf<Dim>::hold_spacing(bool conforms, std::unique_ptr<Level<Dim>
 // On a level for the spacing as it is held now, with the nodes there were. Collective.
 template <int Dim>
 Outcome PlacementOf<Dim>::begin_held_round(PlacedSpacing<Dim> placed, bool conforms,
-                                           std::unique_ptr<Level<Dim>>& replaced) {
-  const Settings settings = level_->settings;
+                                           std::shared_ptr<Level<Dim>>& replaced) {
+  const Settings settings = now_.level->settings;
   hold_down(*comm_, placed, settings);
   LevelBuilder<Dim> builder = this->builder();
-  std::unique_ptr<Level<Dim>> next = builder.empty_level(placed.d, settings);
+  std::shared_ptr<Level<Dim>> next = builder.empty_level(placed.d, settings);
   const double expected = expected_nodes(*next);
   if (takes_too_many(expected, placed.held, conforms)) return Outcome::not_conforming;
   settings.node_limit().require_memory_for(expected);
@@ -321,10 +355,12 @@ template <int Dim>
 Outcome PlacementOf<Dim>::rebalance() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  if (prepare_level() == Outcome::stopped) return Outcome::stopped;
-  return while_moving([this] {
-    simulation().rebalance();
-    return Outcome::converged;
+  return transaction([this] {
+    if (prepare_level() == Outcome::stopped) return Outcome::stopped;
+    return while_moving([this] {
+      simulation().rebalance();
+      return Outcome::converged;
+    });
   });
 }
 
@@ -333,9 +369,12 @@ Outcome PlacementOf<Dim>::adjust_population(PopulationCounts& change) {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   const PopulationCounts before{state_.inserted, state_.deleted};
-  const Outcome outcome = prepare_level();
-  if (outcome != Outcome::stopped)
-    while_moving([this] { return simulation().adjust_population(); });
+  const Outcome outcome = transaction([this] {
+    const Outcome prepared = prepare_level();
+    if (prepared != Outcome::stopped)
+      while_moving([this] { return simulation().adjust_population(); });
+    return prepared;
+  });
   change = {state_.inserted - before.inserted, state_.deleted - before.deleted};
   return outcome;
 }
@@ -344,7 +383,7 @@ template <int Dim>
 Estimate PlacementOf<Dim>::estimate() {
   require_kokkos();
   require_same_options();
-  const Settings settings = settings_for_new_level();  // sets closed_
+  const Settings settings = settings_for_new_level();  // sets now_.closed
   return estimate_of(to_place(), settings);
 }
 
@@ -352,8 +391,8 @@ Estimate PlacementOf<Dim>::estimate() {
 
 template <int Dim>
 void PlacementOf<Dim>::require_savable() const {
-  if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
-  require_savable_spacing(spacing_replaced_, options_, level_options_);
+  if (!now_.level) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
+  require_savable_spacing(now_.spacing_replaced, options_, now_.level_options);
 }
 
 template <int Dim>
@@ -361,7 +400,8 @@ Saved<Dim> PlacementOf<Dim>::saved() {
   require_kokkos();
   require_same_options();
   agreed(*comm_, [this] { require_savable(); });
-  return saved_of(*level_, placed_.held, *spacing_, state_, options_, monitoring_.at_event());
+  return saved_of(*now_.level, now_.placed.held, now_.spacing, state_, options_,
+                  monitoring_.at_event());
 }
 
 template <int Dim>
@@ -372,26 +412,32 @@ void PlacementOf<Dim>::require_same_as(const SavedState& saved) {
 }
 
 template <int Dim>
-void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Dim>> nodes,
+void PlacementOf<Dim>::restore(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
                                Patch<Dim> patch) {
   const PhaseTimer timer(timers_, Phase::total);
-  require_same_as(state);
-  const std::shared_ptr<const Spacing<Dim>> before = spacing_;
-  try {
-    if (state.spacing_saved)
-      spacing_ = std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch), chart());
-    const Settings settings = settings_for_new_level();
-    PlacedSpacing<Dim> placed;
-    LevelBuilder<Dim> builder = this->builder();
-    std::unique_ptr<Level<Dim>> next =
-        saved_level(state, std::move(nodes), builder, to_place(), settings, placed);
-    replace_level(std::move(next), std::move(placed));
-  } catch (...) {
-    spacing_ = before;
-    throw;
-  }
-  adopt_state(state, state_, *level_);
-  adopt_changes(changes_since(state.options, options_.in(Dim)));
+  require_same_as(saved);
+  transaction([&] {
+    continue_from(saved, std::move(nodes), std::move(patch));
+    return true;
+  });
+}
+
+template <int Dim>
+void PlacementOf<Dim>::continue_from(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
+                                     Patch<Dim> patch) {
+  if (saved.spacing_saved)
+    now_.spacing =
+        field_from(std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch), chart()));
+  now_.spacing.set_finer_places(finer_places_of<Dim>(saved));
+  const Settings settings = settings_for_new_level();
+  PlacedSpacing<Dim> placed;
+  LevelBuilder<Dim> builder = this->builder();
+  std::shared_ptr<Level<Dim>> next =
+      saved_level(saved, std::move(nodes), builder, to_place(), settings, placed);
+  replace_level(std::move(next), std::move(placed));
+  before_->put_back_level();
+  adopt_state(saved, state_, *now_.level);
+  adopt_changes(changes_since(saved.options, options_.in(Dim)));
 }
 
 template class PlacementOf<2>;

@@ -12,6 +12,7 @@
 #include "level/finer_places.hpp"
 #include "level/level.hpp"
 #include "placement/placement.hpp"
+#include "placement/placement_state.hpp"
 #include "results/results.hpp"
 #include "run/finished_round.hpp"
 #include "run/level_builder.hpp"
@@ -36,9 +37,9 @@ class PlacementOf : public Placement {
   const StereographicChart* chart() const override { return chart_of(*domain_); }
   Domain<Dim>& domain() { return *domain_; }
   void set_spacing(std::shared_ptr<const Spacing<Dim>> spacing) {
-    spacing_ = std::move(spacing);
-    spacing_replaced_ = true;
-    placed_.held = {};
+    now_.spacing = field_from(std::move(spacing));
+    now_.spacing_replaced = true;
+    now_.placed.held = {};
   }
   void set_nodes(IncomingNodes<Dim> nodes) {
     given_ = std::move(nodes);
@@ -57,8 +58,8 @@ class PlacementOf : public Placement {
   Results<Dim>& results() override { return results_; }
   const Results<Dim>& results() const override { return results_; }
   const Level<Dim>& level() const { return results_.level(); }
-  std::int64_t unresolved_places() const override { return std::ssize(placed_.held.places); }
-  double unresolved_spacing() const override { return placed_.held.least_before; }
+  std::int64_t unresolved_places() const override { return std::ssize(now_.placed.held.places); }
+  double unresolved_spacing() const override { return now_.placed.held.least_before; }
   RepairDistances repair_distances() const override {
     if constexpr (Dim == 3) return domain_->repair_distances();
     return {};
@@ -76,52 +77,67 @@ class PlacementOf : public Placement {
   void restore(const SavedState& saved, std::vector<SavedNode<Dim>> nodes, Patch<Dim> patch);
 
  private:
-  // --- the level there is ---
-  // From now on this one, whose results are handed out; none if it is null.
-  void keep(std::unique_ptr<Level<Dim>> level) {
-    level_ = std::move(level);
-    results_.show(level_.get());
+  // The spacing, during whose evaluations the monitor is asked.
+  SizingField<Dim> field_from(std::shared_ptr<const Spacing<Dim>> spacing) {
+    SizingField<Dim> field(std::move(spacing));
+    field.set_beat([this] { monitoring_.beat(); });
+    return field;
   }
-  bool shows_its_level() const override { return level_ && results_.shown() == level_.get(); }
+
+  // --- transactions ---
+  // Does work that may fail: then nodes, spacing, schedule and counts are those from before, on all
+  // ranks, and so is the result when the work is done again. Collective.
+  template <class Work>
+  auto transaction(const Work& work);
+  void roll_back(PlacementBefore<Dim>& before) noexcept;
+
+  // --- the level there is ---
+  // Makes this the level whose results are handed out; none if it is null.
+  void keep(std::shared_ptr<Level<Dim>> level) {
+    now_.level = std::move(level);
+    results_.show(now_.level.get());
+  }
+  // Lets go of the nodes there are; those from before the call stay with its copy.
+  void let_go_of_nodes();
+  bool shows_its_level() const override {
+    return now_.level && results_.shown() == now_.level.get();
+  }
   Settings present_settings() const;
   Settings settings_for_new_level();
-  SpacingToPlace<Dim> to_place() const { return {comm_, closed_, spacing_, options_}; }
+  SpacingToPlace<Dim> to_place() const { return {comm_, now_.closed, now_.spacing, options_}; }
   LevelBuilder<Dim> builder();
   NodesBefore<Dim> nodes_before() const;
   Outcome prepare_level();
   Outcome make_level();
-  Outcome adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>* replaced = nullptr);
-  std::unique_ptr<Level<Dim>> replace_level(std::unique_ptr<Level<Dim>> next,
+  Outcome adopt(MadeLevel<Dim> made, std::shared_ptr<Level<Dim>>* replaced = nullptr);
+  std::shared_ptr<Level<Dim>> replace_level(std::shared_ptr<Level<Dim>> next,
                                             PlacedSpacing<Dim> placed);
 
   // --- what moves its nodes ---
-  Simulation<Dim> simulation() { return {*level_, state_.schedule, state_, monitoring_}; }
+  Simulation<Dim> simulation() { return {*now_.level, state_.schedule, state_, monitoring_}; }
   template <class Work>
   auto while_moving(const Work& work);
   template <class Work>
   Outcome knowing_finer_places(const Work& work);
   template <class Steps>
   Outcome taking_steps(const Steps& steps);
+  Outcome run_to_end();
   Outcome steps_and_finish();
   Outcome rounds_with_spacing_held(Outcome first);
   Outcome return_to(FinishedRound<Dim> round);
-  Outcome hold_spacing(bool conforms, std::unique_ptr<Level<Dim>>& replaced);
+  Outcome hold_spacing(bool conforms, std::shared_ptr<Level<Dim>>& replaced);
   Outcome begin_held_round(PlacedSpacing<Dim> placed, bool conforms,
-                           std::unique_ptr<Level<Dim>>& replaced);
+                           std::shared_ptr<Level<Dim>>& replaced);
   void require_savable() const;
+  void continue_from(const SavedState& saved, std::vector<SavedNode<Dim>> nodes, Patch<Dim> patch);
 
   std::shared_ptr<Domain<Dim>> domain_;
-  std::shared_ptr<const Spacing<Dim>> spacing_;
-  std::shared_ptr<const Domain<Dim>> closed_;  // the domain; a whole sphere closed for the spacing
-  std::unique_ptr<Level<Dim>> level_;
+  PlacementState<Dim> now_;
+  PlacementBefore<Dim>* before_ = nullptr;  // while a call that moves nodes is in progress
   Results<Dim> results_;
   IncomingNodes<Dim> given_;  // nodes to start from instead of a fill
   bool start_from_given_ = false;
-  bool spacing_replaced_ = false;  // since the level was made
-  PlacedSpacing<Dim> placed_;      // with which it was
-  int rounds_of_run_ = 0;          // in which d is held down, in the call in progress
-  Unresolved<Dim> unresolved_;     // by the last finish
-  Options level_options_;          // with which it was
+  int rounds_of_run_ = 0;  // in which d is held down, in the call in progress
 };
 
 extern template class PlacementOf<2>;

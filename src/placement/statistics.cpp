@@ -80,6 +80,11 @@ const std::vector<StatisticRow>& statistic_table() {
           "finished", [](P p) { return std::int64_t{p.finished()}; },
           "1 if a run has finished and no step was done since, otherwise 0"),
       integer(
+          "status", [](P p) { return static_cast<std::int64_t>(p.outcome()); },
+          "status (pnpbs_status) that the last run to its end returned, also where it was "
+          "continued "
+          "from a checkpoint; 0 before there was one"),
+      integer(
           "levels", [](P p) { return std::int64_t{p.coarser_levels()}; },
           "coarser levels that provided the first nodes"),
       integer(

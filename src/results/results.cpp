@@ -86,11 +86,24 @@ void Results<Dim>::prepare_order() {
 }
 
 template <int Dim>
+template <class Work>
+void Results<Dim>::derive(const Work& work) {
+  try {
+    agreed(*comm_, work);
+  } catch (...) {
+    level_->forget_derived();
+    throw;
+  }
+}
+
+template <int Dim>
 void Results<Dim>::prepare_lists() {
   require_nodes();
   if (lists_stamp_ == level_->stamp()) return;
-  pnpbs::prepare_lists(*level_);
-  agreed(*comm_, [this] { prepare_order(); });
+  derive([this] {
+    pnpbs::prepare_lists(*level_);
+    agreed(*comm_, [this] { prepare_order(); });
+  });
   lists_stamp_ = level_->stamp();
 }
 
@@ -98,14 +111,16 @@ template <int Dim>
 void Results<Dim>::prepare_stars() {
   require_nodes();
   if (stars_stamp_ == level_->stamp()) return;
-  if (restore_stars(*level_)) {
-    prepare_order();
-  } else {
-    prepare_lists();
-    if (!level_->distributed()) rebuild_stars(*level_);
-  }
-  settle_elements(*level_, kThoroughRounds);
-  agreed(*comm_, [this] { close_sphere(*level_); });
+  derive([this] {
+    if (restore_stars(*level_)) {
+      agreed(*comm_, [this] { prepare_order(); });
+    } else {
+      prepare_lists();
+      if (!level_->distributed()) rebuild_stars(*level_);
+    }
+    settle_elements(*level_, kThoroughRounds);
+    agreed(*comm_, [this] { close_sphere(*level_); });
+  });
   stars_stamp_ = level_->stamp();
 }
 
@@ -121,13 +136,18 @@ std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
   const std::int64_t owned = count();
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;
-  ids.reserve(static_cast<std::size_t>(nodes.count));
-  for (std::int64_t place = 0; place < nodes.count; ++place) {
-    ids.push_back(nodes.id(node_at(place)));
-    if (place >= owned) owners.push_back(level_->tree->owner_at(nodes.position(node_at(place))));
-  }
-  exchange_pattern_ =
-      std::make_shared<const ExchangePattern>(make_exchange_pattern(*comm_, owned, ids, owners));
+  derive([&] {
+    agreed(*comm_, [&] {
+      ids.reserve(static_cast<std::size_t>(nodes.count));
+      for (std::int64_t place = 0; place < nodes.count; ++place) {
+        ids.push_back(nodes.id(node_at(place)));
+        if (place >= owned)
+          owners.push_back(level_->tree->owner_at(nodes.position(node_at(place))));
+      }
+    });
+    exchange_pattern_ =
+        std::make_shared<const ExchangePattern>(make_exchange_pattern(*comm_, owned, ids, owners));
+  });
   exchange_stamp_ = level_->stamp();
   return exchange_pattern_;
 }
@@ -230,7 +250,8 @@ NearestNeighbourError Results<Dim>::spacing_error() {
 template <int Dim>
 const ElementQuality& Results<Dim>::element_quality() {
   prepare_stars();
-  if (quality_stamp_ != level_->stamp()) {
+  if (quality_stamp_ == level_->stamp()) return quality_;
+  derive([this] {
     quality_ = measure_elements<Dim>(
         *comm_, {level_->nodes, chart()}, level_->stars,
         [this](const View<double>& values) { level_->ghosts.fill(*comm_, values); });
@@ -242,8 +263,8 @@ const ElementQuality& Results<Dim>::element_quality() {
         quality_.simplex.min_angle_elsewhere = least.elsewhere;
       }
     }
-    quality_stamp_ = level_->stamp();
-  }
+  });
+  quality_stamp_ = level_->stamp();
   return quality_;
 }
 

@@ -111,6 +111,11 @@ class Results : public NodalResults {
   void require_nodes() const;
   LevelStamp stamp() const override { return level_ ? level_->stamp() : LevelStamp(); }
 
+  // Does collective work that derives something from the nodes. Where it fails, all ranks forget
+  // what they have derived, so that they agree on what there is when it is requested again.
+  template <class Work>
+  void derive(const Work& work);
+
   void put_on_sphere() const;
 
   std::shared_ptr<const Domain<Dim>> domain_;

@@ -21,7 +21,7 @@ namespace pnpbs {
 // One that has come to its end.
 template <int Dim>
 struct FinishedRound {
-  std::unique_ptr<Level<Dim>> level;
+  std::shared_ptr<Level<Dim>> level;
   PlacedSpacing<Dim> placed;
   RunState state;
   Outcome outcome;

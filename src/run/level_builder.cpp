@@ -38,42 +38,51 @@ void take_bounds(VolumeDomain&, const VolumeDomain&) {}
 // ------------------------------------------------------------------ levels without nodes -------
 
 template <int Dim>
-std::unique_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(
-    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings, const Level<Dim>* like) {
-  std::unique_ptr<Level<Dim>> level;
-  agreed(*comm_, [&] {
+std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(const SizingField<Dim>& spacing,
+                                                           const Settings& settings,
+                                                           const Level<Dim>* like) {
+  std::shared_ptr<Level<Dim>> level;
+  const auto make = [&] {
     const PhaseTimer timer(timers_, Phase::boundary);
     // A copy: the caller may go on to change the domain.
-    auto domain = std::make_shared<Domain<Dim>>(*closed_for(domain_, *spacing));
+    auto domain = std::make_shared<Domain<Dim>>(*closed_for(domain_, spacing));
     if (like) take_bounds(*domain, like->ground.domain());
-    level = std::make_unique<Level<Dim>>(comm_, std::move(domain), std::move(spacing), settings,
-                                         timers_);
-  });
-  level->grow_tree(like);
+    level = std::make_shared<Level<Dim>>(comm_, std::move(domain),
+                                         std::make_shared<const SizingField<Dim>>(spacing),
+                                         settings, timers_);
+  };
+  context_.monitoring.watch("the boundary was laid and the tree grown", context_.results.count(),
+                            [&] {
+                              agreed(*comm_, make);
+                              level->grow_tree(like);
+                            });
   return level;
 }
 
 template <int Dim>
-std::unique_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPlace<Dim>& to_place,
+std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPlace<Dim>& to_place,
                                                               const Settings& settings,
                                                               PlacedSpacing<Dim>& placed) {
-  placed.unheld = to_place.spacing_to_place(settings);
-  const auto limit_growth = [&] {
-    placed.unheld = growth_limited(to_place, std::move(placed.unheld), settings);
-  };
-  if (settings.user_limits_growth()) limit_growth();
-  hold_down(*comm_, placed, settings);
-  std::unique_ptr<Level<Dim>> next = empty_level(placed.d, settings);
+  context_.monitoring.watch("the spacing was made", context_.results.count(), [&] {
+    placed.d = to_place.spacing_to_place(settings);
+    if (settings.user_limits_growth()) limit_growth(to_place, placed.d, settings);
+    hold_down(*comm_, placed, settings);
+  });
+  std::shared_ptr<Level<Dim>> next = empty_level(placed.d, settings);
   if (!settings.user_limits_growth()) {
     const PhaseTimer timer(timers_, Phase::spacing);
     placed.steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
-        next->ground.evaluator(), placed.unheld->known_values(), chart_of(*domain_));
+        next->ground.evaluator(), placed.d.without_reductions().known_values(), chart_of(*domain_));
   }
   if (too_steep(placed.steepest) && settings.growth_limit > 0) {
     next.reset();
-    limit_growth();
-    hold_down(*comm_, placed, settings);
+    context_.monitoring.watch("the growth of the spacing was limited", context_.results.count(),
+                              [&] {
+                                placed.d = placed.d.without_reductions();
+                                limit_growth(to_place, placed.d, settings);
+                                hold_down(*comm_, placed, settings);
+                              });
     next = empty_level(placed.d, settings);
   }
   settings.node_limit().require_memory_for(expected_nodes(*next));
@@ -81,21 +90,16 @@ std::unique_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPla
 }
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> LevelBuilder<Dim>::growth_limited(
-    const SpacingToPlace<Dim>& to_place, std::shared_ptr<const Spacing<Dim>> spacing,
-    const Settings& settings) {
-  context_.monitoring.watch("the growth of the spacing was limited", context_.results.count(),
-                            [&](const std::function<void()>& beat) {
-                              const PhaseTimer timer(timers_, Phase::spacing);
-                              spacing = to_place.growth_limited(std::move(spacing), settings, beat);
-                            });
-  return spacing;
+void LevelBuilder<Dim>::limit_growth(const SpacingToPlace<Dim>& to_place, SizingField<Dim>& spacing,
+                                     const Settings& settings) {
+  const PhaseTimer timer(timers_, Phase::spacing);
+  to_place.limit_growth(spacing, settings);
 }
 
 // ------------------------------------------------------------------ first nodes ----------------
 
 template <int Dim>
-MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::unique_ptr<Level<Dim>> level,
+MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::shared_ptr<Level<Dim>> level,
                                                    PlacedSpacing<Dim> placed,
                                                    const Settings& settings,
                                                    const NodesBefore<Dim>& before) {
@@ -122,7 +126,7 @@ MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::unique_ptr<Level<Dim>> l
 template <int Dim>
 void LevelBuilder<Dim>::take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before) {
   Level<Dim>& level = *made.level;
-  IncomingNodes<Dim> kept = refined(before, *made.placed.d);
+  IncomingNodes<Dim> kept = refined(before, made.placed.d);
   level.next_id = before.next_id;
   if constexpr (Dim == 3) settle_surfaces(level, kept, made.outcome, LevelRole::surfaces, context_);
   made.taken = take(level, std::move(kept), level.next_id);
@@ -160,7 +164,7 @@ void LevelBuilder<Dim>::begin_on_surfaces(MadeLevel<Dim>& made, const Settings& 
     IncomingNodes<3> nodes;
     TakenNodes& taken = made.taken;
     if (before.level) {
-      nodes = refined(*before.level, *made.placed.d);
+      nodes = refined(*before.level, made.placed.d);
       made.level->next_id = before.level->next_id;
       taken.numbered = over_ranks(std::ranges::count(nodes, -1, &IncomingNode<3>::id));
     } else if (before.given) {
@@ -187,10 +191,10 @@ IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const MadeLevel<
   RunState& run = context_.run;
   const int levels = run.coarser_levels;
   IncomingNodes<Dim> nodes;
-  std::unique_ptr<Level<Dim>> coarser;
+  std::shared_ptr<Level<Dim>> coarser;
   const Showing<Dim> showing(context_.results, nullptr);
   for (int l = levels; l > 0; --l) {
-    std::unique_ptr<Level<Dim>> level =
+    std::shared_ptr<Level<Dim>> level =
         empty_level(spacing_of(l), settings_of_level(settings, l == levels), finest.level.get());
     put_first_nodes(*level, nodes, l, outcome);
     if (coarser) run.keep_counts(*coarser);
@@ -205,7 +209,7 @@ IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const MadeLevel<
     if (outcome != Outcome::stopped && l <= filled_levels_)
       outcome = simulation.advance(coarser->settings.steps, part);
     if (outcome != Outcome::stopped && l <= filled_levels_) simulation.repair_defects();
-    nodes = new_nodes<Dim>(refined(*coarser, *spacing_of(l - 1)));
+    nodes = new_nodes<Dim>(refined(*coarser, spacing_of(l - 1)));
   }
   if (coarser) run.keep_counts(*coarser);
   if (outcome != Outcome::stopped) outcome = Outcome::converged;
@@ -238,11 +242,11 @@ void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& f
 
 template <int Dim>
 void LevelBuilder<Dim>::fill(Level<Dim>& level, LaidNodes<Dim> laid) {
-  context_.monitoring.watch("the first nodes were laid", context_.results.count(),
-                            [&](const std::function<void()>& beat) {
-                              pnpbs::fill(level, std::move(laid), beat,
-                                          lattice_is_stretched(options_));
-                            });
+  context_.monitoring.watch("the first nodes were laid", context_.results.count(), [&] {
+    pnpbs::fill(
+        level, std::move(laid), [this] { context_.monitoring.beat(); },
+        lattice_is_stretched(options_));
+  });
 }
 
 template <int Dim>

@@ -30,7 +30,7 @@ struct NodesBefore {
 
 template <int Dim>
 struct MadeLevel {
-  std::unique_ptr<Level<Dim>> level;
+  std::shared_ptr<Level<Dim>> level;
   PlacedSpacing<Dim> placed;
   FirstNodes first_nodes = FirstNodes::laid;
   TakenNodes taken;
@@ -53,21 +53,19 @@ class LevelBuilder {
   // A level without nodes for the user's spacing, whose growth is limited where the user wants it
   // so or, by how steep it is, where nodes could not follow it. `placed` tells where it is held
   // down, and is told what the spacing is.
-  std::unique_ptr<Level<Dim>> level_to_place(const SpacingToPlace<Dim>& to_place,
+  std::shared_ptr<Level<Dim>> level_to_place(const SpacingToPlace<Dim>& to_place,
                                              const Settings& settings, PlacedSpacing<Dim>& placed);
   // A level without inner nodes yet, partitioned like another one if that is given.
-  std::unique_ptr<Level<Dim>> empty_level(std::shared_ptr<const Spacing<Dim>> spacing,
-                                          const Settings& settings,
+  std::shared_ptr<Level<Dim>> empty_level(const SizingField<Dim>& spacing, const Settings& settings,
                                           const Level<Dim>* like = nullptr);
   // Puts nodes on a level that has none: those before, refined where they are of a coarser level,
   // those that coarser levels lead to, or a fill.
-  MadeLevel<Dim> with_first_nodes(std::unique_ptr<Level<Dim>> level, PlacedSpacing<Dim> placed,
+  MadeLevel<Dim> with_first_nodes(std::shared_ptr<Level<Dim>> level, PlacedSpacing<Dim> placed,
                                   const Settings& settings, const NodesBefore<Dim>& before);
 
  private:
-  std::shared_ptr<const Spacing<Dim>> growth_limited(const SpacingToPlace<Dim>& to_place,
-                                                     std::shared_ptr<const Spacing<Dim>> spacing,
-                                                     const Settings& settings);
+  void limit_growth(const SpacingToPlace<Dim>& to_place, SizingField<Dim>& spacing,
+                    const Settings& settings);
   void take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before);
   void take_given_nodes(MadeLevel<Dim>& made, IncomingNodes<Dim> given);
   void begin_anew(MadeLevel<Dim>& made, const Settings& settings);

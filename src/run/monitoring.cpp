@@ -38,20 +38,27 @@ bool Monitoring::stops_between_steps(bool at_event, bool level_stays, double fra
 }
 
 void Monitoring::watch(const std::string& what, std::int64_t own_nodes,
-                       const std::function<void(const std::function<void()>&)>& work) {
-  const std::int64_t nodes = over_ranks(own_nodes);
+                       const std::function<void()>& work) {
+  nodes_when_watched_ = over_ranks(own_nodes);
   last_asked_ = Clock::now();
+  struct Watch {
+    const std::string*& watched;
+    const std::string* before;
+    ~Watch() { watched = before; }
+  } watch{watched_, std::exchange(watched_, &what)};
   try {
-    work([&] {
-      if (!is_due()) return;
-      last_asked_ = Clock::now();
-      if (asks_to_stop(0, nodes))
-        throw Error(ErrorKind::stopped, "stopped by the monitor while " + what);
-    });
+    work();
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::stopped) run_.stop_reason = StopReason::monitor;
     throw;
   }
+}
+
+void Monitoring::beat() {
+  if (!watched_ || !is_due()) return;
+  last_asked_ = Clock::now();
+  if (asks_to_stop(0, nodes_when_watched_))
+    throw Error(ErrorKind::stopped, "stopped by the monitor while " + *watched_);
 }
 
 }  // namespace pnpbs

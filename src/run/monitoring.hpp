@@ -68,10 +68,11 @@ class Monitoring {
   };
 
   // Does work that leads to first nodes, or to those of a new spacing, and takes long where they
-  // are many: it calls beat() again and again, so that this rank's monitor is asked by the clock.
-  // Where it stops, all ranks do. Throws Error(ErrorKind::stopped) then. Collective.
-  void watch(const std::string& what, std::int64_t own_nodes,
-             const std::function<void(const std::function<void()>& beat)>& work);
+  // are many. It calls beat() again and again, so that this rank's monitor is asked by the clock.
+  // Where one rank's stops, all ranks do. Throws Error(ErrorKind::stopped) then. Collective.
+  void watch(const std::string& what, std::int64_t own_nodes, const std::function<void()>& work);
+  // Asks the monitor if work is watched and the monitor has not been asked for a while. Local.
+  void beat();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -84,6 +85,8 @@ class Monitoring {
   Clock::time_point last_asked_ = Clock::now();
   bool between_steps_ = false, at_event_ = false;  // while the monitor is asked
   bool provisional_ = false;
+  const std::string* watched_ = nullptr;  // what is done while work is watched
+  std::int64_t nodes_when_watched_ = 0;
 };
 
 }  // namespace pnpbs

@@ -12,6 +12,7 @@
 #include "level/finish.hpp"
 #include "level/speeds.hpp"
 #include "level/volume/surface_fit.hpp"
+#include "run/outcome.hpp"
 #include "run/schedule.hpp"
 
 namespace pnpbs {
@@ -23,6 +24,7 @@ struct RunState {
   Schedule schedule;  // of the level there is
   Speeds last_speeds;
   StopReason stop_reason = StopReason::none;
+  Outcome outcome = Outcome::converged;  // of the last run that came to its end
 
   int coarser_levels = 0;  // that the nodes came from
 

@@ -213,8 +213,10 @@ Outcome Simulation<Dim>::smooth(double fraction) {
   refine();
   for (int repairs = 0; repairs < method::kMaxFinishRounds; ++repairs) {
     if (stops_in_finish(fraction)) return Outcome::stopped;
-    const FinishResults results = sweep_and_repair(level_, sweeps);
+    const FinishResults results =
+        sweep_and_repair(level_, sweeps, [&] { return stops_in_finish(fraction); });
     counted(results.counts);
+    if (results.stopped) return Outcome::stopped;
     run_.edge_bands = results.edge_bands;
     if (!refine()) break;
     sweeps = 0;

@@ -14,7 +14,6 @@
 #include "base/space_vectors.hpp"
 #include "comm/communicator.hpp"
 #include "sizing/closing_disc.hpp"
-#include "spacing/multiplied_spacing.hpp"
 
 namespace pnpbs {
 
@@ -221,21 +220,19 @@ bool is_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing) {
 }  // namespace
 
 std::shared_ptr<const PlaneDomain> closed_before_sizing(
-    const std::shared_ptr<const PlaneDomain>& domain,
-    const std::shared_ptr<const Spacing<2>>& spacing, double wanted_nodes) {
-  if (!domain->is_whole_sphere() || wanted_nodes == 0) return closed_for(domain, *spacing);
+    const std::shared_ptr<const PlaneDomain>& domain, const SizingField<2>& spacing,
+    double wanted_nodes) {
+  if (!domain->is_whole_sphere() || wanted_nodes == 0) return closed_for(domain, spacing);
   constexpr double kALittleLess = 0.99;
   const StereographicChart& chart = *domain->chart();
   const StereographicChart other = opposite_of(chart);
   const double even = std::sqrt(Lattice<2>::kDensity * area_of(chart) / wanted_nodes),
                d = std::min(even, kALittleLess * kMostAtPoint * chart.radius());
-  return closed_for(domain,
-                    MultipliedSpacing<2>(spacing, d / spacing_at_point(*spacing, chart, other)));
+  return closed_for(domain, spacing.coarsened(d / spacing_at_point(spacing, chart, other)));
 }
 
 std::shared_ptr<const VolumeDomain> closed_before_sizing(
-    const std::shared_ptr<const VolumeDomain>& domain, const std::shared_ptr<const Spacing<3>>&,
-    double) {
+    const std::shared_ptr<const VolumeDomain>& domain, const SizingField<3>&, double) {
   return domain;
 }
 

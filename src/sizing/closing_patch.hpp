@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "domain/domain.hpp"
-#include "spacing/spacing.hpp"
+#include "spacing/sizing_field.hpp"
 
 namespace pnpbs {
 
@@ -26,11 +26,11 @@ bool can_be_closed(const VolumeDomain& domain, const Spacing<3>& spacing);
 // The same before the spacing is multiplied for so many nodes, if any number is wanted: as if it
 // were even then. Collective.
 std::shared_ptr<const PlaneDomain> closed_before_sizing(
-    const std::shared_ptr<const PlaneDomain>& domain,
-    const std::shared_ptr<const Spacing<2>>& spacing, double wanted_nodes);
+    const std::shared_ptr<const PlaneDomain>& domain, const SizingField<2>& spacing,
+    double wanted_nodes);
 std::shared_ptr<const VolumeDomain> closed_before_sizing(
-    const std::shared_ptr<const VolumeDomain>& domain,
-    const std::shared_ptr<const Spacing<3>>& spacing, double wanted_nodes);
+    const std::shared_ptr<const VolumeDomain>& domain, const SizingField<3>& spacing,
+    double wanted_nodes);
 
 // The factor on the spacing for which a whole sphere is closed; 1 for other domains. Collective.
 double factor_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing);

@@ -7,7 +7,6 @@
 #include "level/expected_nodes.hpp"
 #include "method/constants.hpp"
 #include "sizing/closing_patch.hpp"
-#include "spacing/multiplied_spacing.hpp"
 
 namespace pnpbs {
 
@@ -47,10 +46,8 @@ bool boundary_leaves_room(const Level<Dim>& finest, const Domain<Dim>& domain,
 }  // namespace
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> spacing_of_level(
-    const std::shared_ptr<const Spacing<Dim>>& spacing, int level) {
-  if (level == 0) return spacing;
-  return std::make_shared<MultipliedSpacing<Dim>>(spacing, coarser_by(level));
+SizingField<Dim> spacing_of_level(const SizingField<Dim>& spacing, int level) {
+  return spacing.coarsened(coarser_by(level));
 }
 
 Settings settings_of_level(Settings settings, bool coarsest) {
@@ -67,7 +64,7 @@ Settings settings_of_level(Settings settings, bool coarsest) {
 
 template <int Dim>
 int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
-                            const std::shared_ptr<const Spacing<Dim>>& spacing) {
+                            const SizingField<Dim>& spacing) {
   const SpacingVariation d = spacing_variation(finest);
   const double nodes = expected_nodes(finest);
   int levels = 0;
@@ -78,18 +75,14 @@ int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
            boundary_leaves_room(finest, domain, coarser, factor, nodes);
   };
   while (levels < finest.settings.levels &&
-         pays(*spacing_of_level(spacing, levels + 1), coarser_by(levels + 1)))
+         pays(spacing_of_level(spacing, levels + 1), coarser_by(levels + 1)))
     ++levels;
   return levels;
 }
 
-template int coarser_levels_that_pay(const Level<2>&, const PlaneDomain&,
-                                     const std::shared_ptr<const Spacing<2>>&);
-template int coarser_levels_that_pay(const Level<3>&, const VolumeDomain&,
-                                     const std::shared_ptr<const Spacing<3>>&);
-template std::shared_ptr<const Spacing<2>> spacing_of_level(
-    const std::shared_ptr<const Spacing<2>>&, int);
-template std::shared_ptr<const Spacing<3>> spacing_of_level(
-    const std::shared_ptr<const Spacing<3>>&, int);
+template int coarser_levels_that_pay(const Level<2>&, const PlaneDomain&, const SizingField<2>&);
+template int coarser_levels_that_pay(const Level<3>&, const VolumeDomain&, const SizingField<3>&);
+template SizingField<2> spacing_of_level(const SizingField<2>&, int);
+template SizingField<3> spacing_of_level(const SizingField<3>&, int);
 
 }  // namespace pnpbs

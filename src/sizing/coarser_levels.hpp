@@ -5,12 +5,10 @@
 // nearly every node with its six neighbours.
 #pragma once
 
-#include <memory>
-
 #include "domain/domain.hpp"
 #include "level/level.hpp"
 #include "settings/settings.hpp"
-#include "spacing/spacing.hpp"
+#include "spacing/sizing_field.hpp"
 
 namespace pnpbs {
 
@@ -19,12 +17,11 @@ namespace pnpbs {
 // the next have no rest. Collective, as the spacing is asked.
 template <int Dim>
 int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
-                            const std::shared_ptr<const Spacing<Dim>>& spacing);
+                            const SizingField<Dim>& spacing);
 
 // Of the level that is coarser than the finest by so many; of that itself if it is none.
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> spacing_of_level(
-    const std::shared_ptr<const Spacing<Dim>>& spacing, int level);
+SizingField<Dim> spacing_of_level(const SizingField<Dim>& spacing, int level);
 
 // A coarser level runs like a placement of its own; the coarsest has the most to settle. What
 // is wrong there is wrong on every finer one, too.

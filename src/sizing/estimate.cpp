@@ -44,19 +44,19 @@ Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settin
 // With the growth of d limited as the run limits it, which takes a tree as the run does; so it is
 // refused where that would be.
 template <int Dim>
-double estimated_nodes(const SpacingToPlace<Dim>& to_place,
-                       std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
-                       Samples samples) {
+double estimated_nodes(const SpacingToPlace<Dim>& to_place, SizingField<Dim> spacing,
+                       const Settings& settings, Samples samples) {
   const auto estimate_with = [&](const Spacing<Dim>& d) {
     return estimate_nodes<Dim>(
         to_place.comm(), to_place.domain(), d, settings.max_nodes,
         {lattice_is_stretched(to_place.options()), settings.lays_first_row()}, samples);
   };
   if (!settings.user_limits_growth()) {
-    const NodeEstimate<Dim> estimate = estimate_with(*spacing);
+    const NodeEstimate<Dim> estimate = estimate_with(spacing);
     if (settings.growth_limit == 0 || !too_steep(estimate.steepest)) return estimate.nodes;
   }
-  return estimate_with(*to_place.growth_limited(std::move(spacing), settings, [] {})).nodes;
+  to_place.limit_growth(spacing, settings);
+  return estimate_with(spacing).nodes;
 }
 
 double bytes_allowed(const Communicator& comm, const Options& options) {
@@ -68,9 +68,7 @@ double bytes_allowed(const Communicator& comm, const Options& options) {
 
 template Estimate estimate_of(const SpacingToPlace<2>&, const Settings&);
 template Estimate estimate_of(const SpacingToPlace<3>&, const Settings&);
-template double estimated_nodes(const SpacingToPlace<2>&, std::shared_ptr<const Spacing<2>>,
-                                const Settings&, Samples);
-template double estimated_nodes(const SpacingToPlace<3>&, std::shared_ptr<const Spacing<3>>,
-                                const Settings&, Samples);
+template double estimated_nodes(const SpacingToPlace<2>&, SizingField<2>, const Settings&, Samples);
+template double estimated_nodes(const SpacingToPlace<3>&, SizingField<3>, const Settings&, Samples);
 
 }  // namespace pnpbs

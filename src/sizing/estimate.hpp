@@ -2,8 +2,6 @@
 // What a run would come to, and how much memory there is for it.
 #pragma once
 
-#include <memory>
-
 #include "estimate/node_estimate.hpp"
 #include "sizing/limiting_growth.hpp"
 
@@ -15,9 +13,8 @@ Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settin
 
 // The nodes with which a run with this spacing is expected to end. Collective.
 template <int Dim>
-double estimated_nodes(const SpacingToPlace<Dim>& to_place,
-                       std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
-                       Samples samples);
+double estimated_nodes(const SpacingToPlace<Dim>& to_place, SizingField<Dim> spacing,
+                       const Settings& settings, Samples samples);
 
 // Of memory, for the nodes of all ranks: these share what their machines have, and hold equal
 // parts. Collective.

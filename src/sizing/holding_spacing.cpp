@@ -8,8 +8,6 @@
 #include "level/node_spacing.hpp"
 #include "method/constants.hpp"
 #include "sizing/narrow_places.hpp"
-#include "spacing/held_spacing.hpp"
-#include "spacing/spacing_with_places.hpp"
 
 namespace pnpbs {
 
@@ -69,25 +67,19 @@ double resolution_of(const VolumeDomain& domain) {
 
 template <int Dim>
 void hold_down(const Communicator& comm, PlacedSpacing<Dim>& placed, const Settings& settings) {
-  placed.d = placed.unheld;
-  const std::vector<GrowthSource<Dim>>& places = placed.held.places;
-  if (places.empty()) return;
+  placed.d = placed.d.without_reductions();
+  if (placed.held.places.empty()) return;
   const double growth = settings.growth_limit > 0
                             ? std::min(settings.growth_limit, method::kGrowthFollowed)
                             : method::kGrowthFollowed;
-  agreed(comm, [&] {
-    KnownValues<Dim> known;
-    known.in_domain = places;
-    placed.d = std::make_shared<SpacingWithPlaces<Dim>>(
-        std::make_shared<HeldSpacing<Dim>>(placed.unheld, places, growth), std::move(known));
-  });
+  agreed(comm, [&] { placed.d.reduce_at(placed.held.places, growth); });
 }
 
 template <int Dim>
 View<char> held_nodes(const Level<Dim>& level, const PlacedSpacing<Dim>& placed) {
   if (placed.held.places.empty()) return {};
   const View<double> d = spacing_at_nodes(level, level.ground.spacing());
-  const View<double> unheld = spacing_at_nodes(level, *placed.unheld);
+  const View<double> unheld = spacing_at_nodes(level, placed.d.without_reductions());
   View<char> held;
   agreed(*level.comm, [&] {
     held = make_view<char>("pnpbs::held_nodes", level.nodes.count);

@@ -11,11 +11,7 @@
 #include "method/constants.hpp"
 #include "sizing/closing_patch.hpp"
 #include "sizing/estimate.hpp"
-#include "spacing/growth_limit.hpp"
-#include "spacing/held_spacing.hpp"
-#include "spacing/multiplied_spacing.hpp"
 #include "spacing/resolving_sources.hpp"
-#include "spacing/spacing_with_places.hpp"
 
 namespace pnpbs {
 
@@ -30,12 +26,11 @@ constexpr double kTooSteep = method::kTooSteep * method::kGrowthFollowed;
 }  // namespace
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::spacing_to_place(
-    const Settings& settings) const {
+SizingField<Dim> SpacingToPlace<Dim>::spacing_to_place(const Settings& settings) const {
   const double wanted = options_.real("wanted_nodes");
   if (wanted == 0) return bounded(spacing_, settings);
   const double factor = factor_for(wanted, settings);
-  return bounded(resized(spacing_, factor), settings);
+  return bounded(spacing_.multiplied(factor), settings);
 }
 
 // The factor on d with which a run is expected to come to so many nodes. Their number goes with the
@@ -49,10 +44,11 @@ double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& sett
   constexpr double kNear = 0.05, kNearByMany = 0.02, kSame = 1e-3, kMinPower = 0.5, kMaxStep = 64;
   const double steepest = settings.dimension;
   const auto more_than_wanted = [&](double factor, Samples samples) {
-    return estimated_nodes(*this, bounded(resized(spacing_, factor), settings), settings, samples) /
+    return estimated_nodes(*this, bounded(spacing_.multiplied(factor), settings), settings,
+                           samples) /
            wanted_nodes;
   };
-  double factor = factor_closed_for(*domain_, *spacing_), power = steepest, before = 0, step = 1;
+  double factor = factor_closed_for(*domain_, spacing_), power = steepest, before = 0, step = 1;
   for (int round = 0; round < kMaxRounds; ++round) {
     const double more = more_than_wanted(factor, Samples::few);
     if (!(more > 0)) return factor;
@@ -76,27 +72,24 @@ double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& sett
 }
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::bounded(
-    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) const {
-  agreed(*comm_, [&] {
-    spacing = std::make_shared<BoundedSpacing<Dim>>(std::move(spacing),
-                                                    kMaxSizes * size_of(domain_->bounds()));
-    if constexpr (Dim == 3) {
-      const double growth =
-          settings.growth_limit > 0 ? settings.growth_limit : method::kGrowthFollowed;
-      if (settings.resolve)
-        spacing = std::make_shared<HeldSpacing<3>>(
-            spacing, resolving_sources(*spacing, *domain_, settings.node_limit(), kResolved),
-            growth);
-    }
-  });
+SizingField<Dim> SpacingToPlace<Dim>::bounded(SizingField<Dim> spacing,
+                                              const Settings& settings) const {
+  spacing.set_bound(kMaxSizes * size_of(domain_->bounds()));
+  if constexpr (Dim == 3) {
+    if (!settings.resolve) return spacing;
+    const double growth =
+        settings.growth_limit > 0 ? settings.growth_limit : method::kGrowthFollowed;
+    agreed(*comm_, [&] {
+      spacing.resolve(resolving_sources(spacing, *domain_, settings.node_limit(), kResolved,
+                                        [&] { spacing.beat(); }),
+                      growth);
+    });
+  }
   return spacing;
 }
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
-    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
-    const std::function<void()>& beat) const {
+void SpacingToPlace<Dim>::limit_growth(SizingField<Dim>& spacing, const Settings& settings) const {
   const auto explained = [&](const Error& error) {
     return std::string(error.what()) + " (where d grows by at most " +
            number_text(settings.growth_limit) + ": option growth_limit, 0 is no limit)";
@@ -104,15 +97,14 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
   agreed(*comm_, [&] {
     try {
       const SpacingEvaluator<Dim> unlimited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
-        beat();
-        evaluate_spacing<Dim>(*spacing, measure_of(*domain_), n, x, d);
+        evaluate_spacing<Dim>(spacing, measure_of(*domain_), n, x, d);
       };
       auto ways = std::make_unique<const OpenWays<Dim>>(
           domain_->bounds(), measure_of(*domain_),
           indexed_boundary(*domain_, unlimited, settings.max_nodes));
-      spacing = std::make_shared<GrowthLimitedSpacing<Dim>>(
-          comm_, std::move(ways), std::move(spacing),
-          GrowthRule<Dim>{settings.growth_limit, chart_of(*domain_)}, settings.node_limit(), beat);
+      spacing.limit_growth(comm_, std::move(ways),
+                           GrowthRule<Dim>{settings.growth_limit, chart_of(*domain_)},
+                           settings.node_limit());
     } catch (const AgreedError& error) {
       if (!is_lack_of_room(error)) throw;
       throw AgreedError(error.kind(), explained(error));
@@ -121,24 +113,24 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
       throw Error(error.kind(), explained(error));
     }
   });
-  return spacing;
 }
 
 // As the spacing itself has them: on the level it may be multiplied by a factor.
-std::shared_ptr<const Spacing<3>> spacing_with(const FinerPlaces& found, const Communicator& comm,
-                                               const VolumeDomain& domain,
-                                               std::shared_ptr<const Spacing<3>> spacing) {
+void add_finer_places(const FinerPlaces& found, const Communicator& comm,
+                      const VolumeDomain& domain, SizingField<3>& spacing) {
+  KnownValues<3> places;
   agreed(comm, [&] {
     const SpacingEvaluator<3> raw = [&](std::int64_t n, const Point<3>* x, double* d) {
-      evaluate_spacing<3>(*spacing, measure_of(domain), n, x, d);
+      evaluate_spacing<3>(spacing, measure_of(domain), n, x, d);
     };
     const auto inside = [&](const Point<3>& x) {
       return domain.filled() && domain.index().inside(x);
     };
-    spacing =
-        std::make_shared<SpacingWithPlaces<3>>(spacing, finer_region(found.places(), raw, inside));
+    places = finer_region(found.places(), raw, inside);
+    SizingField<3> with_places = spacing;
+    with_places.add_finer_places(places);
+    spacing = std::move(with_places);
   });
-  return spacing;
 }
 
 template <int Dim>

@@ -4,7 +4,6 @@
 // could not follow d as given.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,7 +13,7 @@
 #include "level/finer_places.hpp"
 #include "settings/options.hpp"
 #include "settings/settings.hpp"
-#include "spacing/spacing.hpp"
+#include "spacing/sizing_field.hpp"
 #include "spacing/steepest_growth.hpp"
 
 namespace pnpbs {
@@ -31,43 +30,34 @@ class SpacingToPlace {
  public:
   // From the user's spacing.
   SpacingToPlace(std::shared_ptr<const Communicator> comm,
-                 std::shared_ptr<const Domain<Dim>> domain,
-                 std::shared_ptr<const Spacing<Dim>> spacing, const Options& options)
-      : comm_(std::move(comm)),
-        domain_(std::move(domain)),
-        spacing_(std::move(spacing)),
-        options_(options) {}
+                 std::shared_ptr<const Domain<Dim>> domain, const SizingField<Dim>& spacing,
+                 const Options& options)
+      : comm_(std::move(comm)), domain_(std::move(domain)), spacing_(spacing), options_(options) {}
 
   // No larger than makes sense, and with so many nodes as are wanted.
-  std::shared_ptr<const Spacing<Dim>> spacing_to_place(const Settings& settings) const;
-  // With its growth limited. It calls beat() again and again.
-  std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
-                                                     const Settings& settings,
-                                                     const std::function<void()>& beat) const;
+  SizingField<Dim> spacing_to_place(const Settings& settings) const;
+  void limit_growth(SizingField<Dim>& spacing, const Settings& settings) const;
 
   const Communicator& comm() const { return *comm_; }
   const Domain<Dim>& domain() const { return *domain_; }
   const Options& options() const { return options_; }
 
  private:
-  std::shared_ptr<const Spacing<Dim>> bounded(std::shared_ptr<const Spacing<Dim>> spacing,
-                                              const Settings& settings) const;
+  SizingField<Dim> bounded(SizingField<Dim> spacing, const Settings& settings) const;
   double factor_for(double wanted_nodes, const Settings& settings) const;
 
   std::shared_ptr<const Communicator> comm_;
   std::shared_ptr<const Domain<Dim>> domain_;
-  std::shared_ptr<const Spacing<Dim>> spacing_;
+  SizingField<Dim> spacing_;
   const Options& options_;
 };
 
 extern template class SpacingToPlace<2>;
 extern template class SpacingToPlace<3>;
 
-// The spacing, and places at which nodes came upon more than its samples had told of it.
-// Collective.
-std::shared_ptr<const Spacing<3>> spacing_with(const FinerPlaces& found, const Communicator& comm,
-                                               const VolumeDomain& domain,
-                                               std::shared_ptr<const Spacing<3>> spacing);
+// Adds places at which nodes came upon more than the samples of d had told of it. Collective.
+void add_finer_places(const FinerPlaces& found, const Communicator& comm,
+                      const VolumeDomain& domain, SizingField<3>& spacing);
 
 // Is it steeper than nodes can follow?
 template <int Dim>

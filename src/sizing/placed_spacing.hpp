@@ -3,10 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "spacing/spacing.hpp"
+#include "spacing/sizing_field.hpp"
 #include "spacing/steepest_growth.hpp"
 
 namespace pnpbs {
@@ -22,11 +21,11 @@ struct Held {
   double least_before = 0;
 };
 
-// The spacing as it counts: what it would be without the places where it is held down, these, and
-// how steep it is where the user sets no limit.
+// The spacing as it counts, the places where it is held down, and how steep it is without these
+// where the user sets no limit.
 template <int Dim>
 struct PlacedSpacing {
-  std::shared_ptr<const Spacing<Dim>> d, unheld;
+  SizingField<Dim> d;
   Held<Dim> held;
   SteepestGrowth<Dim> steepest;
 };

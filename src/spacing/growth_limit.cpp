@@ -28,32 +28,29 @@ struct Answer {
 }  // namespace
 
 template <int Dim>
-GrowthLimitedSpacing<Dim>::GrowthLimitedSpacing(std::shared_ptr<const Communicator> comm,
-                                                std::unique_ptr<const OpenWays<Dim>> ways,
-                                                std::shared_ptr<const Spacing<Dim>> raw,
-                                                const GrowthRule<Dim>& rule, const NodeLimit& limit,
-                                                const Beat& beat)
-    : comm_(std::move(comm)), raw_(std::move(raw)), rule_(rule), ways_(std::move(ways)) {
+GrowthLimit<Dim>::GrowthLimit(std::shared_ptr<const Communicator> comm,
+                              std::unique_ptr<const OpenWays<Dim>> ways, const Spacing<Dim>& raw,
+                              const GrowthRule<Dim>& rule, const NodeLimit& limit, const Beat& beat)
+    : comm_(std::move(comm)), rule_(rule), ways_(std::move(ways)) {
   const SpacingEvaluator<Dim> checked = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     beat();
-    evaluate_spacing<Dim>(*raw_, ways_->measure(), n, x, d);
+    evaluate_spacing<Dim>(raw, ways_->measure(), n, x, d);
   };
-  agreed(*comm_, [&] { find_labels(checked, limit, beat); });
+  agreed(*comm_, [&] { find_labels(checked, raw.known_values(), limit, beat); });
 }
 
 // The first leaves are as large as the unlimited d allows, and one source stands for all of a leaf:
 // next to a jump that is too coarse, and what is fine in a corner of a leaf was not sampled. With
 // leaves by the limited d it is not.
 template <int Dim>
-void GrowthLimitedSpacing<Dim>::find_labels(const SpacingEvaluator<Dim>& raw,
-                                            const NodeLimit& limit, const Beat& beat) {
+void GrowthLimit<Dim>::find_labels(const SpacingEvaluator<Dim>& raw, const KnownValues<Dim>& known,
+                                   const NodeLimit& limit, const Beat& beat) {
   constexpr int kMaxPasses = 6;
   const SpacingEvaluator<Dim> limited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     beat();
-    for_each("pnpbs::GrowthLimitedSpacing::fit", n,
+    for_each("pnpbs::GrowthLimit::fit", n,
              [&](std::int64_t i) { d[i] = labels_.limit_at(*ways_, x[i]); });
   };
-  const KnownValues<Dim> known = raw_->known_values();
   std::vector<Point<Dim>> places;
   for (const GrowthSource<Dim>& value : known.in_domain) places.push_back(value.x);
   GrowthLeaves<Dim> leaves(*comm_, *ways_, rule_, limit, std::move(places));
@@ -69,17 +66,17 @@ void GrowthLimitedSpacing<Dim>::find_labels(const SpacingEvaluator<Dim>& raw,
 }
 
 template <int Dim>
-std::vector<double> GrowthLimitedSpacing<Dim>::limits(std::int64_t n, const Point<Dim>* x) const {
+std::vector<double> GrowthLimit<Dim>::limits(std::int64_t n, const Point<Dim>* x) const {
   std::vector<double> limits(static_cast<std::size_t>(n));
-  for_each("pnpbs::GrowthLimitedSpacing::limits", n, [&](std::int64_t i) {
+  for_each("pnpbs::GrowthLimit::limits", n, [&](std::int64_t i) {
     limits[static_cast<std::size_t>(i)] = labels_.limit_at(*ways_, x[i]);
   });
   return limits;
 }
 
 template <int Dim>
-void GrowthLimitedSpacing<Dim>::take_answers_of_all(std::int64_t n, const Point<Dim>* x,
-                                                    std::vector<double>& limits) const {
+void GrowthLimit<Dim>::take_answers_of_all(std::int64_t n, const Point<Dim>* x,
+                                           std::vector<double>& limits) const {
   const TreePart<Dim>& tree = labels_.tree();
   Bytes mine;
   for (std::int64_t i = 0; i < n; ++i)
@@ -91,8 +88,8 @@ void GrowthLimitedSpacing<Dim>::take_answers_of_all(std::int64_t n, const Point<
 }
 
 template <int Dim>
-void GrowthLimitedSpacing<Dim>::ask_owners(std::int64_t n, const Point<Dim>* x,
-                                           std::vector<double>& limits) const {
+void GrowthLimit<Dim>::ask_owners(std::int64_t n, const Point<Dim>* x,
+                                  std::vector<double>& limits) const {
   const TreePart<Dim>& tree = labels_.tree();
   std::vector<Question<Dim>> questions;
   for (std::int64_t i = 0; i < n; ++i)
@@ -100,7 +97,7 @@ void GrowthLimitedSpacing<Dim>::ask_owners(std::int64_t n, const Point<Dim>* x,
   questions = redistribute<Question<Dim>>(
       *comm_, questions, [&](const Question<Dim>& q) { return tree.rank_with(q.x); });
   std::vector<Answer> answers(questions.size());
-  for_each("pnpbs::GrowthLimitedSpacing::answer", std::ssize(questions), [&](std::int64_t k) {
+  for_each("pnpbs::GrowthLimit::answer", std::ssize(questions), [&](std::int64_t k) {
     const Question<Dim>& question = questions[static_cast<std::size_t>(k)];
     answers[static_cast<std::size_t>(k)] = {labels_.limit_at(*ways_, question.x), question.index,
                                             question.asker};
@@ -112,8 +109,7 @@ void GrowthLimitedSpacing<Dim>::ask_owners(std::int64_t n, const Point<Dim>* x,
 }
 
 template <int Dim>
-void GrowthLimitedSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
-  raw_->evaluate(n, x, d);
+void GrowthLimit<Dim>::limit(std::int64_t n, const Point<Dim>* x, double* d) const {
   std::vector<double> limited = limits(n, x);
   if (comm_->size() > 1) {
     if (same_points<Dim>(*comm_, n, x))
@@ -126,7 +122,7 @@ void GrowthLimitedSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, do
     if (d[i] > limited[static_cast<std::size_t>(i)]) d[i] = limited[static_cast<std::size_t>(i)];
 }
 
-template class GrowthLimitedSpacing<2>;
-template class GrowthLimitedSpacing<3>;
+template class GrowthLimit<2>;
+template class GrowthLimit<3>;
 
 }  // namespace pnpbs

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "base/execution.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 
@@ -93,9 +94,10 @@ class ShapeToResolve {
 
 // Pieces are halved until they are not much larger than what d is held to there.
 std::vector<GrowthSource<3>> resolving_sources(const Spacing<3>& raw, const VolumeDomain& domain,
-                                               const NodeLimit& limit,
-                                               const Resolution& resolution) {
-  constexpr double kPieces = 1.5;  // length of their edges
+                                               const NodeLimit& limit, const Resolution& resolution,
+                                               const std::function<void()>& beat) {
+  constexpr double kPieces = 1.5;       // length of their edges
+  constexpr std::size_t kChunk = 4096;  // pieces between two calls of beat()
   const ShapeToResolve shape(domain, resolution);
   std::vector<GrowthSource<3>> sources;
   std::vector<Piece> pieces = shape.facets();
@@ -104,13 +106,22 @@ std::vector<GrowthSource<3>> resolving_sources(const Spacing<3>& raw, const Volu
     std::vector<Point<3>> middles;
     for (const Piece& piece : pieces) middles.push_back(piece.middle());
     evaluate_spacing<3>(raw, domain.volume(), std::ssize(middles), middles.data(), d.data());
+    std::vector<double> held(pieces.size());
+    for (std::size_t begin = 0; begin < pieces.size(); begin += kChunk) {
+      beat();
+      for_each("pnpbs::resolving_sources",
+               static_cast<std::int64_t>(std::min(kChunk, pieces.size() - begin)),
+               [&](std::int64_t k) {
+                 const std::size_t p = begin + static_cast<std::size_t>(k);
+                 held[p] = shape.held(pieces[p].facet, middles[p], d[p]);
+               });
+    }
     std::vector<Piece> next;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-      const double held = shape.held(pieces[p].facet, middles[p], d[p]);
-      if (edge_length(pieces[p], longest_edge(pieces[p])) > kPieces * held)
+      if (edge_length(pieces[p], longest_edge(pieces[p])) > kPieces * held[p])
         append_halves(pieces[p], next);
-      else if (held < d[p])
-        sources.push_back({middles[p], held});
+      else if (held[p] < d[p])
+        sources.push_back({middles[p], held[p]});
     }
     if (const auto all = static_cast<double>(sources.size() + next.size());
         all > static_cast<double>(limit.max_nodes)) {

@@ -3,6 +3,7 @@
 // where the sides of an edge are too near to each other.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "domain/node_limit.hpp"
@@ -22,9 +23,9 @@ inline constexpr Resolution kResolved{method::kLayersInWall, method::kLayersInGa
 
 // The domain, checked, is looked at here alone. d is asked on the surfaces, at the same points on
 // all ranks. Throws Error(ErrorKind::spacing) if they needed more nodes than the limit allows.
-// Collective.
-std::vector<GrowthSource<3>> resolving_sources(const Spacing<3>& raw, const VolumeDomain& domain,
-                                               const NodeLimit& limit,
-                                               const Resolution& resolution);
+// Calls beat() again and again. Collective.
+std::vector<GrowthSource<3>> resolving_sources(
+    const Spacing<3>& raw, const VolumeDomain& domain, const NodeLimit& limit,
+    const Resolution& resolution, const std::function<void()>& beat = [] {});
 
 }  // namespace pnpbs

@@ -81,13 +81,6 @@ std::optional<GivenExtent<Dim>> GridSpacing<Dim>::extent() const {
   return GivenExtent<Dim>{"grid", "d is that of the grid's nearest point", box};
 }
 
-template <int Dim>
-void BoundedSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
-  spacing_->evaluate(n, x, d);
-  for (std::int64_t i = 0; i < n; ++i)
-    if (d[i] > bound_ && std::isfinite(d[i])) d[i] = bound_;
-}
-
 namespace {
 
 // Nodes that spacing d means in a domain of this measure.
@@ -131,7 +124,5 @@ template class CallbackSpacing<2>;
 template class CallbackSpacing<3>;
 template class GridSpacing<2>;
 template class GridSpacing<3>;
-template class BoundedSpacing<2>;
-template class BoundedSpacing<3>;
 
 }  // namespace pnpbs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing function d(x): what the user gives, and what growth limit makes of it.
+// The spacing function d(x) as the user gives it. What the library makes of it is a SizingField.
 #pragma once
 
 #include <cstdint>
@@ -108,21 +108,6 @@ class GridSpacing : public LocalSpacing<Dim> {
   std::vector<double> values_;
 };
 
-// What another spacing says, held down to a bound: far above the size of the domain, where all d
-// mean the same, arithmetic with d would overflow. Values that are bad stay, to be reported.
-template <int Dim>
-class BoundedSpacing : public Spacing<Dim> {
- public:
-  BoundedSpacing(std::shared_ptr<const Spacing<Dim>> spacing, double bound)
-      : spacing_(std::move(spacing)), bound_(bound) {}
-  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
-  KnownValues<Dim> known_values() const override { return spacing_->known_values(); }
-
- private:
-  std::shared_ptr<const Spacing<Dim>> spacing_;
-  double bound_;
-};
-
 // Evaluates d and checks it: an Error(ErrorKind::spacing) names the point, the value and the
 // number of nodes that it would mean in a domain of this area (volume). Collective.
 template <int Dim>
@@ -146,7 +131,5 @@ extern template class CallbackSpacing<2>;
 extern template class CallbackSpacing<3>;
 extern template class GridSpacing<2>;
 extern template class GridSpacing<3>;
-extern template class BoundedSpacing<2>;
-extern template class BoundedSpacing<3>;
 
 }  // namespace pnpbs

@@ -137,9 +137,10 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   check_wishes();
   const std::vector<std::string> warnings = warnings_for(arguments, context, placement);
   if (talk) warn(warnings);
-  pnpbs_status status = PNPBS_OK;
-  if (statistic(placement, "finished", context) == 0)
-    status = check(pnpbs_placement_run(placement), context);
+  const bool finished = statistic(placement, "finished", context) != 0;
+  const pnpbs_status status =
+      finished ? static_cast<pnpbs_status>(statistic(placement, "status", context))
+               : check(pnpbs_placement_run(placement), context);
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
   progress.clear();
   if (talk) warn(warnings_for(arguments, context, placement), warnings.size());

@@ -13,7 +13,7 @@
 #include "run_kernel_suite.hpp"
 #include "spacing/cloud_spacing.hpp"
 #include "spacing/given_field.hpp"
-#include "spacing/multiplied_spacing.hpp"
+#include "spacing/sizing_field.hpp"
 #include "unit_box.hpp"
 
 namespace {
@@ -308,8 +308,8 @@ template <int Dim>
 void check_slopes(int n) {
   Random random(12);
   const auto spacing = spacing_from(mesh_of_cube<Dim>(random, n));
-  const pnpbs::MultipliedSpacing<Dim> twice(
-      std::make_shared<pnpbs::BoundedSpacing<Dim>>(spacing, 1e9), 2);
+  pnpbs::SizingField<Dim> twice = pnpbs::SizingField<Dim>(spacing).multiplied(2);
+  twice.set_bound(1e9);
   const pnpbs::KnownValues<Dim> known = twice.known_values();
   double square = 0;
   for (int k = 0; k < Dim; ++k) square += (0.5 - 0.3 * k) * (0.5 - 0.3 * k);

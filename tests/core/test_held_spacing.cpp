@@ -25,12 +25,13 @@ double expected_at(const Point3& place) {
   domain->check();
   const pnpbs::Settings settings{pnpbs::Options(), 3};
   pnpbs::PlacedSpacing<3> placed;
-  placed.unheld = std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing);
+  placed.d = pnpbs::SizingField<3>(std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing));
   placed.held.places.push_back({place, kHeld});
   const auto comm = pnpbs::serial_communicator();
   pnpbs::hold_down(*comm, placed, settings);
   pnpbs::Timers timers;
-  pnpbs::Level<3> level(comm, domain, placed.d, settings, timers);
+  pnpbs::Level<3> level(comm, domain, std::make_shared<pnpbs::SizingField<3>>(placed.d), settings,
+                        timers);
   level.grow_tree();
   return level.map().leaf_min_spacing(level.map().tree().leaf_at(place));
 }

@@ -11,8 +11,8 @@
 #include "base/space_vectors.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
-#include "spacing/held_spacing.hpp"
 #include "spacing/resolving_sources.hpp"
+#include "spacing/sizing_field.hpp"
 #include "surfaces.hpp"
 
 using pnpbs::difference;
@@ -23,17 +23,18 @@ namespace {
 
 constexpr double kSpacing = 0.2, kGrowth = 0.3;
 
-double resolved_at(const pnpbs::HeldSpacing<3>& spacing, const P& x) {
+double resolved_at(const pnpbs::SizingField<3>& spacing, const P& x) {
   double d;
   spacing.evaluate(1, &x, &d);
   return d;
 }
 
-pnpbs::HeldSpacing<3> resolved(const pnpbs::VolumeDomain& domain) {
-  const auto raw = std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing);
-  return {raw,
-          pnpbs::resolving_sources(*raw, domain, pnpbs::NodeLimit(1'000'000), pnpbs::kResolved),
-          kGrowth};
+pnpbs::SizingField<3> resolved(const pnpbs::VolumeDomain& domain) {
+  pnpbs::SizingField<3> field(std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing));
+  field.resolve(
+      pnpbs::resolving_sources(field, domain, pnpbs::NodeLimit(1'000'000), pnpbs::kResolved),
+      kGrowth);
+  return field;
 }
 
 // Where the limit is `at_surface` all over a surface, `gap` away from it: sources are up to 1.5
@@ -141,7 +142,7 @@ START_TEST(a_plate) {
   pnpbs::VolumeDomain domain;
   domain.add_box({0, 0, 0}, {1, 1, kThick}, 1);
   domain.check();
-  const pnpbs::HeldSpacing<3> spacing = resolved(domain);
+  const pnpbs::SizingField<3> spacing = resolved(domain);
   Random random(3);
   for (int n = 0; n < 1000; ++n) {
     const P x = random.point<3>({{0, 0, 0}, {1, 1, kThick}});
@@ -157,7 +158,7 @@ START_TEST(a_gap) {
   domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
   domain.add_box({0.2, 0.2, 0.5 - kWide / 2}, {0.8, 0.8, 0.5 + kWide / 2}, 2);
   domain.check();
-  const pnpbs::HeldSpacing<3> spacing = resolved(domain);
+  const pnpbs::SizingField<3> spacing = resolved(domain);
   Random random(4);
   for (int n = 0; n < 1000; ++n) {
     const P x = random.point<3>({{0.3, 0.3, 0.5 + kWide / 2}, {0.7, 0.7, 1}});
@@ -171,7 +172,7 @@ START_TEST(a_block) {
   pnpbs::VolumeDomain domain;
   domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
   domain.check();
-  const pnpbs::HeldSpacing<3> spacing = resolved(domain);
+  const pnpbs::SizingField<3> spacing = resolved(domain);
   Random random(5);
   for (int n = 0; n < 200; ++n)
     ck_assert_double_eq(resolved_at(spacing, random.point<3>({{0, 0, 0}, {1, 1, 1}})), kSpacing);
@@ -189,7 +190,7 @@ START_TEST(a_wedge) {
   pnpbs::VolumeDomain domain;
   domain.add_surface(pnpbs::SurfaceRole::boundary, 6, xyz, 8, corners, nullptr);
   domain.check();
-  const pnpbs::HeldSpacing<3> spacing = resolved(domain);
+  const pnpbs::SizingField<3> spacing = resolved(domain);
   for (double r = 0; r < 1.5; r += 0.05) {
     // On the bisector: the wall is as thick there as the way across is long.
     const P x{r * std::cos(angle / 2), r * std::sin(angle / 2), 0.5};

@@ -7,14 +7,13 @@
 #include "base/error.hpp"
 #include "geometry/expect_error.hpp"
 #include "level_run.hpp"
+#include "limited_spacing.hpp"
 #include "open_ways.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
-#include "spacing/growth_limit.hpp"
 #include "spacing/steepest_growth.hpp"
 
 using pnpbs::GridSpacing;
-using GrowthLimitedSpacing = pnpbs::GrowthLimitedSpacing<2>;
 using pnpbs::PlaneDomain;
 using shapes::add_chain;
 using shapes::add_loop;
@@ -38,16 +37,15 @@ constexpr double kGrowth = 0.15;
 struct Limited {
   PlaneDomain domain;
   Plane raw;
-  std::unique_ptr<GrowthLimitedSpacing> spacing;
+  pnpbs::SizingField<2> spacing;
 
   Limited(const Build& build, Plane d, double growth = kGrowth) : raw(std::move(d)) {
     build(domain);
     domain.check();
-    spacing = std::make_unique<GrowthLimitedSpacing>(pnpbs::serial_communicator(),
-                                                     open_ways(domain, *spacing_of(raw)),
-                                                     spacing_of(raw), growth, 1'000'000'000);
+    spacing = limited_spacing<2>(pnpbs::serial_communicator(), open_ways(domain, *spacing_of(raw)),
+                                 spacing_of(raw), growth, 1'000'000'000);
   }
-  double at(const P& x) const { return value_at<2>(*spacing, x); }
+  double at(const P& x) const { return value_at<2>(spacing, x); }
   double raw_at(const P& x) const { return raw(x[0], x[1]); }
 };
 
@@ -442,16 +440,15 @@ START_TEST(growth_limit_reports_bad_values) {
   add_square(domain);
   domain.check();
   expect_error(pnpbs::ErrorKind::spacing, {"d = -1 at ("}, [&] {
-    GrowthLimitedSpacing(pnpbs::serial_communicator(),
-                         open_ways(domain, *spacing_of(constant(0.1))),
-                         spacing_of([](double x, double y) {
-                           return std::hypot(x - 0.5, y - 0.5) < 0.3 ? -1 : 0.1;
-                         }),
-                         0.1, 1000000);
+    limited_spacing<2>(pnpbs::serial_communicator(), open_ways(domain, *spacing_of(constant(0.1))),
+                       spacing_of([](double x, double y) {
+                         return std::hypot(x - 0.5, y - 0.5) < 0.3 ? -1 : 0.1;
+                       }),
+                       0.1, 1000000);
   });
   // What is bad later, where nobody has looked, stays and is seen then.
   bool broken = false;
-  const GrowthLimitedSpacing limited(
+  const pnpbs::SizingField<2> limited = limited_spacing<2>(
       pnpbs::serial_communicator(), open_ways(domain, *spacing_of(constant(0.1))),
       spacing_of([&broken](double, double) { return broken ? std::nan("") : 0.1; }), 0.1, 1000000);
   broken = true;

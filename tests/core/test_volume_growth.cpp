@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "comm/communicator.hpp"
+#include "limited_spacing.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
-#include "spacing/growth_limit.hpp"
 #include "volume_growth.hpp"
 
 using P3 = pnpbs::Point<3>;
@@ -22,8 +22,8 @@ double value_at(const pnpbs::Spacing<3>& spacing, const P3& x) {
 
 // Never more than d itself; of the exact answer at least `least` and at most `most`.
 void expect_limited(const Block& block, double min, double max, std::uint64_t seed) {
-  const pnpbs::GrowthLimitedSpacing<3> limited(pnpbs::serial_communicator(), block.ways(),
-                                               block.spacing(), Block::kGrowth, 1'000'000'000);
+  const pnpbs::SizingField<3> limited = limited_spacing<3>(
+      pnpbs::serial_communicator(), block.ways(), block.spacing(), Block::kGrowth, 1'000'000'000);
   Random random(seed);
   int tried = 0;
   while (tried < 4000) {

@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "core/level_run.hpp"
+#include "core/limited_spacing.hpp"
 #include "core/open_ways.hpp"
 #include "core/random.hpp"
 #include "core/volume_growth.hpp"
@@ -27,7 +28,7 @@ using rank_checks::comm;
 using rank_checks::expect;
 using shapes::add_loop;
 using shapes::rectangle;
-using Limited = pnpbs::GrowthLimitedSpacing<2>;
+using Limited = pnpbs::SizingField<2>;
 using P = pnpbs::Point<2>;
 
 constexpr std::int64_t kManyNodes = 1'000'000'000;
@@ -110,10 +111,12 @@ void check_case(const Case& c) {
   PlaneDomain domain;
   c.build(domain);
   domain.check();
-  const Limited alone(pnpbs::serial_communicator(), open_ways(domain, *spacing_of(c.d)),
-                      spacing_of(c.d), c.growth, kManyNodes);
+  const Limited alone =
+      limited_spacing<2>(pnpbs::serial_communicator(), open_ways(domain, *spacing_of(c.d)),
+                         spacing_of(c.d), c.growth, kManyNodes);
   const auto asked = std::make_shared<AskedTogether>(c.d);
-  const Limited together(comm, open_ways(domain, *asked), asked, c.growth, kManyNodes);
+  const Limited together =
+      limited_spacing<2>(comm, open_ways(domain, *asked), asked, c.growth, kManyNodes);
   const auto seed = static_cast<std::uint64_t>(comm->rank());
   expect_same_bits(alone, together, points_in(domain, 99, 5000),
                    std::string(c.name) + ": the same where all ask the same points");
@@ -122,20 +125,21 @@ void check_case(const Case& c) {
   expect_same_bits(alone, together, points_in(domain, seed, comm->rank() == 0 ? 3000 : 0),
                    std::string(c.name) + ": the same where one rank asks");
   // Copies are a band along the border, and some large leaves beside it.
-  const auto whole = static_cast<double>(alone.leaves_held());
+  const auto whole = static_cast<double>(alone.growth_limit()->leaves_held());
   const double share = whole / comm->size(),
-               max = comm->allreduce_max(static_cast<double>(together.leaves_held()));
+               max =
+                   comm->allreduce_max(static_cast<double>(together.growth_limit()->leaves_held()));
   expect(max <= share + 16 * std::sqrt(share) + 60, std::string(c.name) + ": a rank holds " +
                                                         std::to_string(max) + " of " +
                                                         std::to_string(whole) + " leaves");
-  expect(sum_over_ranks(together.leaves_held()) >= whole, "all leaves are somewhere");
+  expect(sum_over_ranks(together.growth_limit()->leaves_held()) >= whole,
+         "all leaves are somewhere");
 }
 
 void check_volume() {
   const volume_growth::Block block(true, {0.9, 0.3, 0.2});
   const auto limited = [&](const std::shared_ptr<const pnpbs::Communicator>& ranks) {
-    return std::make_unique<const pnpbs::GrowthLimitedSpacing<3>>(
-        ranks, block.ways(), block.spacing(), block.kGrowth, kManyNodes);
+    return limited_spacing<3>(ranks, block.ways(), block.spacing(), block.kGrowth, kManyNodes);
   };
   std::vector<pnpbs::Point<3>> points;
   Random random(static_cast<std::uint64_t>(comm->rank()));
@@ -144,8 +148,8 @@ void check_volume() {
     if (block.inside(x)) points.push_back(x);
   }
   std::vector<double> alone(points.size()), together(points.size());
-  limited(pnpbs::serial_communicator())->evaluate(std::ssize(points), points.data(), alone.data());
-  limited(comm)->evaluate(std::ssize(points), points.data(), together.data());
+  limited(pnpbs::serial_communicator()).evaluate(std::ssize(points), points.data(), alone.data());
+  limited(comm).evaluate(std::ssize(points), points.data(), together.data());
   expect(std::memcmp(alone.data(), together.data(), alone.size() * sizeof(double)) == 0,
          "a block in space: the same bits");
 }
@@ -169,9 +173,9 @@ void check_failures() {
   domain.check();
   const Plane even = constant(0.02);
   int beats = 0;
-  const auto make = [&](const Plane& d, std::int64_t max_nodes, const Limited::Beat& beat) {
+  const auto make = [&](const Plane& d, std::int64_t max_nodes, const std::function<void()>& beat) {
     const auto asked = std::make_shared<AskedTogether>(d);
-    const Limited limited(comm, open_ways(domain, *spacing_of(even)), asked, 0.1, max_nodes, beat);
+    limited_spacing<2>(comm, open_ways(domain, *spacing_of(even)), asked, 0.1, max_nodes, beat);
   };
   make(even, kManyNodes, [&] { ++beats; });
   // Whenever the last rank's monitor stops it, all stop.
@@ -196,8 +200,8 @@ void check_failures() {
   expect_failure(pnpbs::ErrorKind::spacing, "the option max_nodes allows 1500",
                  [&] { make(even, 1500, [] {}); });
   expect_failure(pnpbs::ErrorKind::memory, "max_memory", [&] {
-    const Limited limited(comm, open_ways(domain, *spacing_of(even)), spacing_of(even), 0.1,
-                          {kManyNodes, 1e5});
+    limited_spacing<2>(comm, open_ways(domain, *spacing_of(even)), spacing_of(even), 0.1,
+                       {kManyNodes, 1e5});
   });
 }
 

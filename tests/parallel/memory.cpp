@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One rank runs out of memory, at every place where it asks for much: every rank is told so, nobody
-// hangs, and a later run on the same context places the right nodes. The operators new below stand
-// in for a machine that has no more: they refuse one large request, or all from some on.
+// hangs, the placement is what it was before the call that failed, and a later run on the same
+// context places the right nodes. The operators new below stand in for a machine that has no more:
+// they refuse one large request, or all from some on.
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 
@@ -13,6 +14,8 @@
 #include <new>
 #include <string>
 #include <vector>
+
+#include "placement_view.hpp"
 
 namespace {
 
@@ -105,8 +108,19 @@ pnpbs_placement new_placement() {
   return placement;
 }
 
-// Everything in which ranks work together; the first error ends it.
-pnpbs_status whole_job(pnpbs_placement placement) {
+// What queries return, without requests that are refused: they are the test's own.
+PlacementView view_of(pnpbs_placement placement,
+                      PlacementView (*view)(pnpbs_placement) = view_before_call) {
+  const long refuse = until_refusal.exchange(-1);
+  PlacementView seen = view(placement);
+  until_refusal = refuse;
+  return seen;
+}
+
+// Everything in which ranks work together; the first error ends it. `before` is what queries return
+// before the call that fails.
+pnpbs_status whole_job(pnpbs_placement placement, PlacementView& before) {
+  before = view_of(placement);
   pnpbs_status status = pnpbs_placement_run(placement);
   if (status < 0) return status;
   std::int64_t nodes = 0, ghosts = 0, triangles = 0;
@@ -121,12 +135,14 @@ pnpbs_status whole_job(pnpbs_placement placement) {
   }
   expect(status == PNPBS_OK, "get_nodes");
   for (double& value : d) value = 0.9 * value + 0.001;
+  before = {};  // lists are made by these calls, which statistics count
   status = pnpbs_placement_ghost_count(placement, &ghosts);
   if (status < 0) return status;
   status = pnpbs_placement_get_triangles(placement, 0, &triangles, nullptr);
   if (status < 0) return status;
   status = pnpbs_placement_exchange_sizes(placement, nullptr, nullptr, nullptr);
   if (status < 0) return status;
+  before = view_of(placement);
   status = pnpbs_placement_set_spacing_at_nodes(placement, nodes, d.data());
   if (status < 0) return status;
   return pnpbs_placement_run(placement);
@@ -145,7 +161,8 @@ bool fails_well(int on_rank, long n, bool all_after, const std::string& right_ha
   refusals = 0;
   refuse_all_after = all_after;
   until_refusal = rank == on_rank ? n : -1;
-  const pnpbs_status status = whole_job(placement);
+  PlacementView before;
+  const pnpbs_status status = whole_job(placement, before);
   until_refusal = -1;
   long happened = refusals;
   MPI_Bcast(&happened, 1, MPI_LONG, on_rank, MPI_COMM_WORLD);
@@ -158,6 +175,9 @@ bool fails_well(int on_rank, long n, bool all_after, const std::string& right_ha
     const std::string wanted = size > 1 ? "rank " + std::to_string(on_rank) + ": " : "out of";
     expect(std::strncmp(pnpbs_last_error(context), wanted.c_str(), wanted.size()) == 0,
            name + ": another message");
+    const PlacementView after = view_of(placement, view_after_call);
+    expect(before == PlacementView{} || before == after,
+           name + ": changed " + before.difference(after));
     // The placement itself can go on, too.
     expect(pnpbs_placement_run(placement) >= 0, name + ": run again");
   } else {
@@ -166,7 +186,7 @@ bool fails_well(int on_rank, long n, bool all_after, const std::string& right_ha
   pnpbs_placement_destroy(&placement);
   if (n % 4 == 0) {
     placement = new_placement();
-    expect(whole_job(placement) >= 0 && hash_of(placement) == right_hash,
+    expect(whole_job(placement, before) >= 0 && hash_of(placement) == right_hash,
            name + ": other nodes in a later run on the context");
     pnpbs_placement_destroy(&placement);
   }
@@ -183,7 +203,8 @@ int main(int argc, char** argv) {
   expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
   pnpbs_placement placement = new_placement();
   asked = 0;
-  expect(whole_job(placement) >= 0, "undisturbed");
+  PlacementView before;
+  expect(whole_job(placement, before) >= 0, "undisturbed");
   long requests = asked;
   MPI_Allreduce(MPI_IN_PLACE, &requests, 1, MPI_LONG, MPI_MIN, MPI_COMM_WORLD);
   const std::string right_hash = hash_of(placement);

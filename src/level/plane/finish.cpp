@@ -94,7 +94,7 @@ std::vector<EdgeBand> edge_bands(Level<2>& level) {
 
 // In blocks of a few sweeps, within which the stars stay as they are. Surplus nodes leave the stars
 // before the first sweep, so that the others can fill their places, and the level after the block.
-FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps) {
+FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps, const StopTest& stops) {
   constexpr std::int64_t kBlock = method::kSweepsOnStars;
   const bool repairs = level.settings.repair.rounds > 0;
   // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
@@ -104,6 +104,10 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps) {
   FinishResults results;
   for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
        done += kBlock) {
+    if (done > 0 && stops()) {
+      results.stopped = true;
+      return results;
+    }
     make_finish_stars(level, {rings});
     const PhaseTimer timer(level.timers, Phase::sweeps);
     std::vector<std::int32_t> surplus;

@@ -111,21 +111,23 @@ void repair_slivers(Level<3>& level) {
 
 }  // namespace
 
-FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
+FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps, const StopTest& stops) {
   if (level.ground.surfaces_alone()) {
     sweep_on_surfaces(level, sweeps);
     put_on_level_sets(level);
-  } else {
-    if (sweeps > 0) make_finish_stars(level, {});
-    sweep_to_means(level, sweeps);
-    if (level.settings.repair.rounds > 0) {
-      repair_slivers(level);
-      if (sweeps > 0) {
-        sweep_to_means(level, method::kSweepsBetweenRepairs);
-        repair_slivers(level);
-      }
-    }
+    return {};
   }
+  FinishResults stopped;
+  stopped.stopped = true;
+  if (sweeps > 0) make_finish_stars(level, {});
+  sweep_to_means(level, sweeps);
+  if (level.settings.repair.rounds == 0) return {};
+  if (stops()) return stopped;
+  repair_slivers(level);
+  if (sweeps == 0) return {};
+  if (stops()) return stopped;
+  sweep_to_means(level, method::kSweepsBetweenRepairs);
+  repair_slivers(level);
   return {};
 }
 
