@@ -45,9 +45,19 @@ pnpbs_status create_context(pnpbs_context* handle, const auto& make_communicator
   return guarded([&] {
     require_pointer(handle, "context");
     *handle = nullptr;
-    auto context = std::make_shared<Context>();
-    context->communicator = make_communicator();
-    *handle = contexts().add(std::move(context));
+    const std::shared_ptr<Communicator> communicator = make_communicator();
+    pnpbs_context added = nullptr;
+    try {
+      agreed(*communicator, [&] {
+        auto context = std::make_shared<Context>();
+        context->communicator = communicator;
+        added = contexts().add(std::move(context));
+      });
+    } catch (...) {
+      if (added) contexts().remove(added);
+      throw;
+    }
+    *handle = added;
     return PNPBS_OK;
   });
 }
