@@ -38,16 +38,25 @@ void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const
   });
   const Halo& halo = tree.halo(hops, settings);
   const NodeExchange<Dim> travel{tree.tree(), tree.distribution(), halo, comm.rank(), halo_};
+  View<std::int32_t> stay;
+  std::int64_t kept = 0;
   const std::exception_ptr failure = failure_of([&] {
     const Buckets<Dim>& buckets = neighbourhood.buckets();
     const auto known_leaf = [&](std::int64_t i) {
       return buckets.knows(i) ? buckets.bucket_of(i) : -1;
     };
-    View<std::int32_t>& stay = nodes.order_scratch();
-    neighbourhood.keep_nodes(nodes, stay, travel.pack_leaving(nodes, known_leaf, outgoing, stay));
+    stay = nodes.order_scratch();
+    kept = travel.pack_leaving(nodes, known_leaf, outgoing, stay);
   });
+  std::vector<Bytes> incoming;
   agreed(comm, [&] {
-    travel.append_arriving(nodes, comm.exchange(halo.neighbours(), outgoing, failure));
+    incoming = comm.exchange(halo.neighbours(), outgoing, failure);
+    travel.reserve(nodes, kept, incoming);
+  });
+  // All ranks have what they need: from here on no node can be lost.
+  agreed(comm, [&] {
+    neighbourhood.keep_nodes(nodes, stay, kept);
+    travel.append_arriving(nodes, incoming);
   });
   hops_ = hops;
   exact_at_ = nodes.positions();

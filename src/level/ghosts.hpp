@@ -57,6 +57,8 @@ class Ghosts {
   // The next exchange must choose them.
   void choose_anew() { hops_ = 0; }
   void count_step() { ++steps_since_choice_; }
+  // Allocates memory for permute(), which then cannot fail.
+  void reserve_order(std::int64_t count) { halo_.reserve_order(count); }
   // The nodes were put into another order: what was at from(i) is at i now.
   void permute(const View<std::int32_t>& from, std::int64_t count) { halo_.permute(from, count); }
 

@@ -50,6 +50,11 @@ class HaloExchange {
   }
   void send(int rank, std::int32_t node) { send_[place(rank)].push_back(node); }
   void receive(int rank, std::int32_t node) { receive_[place(rank)].push_back(node); }
+  template <class Visit>
+  void for_received(const Visit& visit) const {
+    for (const std::vector<std::int32_t>& list : receive_)
+      for (const std::int32_t node : list) visit(node);
+  }
 
   std::int64_t neighbour_count() const { return static_cast<std::int64_t>(neighbours_.size()); }
   std::int64_t nodes_sent() const {
@@ -73,10 +78,14 @@ class HaloExchange {
     exchange_ = comm_->persistent_exchange(neighbours_, outgoing_, incoming_);
   }
 
+  // Allocates memory for permute(), which then cannot fail.
+  void reserve_order(std::int64_t count) {
+    if (!neighbours_.empty()) moved_to_.resize(static_cast<std::size_t>(count));
+  }
   // The nodes were put into another order: what was at from(i) is at i now.
   void permute(const View<std::int32_t>& from, std::int64_t count) {
     if (neighbours_.empty()) return;
-    moved_to_.resize(static_cast<std::size_t>(count));
+    reserve_order(count);
     for (std::int64_t i = 0; i < count; ++i)
       moved_to_[static_cast<std::size_t>(from(i))] = static_cast<std::int32_t>(i);
     for (auto* lists : {&send_, &receive_})
