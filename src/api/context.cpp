@@ -192,14 +192,13 @@ pnpbs_status pnpbs_context_create_checked_f(int32_t comm, const char* library,
 pnpbs_status pnpbs_context_destroy(pnpbs_context* context) { return destroy(context, contexts); }
 
 pnpbs_status pnpbs_finalize(void) {
-  return guarded([] {
-    if (computations > 0)
-      throw Error(ErrorKind::state,
-                  "a computation is in progress, here or in another thread: Kokkos cannot be ended "
-                  "now, nor from inside a callback");
-    end_kokkos();
+  try {
+    require_threads();  // in a forked process, the calls of other threads would never end
+    run_between_calls([] { end_kokkos(); });
     return PNPBS_OK;
-  });
+  } catch (...) {
+    return report_failure(nullptr);
+  }
 }
 
 pnpbs_status pnpbs_context_set(pnpbs_context context, const char* key, const char* value) {
