@@ -38,6 +38,11 @@
  *   callbacks   run on the calling thread, one at a time. Inside a callback only queries of the
  *               library work; anything else returns PNPBS_ERROR_STATE.
  *   threads     one host thread at a time per context; contexts are independent.
+ *   processes   a process that was forked after the first placement was created has none of the
+ *               library's threads: computing calls return PNPBS_ERROR_STATE there, unless `threads`
+ *               is 1. Fork before, or start the process by exec.
+ *   MPI         where a call of MPI fails on one rank, all ranks return PNPBS_ERROR_MPI. Later
+ *               calls work if MPI does. Only a failed collective operation may leave ranks waiting.
  *   side effects  nothing is printed, no signal handler is installed, the process is never ended.
  *   arithmetic  calls round to nearest, without traps or flushing to zero, whatever the settings
  *               of the calling thread; these apply in callbacks and again after the call.
@@ -163,7 +168,11 @@ PNPBS_API pnpbs_status pnpbs_context_create_checked_f(int32_t comm, const char *
 PNPBS_API pnpbs_status pnpbs_context_destroy(pnpbs_context *context);
 
 /** Finalises Kokkos if PNPBS initialised it. Optional: otherwise Kokkos runs until the process
- *  ends. Kokkos cannot be initialised twice, so computing calls fail afterwards. Local. */
+ *  ends. Kokkos cannot be initialised twice, so computing calls fail afterwards. Waits until the
+ *  calls of other threads that are in progress have returned. Calls that begin meanwhile return
+ *  PNPBS_ERROR_STATE; those that destroy an object wait instead. Local. Errors: PNPBS_ERROR_STATE
+ *  from inside a callback, while another thread finalises, or in a process that was forked after
+ *  Kokkos had started several threads. */
 PNPBS_API pnpbs_status pnpbs_finalize(void);
 
 /** Sets an option that placements created later on this context start with (see the options table,
@@ -947,8 +956,9 @@ PNPBS_API pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement place
 /** Ends an update of ghosts: waits for the values that the other ranks sent when they began, and
  *  fills those of the ghosts; those of this rank's nodes are unchanged. Local: does not wait for
  *  other ranks to end theirs. Errors: PNPBS_ERROR_STATE without an update in progress, or if nodes
- *  have moved since it began, which ends it; PNPBS_ERROR_ARGUMENT for another n or number of
- *  components, after which the update is still in progress.
+ *  have moved since it began, which ends it; PNPBS_ERROR_MPI on a rank that lacks some of the
+ *  values, which ends it; PNPBS_ERROR_ARGUMENT for another n or number of components, after which
+ *  the update is still in progress.
  *  @param[out] values  [n][components] of which those of the ghosts are filled; need not be the
  *                      array that the update began with */
 PNPBS_API pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_t n,

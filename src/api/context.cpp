@@ -45,9 +45,19 @@ pnpbs_status create_context(pnpbs_context* handle, const auto& make_communicator
   return guarded([&] {
     require_pointer(handle, "context");
     *handle = nullptr;
-    auto context = std::make_shared<Context>();
-    context->communicator = make_communicator();
-    *handle = contexts().add(std::move(context));
+    const std::shared_ptr<Communicator> communicator = make_communicator();
+    pnpbs_context added = nullptr;
+    try {
+      agreed(*communicator, [&] {
+        auto context = std::make_shared<Context>();
+        context->communicator = communicator;
+        added = contexts().add(std::move(context));
+      });
+    } catch (...) {
+      if (added) contexts().remove(added);
+      throw;
+    }
+    *handle = added;
     return PNPBS_OK;
   });
 }
@@ -182,14 +192,13 @@ pnpbs_status pnpbs_context_create_checked_f(int32_t comm, const char* library,
 pnpbs_status pnpbs_context_destroy(pnpbs_context* context) { return destroy(context, contexts); }
 
 pnpbs_status pnpbs_finalize(void) {
-  return guarded([] {
-    if (computations > 0)
-      throw Error(ErrorKind::state,
-                  "a computation is in progress, here or in another thread: Kokkos cannot be ended "
-                  "now, nor from inside a callback");
-    end_kokkos();
+  try {
+    require_threads();  // in a forked process, the calls of other threads would never end
+    run_between_calls([] { end_kokkos(); });
     return PNPBS_OK;
-  });
+  } catch (...) {
+    return report_failure(nullptr);
+  }
 }
 
 pnpbs_status pnpbs_context_set(pnpbs_context context, const char* key, const char* value) {

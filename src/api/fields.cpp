@@ -7,7 +7,7 @@ using namespace pnpbs::api;
 
 pnpbs_status pnpbs_placement_update_ghosts(pnpbs_placement placement, int64_t n, int32_t components,
                                            double* values) {
-  return local_change(placement, [&](Placement& p) {
+  return collective(placement, [&](Placement& p) {
     p.results().begin_ghost_update(n, components, values);
     p.results().end_ghost_update(n, components, values);
     return PNPBS_OK;
@@ -32,7 +32,7 @@ pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_
 
 pnpbs_status pnpbs_placement_add_from_ghosts(pnpbs_placement placement, int64_t n,
                                              int32_t components, double* values) {
-  return local_change(placement, [&](Placement& p) {
+  return collective(placement, [&](Placement& p) {
     p.results().add_from_ghosts(n, components, values);
     return PNPBS_OK;
   });

@@ -17,12 +17,12 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
     const Communicator& comm = object.placement->communicator();
-    std::vector<io::FileWish> wishes;
     agreed(comm, [&] {
-      wishes = wishes_of(n, paths, formats, elements, io::wished_of(*object.placement));
+      const std::vector<io::FileWish> wishes =
+          wishes_of(n, paths, formats, elements, io::wished_of(*object.placement));
+      require_same_wishes(comm, wishes);
+      io::write_files(*object.placement, object.output_fields, wishes);
     });
-    require_same_wishes(comm, wishes);
-    io::write_files(*object.placement, object.output_fields, wishes);
     return PNPBS_OK;
   });
 }
@@ -60,15 +60,17 @@ pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const c
                   "from inside a callback, only the monitor can write a checkpoint, when it is "
                   "called between two steps of this placement: not before the first nodes are "
                   "placed, on coarser levels, or in the finish");
-    agreed(object.placement->communicator(), [&] { require_pointer(path, "path"); });
-    io::write_checkpoint(*object.placement, path);
+    agreed(object.placement->communicator(), [&] {
+      require_pointer(path, "path");
+      io::write_checkpoint(*object.placement, path);
+    });
     return PNPBS_OK;
   });
 }
 
 pnpbs_status pnpbs_placement_read_checkpoint(pnpbs_placement placement, const char* path) {
   return collective(placement, [&](Placement& p) {
-    agreed(p.communicator(), [&] { require_pointer(path, "path"); });
+    require_pointer(path, "path");
     io::read_checkpoint(p, path);
     return PNPBS_OK;
   });

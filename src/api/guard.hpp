@@ -2,10 +2,10 @@
 // The way from a C call into the library and back: exceptions become a status and a message.
 #pragma once
 
-#include <atomic>
 #include <new>
 #include <string>
 
+#include "api/calls_in_progress.hpp"
 #include "api/floating_point.hpp"
 #include "api/handles.hpp"
 
@@ -52,23 +52,16 @@ inline void require_not_in_callback(const Context& context) {
                 "queries are allowed");
 }
 
-// Computations in progress on all contexts.
-inline std::atomic<int> computations{0};
-
 // Marks the context as computing while callbacks may run.
 class Computing {
  public:
   explicit Computing(Context& context) : context_(context) {
     require_not_in_callback(context);
     context_.computing = true;
-    ++computations;
   }
   Computing(const Computing&) = delete;
   Computing& operator=(const Computing&) = delete;
-  ~Computing() {
-    --computations;
-    context_.computing = false;
-  }
+  ~Computing() { context_.computing = false; }
 
  private:
   Context& context_;
@@ -79,6 +72,7 @@ template <class Body>
 pnpbs_status guarded(const Body& body) noexcept {
   const DefaultArithmetic arithmetic;
   try {
+    const CallInProgress call;
     return body();
   } catch (...) {
     return report_failure(nullptr);
@@ -93,10 +87,13 @@ Context& context_of(Object& object) {
 
 // A call on a handle: body(object).
 template <class Handle, class Body>
-pnpbs_status guarded(Handle handle, const Body& body) noexcept {
+pnpbs_status guarded(
+    Handle handle, const Body& body,
+    CallInProgress::WhileEnding while_ending = CallInProgress::WhileEnding::throws) noexcept {
   const DefaultArithmetic arithmetic;
   Context* context = nullptr;
   try {
+    const CallInProgress call(while_ending);
     const auto object = require(handle);
     context = &context_of(*object);
     try {
@@ -115,12 +112,13 @@ pnpbs_status guarded(Handle handle, const Body& body) noexcept {
 template <class Object, class Handle>
 pnpbs_status destroy(Handle* handle, Registry<Object, Handle>& (*registry)()) noexcept {
   if (!handle || !*handle) return PNPBS_OK;
-  return guarded(*handle, [&](Object& object) {
+  const auto remove = [&](Object& object) {
     require_not_in_callback(context_of(object));
     registry().remove(*handle);
     *handle = nullptr;
     return PNPBS_OK;
-  });
+  };
+  return guarded(*handle, remove, CallInProgress::WhileEnding::waits);
 }
 
 }  // namespace pnpbs::api

@@ -118,17 +118,18 @@ pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t n, const c
   return guarded(particles, [&](ParticlesObject& object) {
     const Computing computing(*object.context);
     const std::shared_ptr<const Communicator> comm = object.context->communicator;
-    std::vector<io::FileWish> wishes;
-    agreed(*comm,
-           [&] { wishes = wishes_of(n, paths, formats, nullptr, {object.particles->dimension}); });
-    require_same_wishes(*comm, wishes);
     const std::shared_ptr<PlacementObject> placement = object.placement.lock();
     const auto asks_to_stop = [&](double fraction) {
       return placement &&
              placement->placement->monitoring().asks_to_stop(fraction, object.particles->all);
     };
-    io::write_particles(comm, *object.particles, object.names, object.output_fields, wishes,
-                        asks_to_stop);
+    agreed(*comm, [&] {
+      const std::vector<io::FileWish> wishes =
+          wishes_of(n, paths, formats, nullptr, {object.particles->dimension});
+      require_same_wishes(*comm, wishes);
+      io::write_particles(comm, *object.particles, object.names, object.output_fields, wishes,
+                          asks_to_stop);
+    });
     return PNPBS_OK;
   });
 }

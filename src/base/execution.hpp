@@ -14,13 +14,11 @@
 
 #include "base/fixed_point.hpp"
 #include "base/function_ref.hpp"
+#include "base/view.hpp"
 
 namespace pnpbs {
 
 using Exec = Kokkos::DefaultHostExecutionSpace;
-
-template <class T>
-using View = Kokkos::View<T*, Kokkos::HostSpace>;
 
 // The first exception of the bodies of a parallel loop. An exception must not leave a parallel
 // region, because that ends the process, so it is stored here until all bodies have ended.
@@ -39,7 +37,8 @@ class FirstException {
 
 // Divides 0 <= i < n into one range of consecutive indices per thread and calls body(begin, end)
 // for each range that is not empty, concurrently. The body must not throw. This is the only
-// function that starts a Kokkos kernel, so that Kokkos' templates are compiled once.
+// function that starts a Kokkos kernel, so that Kokkos' templates are compiled once. Throws
+// Error(ErrorKind::state) in a forked process that lacks the threads (require_threads).
 void for_each_range(const char* label, std::int64_t n,
                     FunctionRef<void(std::int64_t begin, std::int64_t end)> body);
 
@@ -122,21 +121,11 @@ FixedPointSum fixed_point_sum_of(const char* label, std::int64_t n, const Body& 
                    [&](std::int64_t i, FixedPointSum& sum) { sum.add(body(i)); });
 }
 
-template <class T>
-View<T> make_view(const std::string& label, std::int64_t n) {
-  try {
-    return View<T>(Kokkos::view_alloc(Kokkos::WithoutInitializing, label),
-                   static_cast<std::size_t>(n));
-  } catch (const std::runtime_error&) {  // what Kokkos makes of a lack of memory
-    throw std::bad_alloc();
-  }
-}
-
 // Makes room for n entries and keeps the first `kept`.
 template <class T>
 void grow(View<T>& view, std::int64_t n, std::int64_t kept) {
   if (static_cast<std::int64_t>(view.extent(0)) >= n) return;
-  View<T> larger = make_view<T>(view.label(), n);
+  const View<T> larger(n);
   const View<T> old = view;
   for_each("pnpbs::grow", kept, [=](std::int64_t i) { larger(i) = old(i); });
   view = larger;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/kokkos_runtime.hpp"
 
+#include <pthread.h>
 #include <sched.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -21,6 +23,8 @@ namespace {
 
 std::mutex starting;
 bool started_here = false;
+std::atomic<int> running_threads{0};      // of Kokkos, once this library has seen it run
+std::atomic<int> threads_before_fork{0};  // if there were several, in a forked process
 
 int cores_we_may_use() {
   cpu_set_t set;
@@ -76,6 +80,17 @@ void watch_end(void (*before_end)()) {
   watching = true;
 }
 
+void note_fork() {
+  if (running_threads > 1) threads_before_fork = running_threads.load();
+}
+
+// Kokkos runs: from now on forks matter.
+void watch_forks() {
+  static const int watching = pthread_atfork(nullptr, nullptr, note_fork);
+  if (watching != 0) throw std::bad_alloc();
+  running_threads = Exec().concurrency();
+}
+
 int threads_of_environment() {
   for (const char* name : {"OMP_NUM_THREADS", "KOKKOS_NUM_THREADS"}) {
     const char* value = std::getenv(name);
@@ -90,9 +105,11 @@ int threads_of_environment() {
 }  // namespace
 
 void start_kokkos(std::int64_t threads, int ranks_on_node, void (*before_end)()) {
+  require_threads();
   const std::lock_guard<std::mutex> lock(starting);
   if (Kokkos::is_initialized()) {
     watch_end(before_end);
+    watch_forks();
     return;
   }
   if (Kokkos::is_finalized())
@@ -112,9 +129,21 @@ void start_kokkos(std::int64_t threads, int ranks_on_node, void (*before_end)())
   }
   started_here = true;
   watch_end(before_end);
+  watch_forks();
+}
+
+void require_threads() {
+  const int threads = threads_before_fork.load(std::memory_order_relaxed);
+  if (threads == 0) return;
+  throw Error(ErrorKind::state,
+              "this process was forked from one in which Kokkos had started " +
+                  std::to_string(threads) +
+                  " threads, and does not have them: fork before the first placement is created, "
+                  "start the process by exec, or set threads = 1 before");
 }
 
 void require_kokkos() {
+  require_threads();
   if (Kokkos::is_initialized()) return;
   throw Error(ErrorKind::kokkos, Kokkos::is_finalized()
                                      ? "Kokkos has been finalised in this process: nothing can be "
@@ -125,6 +154,7 @@ void require_kokkos() {
 bool kokkos_was_started() { return Kokkos::is_initialized() || Kokkos::is_finalized(); }
 
 void end_kokkos() {
+  require_threads();
   const std::lock_guard<std::mutex> lock(starting);
   if (started_here && Kokkos::is_initialized()) Kokkos::finalize();
 }

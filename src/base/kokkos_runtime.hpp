@@ -14,8 +14,12 @@ namespace pnpbs {
 // variable, a second start.
 void start_kokkos(std::int64_t threads, int ranks_on_node, void (*before_end)());
 
-// Throws Error(ErrorKind::kokkos) if Kokkos does not run (any more).
+// Throws Error(ErrorKind::kokkos) if Kokkos does not run (any more), and as require_threads does.
 void require_kokkos();
+
+// Throws Error(ErrorKind::state) if this process was forked from one in which Kokkos had several
+// threads: a fork copies the calling thread alone, and a kernel would wait for the others for ever.
+void require_threads();
 
 // Did anybody start Kokkos in this process?
 bool kokkos_was_started();

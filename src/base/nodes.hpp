@@ -160,6 +160,7 @@ struct Nodes {
   // Puts the nodes into the order given: new place i holds what was at from(i). Array by array,
   // into spare ones that are kept: nothing is allocated from one rebuild of the lists to the next.
   void permute(const View<std::int32_t>& from) {
+    make_spare();  // a lack of memory changes no array, or all would be in different orders
     for (int k = 0; k < Dim; ++k) {
       permute_array(x[k], spare_.real, from);
       permute_array(v[k], spare_.real, from);
@@ -247,7 +248,6 @@ struct Nodes {
 
   template <class T>
   void permute_array(NodeArray<T>& array, View<T>& spare, const View<std::int32_t>& from) {
-    make_room(spare, "pnpbs::Nodes::spare");
     const View<T> old = array.view(), ordered = spare;
     for_each("pnpbs::Nodes::permute", count, [=](std::int64_t i) { ordered(i) = old(from(i)); });
     std::swap(array.view(), spare);
@@ -257,6 +257,15 @@ struct Nodes {
   static void keep_in_array(NodeArray<T>& array, const View<std::int32_t>& places,
                             std::int64_t kept) {
     for (std::int64_t i = 0; i < kept; ++i) array(i) = array(places(i));
+  }
+
+  void make_spare() {
+    constexpr const char* kLabel = "pnpbs::Nodes::spare";
+    make_room(spare_.real, kLabel);
+    make_room(spare_.id, kLabel);
+    make_room(spare_.integer, kLabel);
+    make_room(spare_.flag, kLabel);
+    make_room(spare_.carrier, kLabel);
   }
 
   struct Spare {

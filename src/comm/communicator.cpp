@@ -12,10 +12,10 @@ namespace pnpbs {
 
 namespace {
 
-// Nobody to talk to.
-class NoExchange : public KnownExchange {
+// An exchange without neighbours.
+class NoExchange : public PersistentExchange {
  public:
-  void start() override {}
+  void start() noexcept override {}
   void wait() override {}
 };
 
@@ -27,13 +27,14 @@ class SerialCommunicator : public Communicator {
   std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const override {
     return outgoing;
   }
-  std::vector<Bytes> exchange(const std::vector<int>&, const std::vector<Bytes>&) const override {
+  std::vector<Bytes> exchange(const std::vector<int>&, const std::vector<Bytes>&,
+                              std::exception_ptr failure) const override {
+    if (failure) std::rethrow_exception(failure);
     return {};
   }
-  void exchange_known(const std::vector<int>&, const std::vector<Bytes>&,
-                      std::vector<Bytes>&) const override {}
-  std::unique_ptr<KnownExchange> known_exchange(const std::vector<int>&, const std::vector<Bytes>&,
-                                                std::vector<Bytes>&) const override {
+  std::unique_ptr<PersistentExchange> persistent_exchange(const std::vector<int>&,
+                                                          const std::vector<Bytes>&,
+                                                          std::vector<Bytes>&) const override {
     return std::make_unique<NoExchange>();
   }
   std::unique_ptr<RankFile> open_file(const std::string& path,
@@ -90,12 +91,24 @@ const AgreedError kNoRoomForText(ErrorKind::memory, kOutOfMemory);
 Communicator::Reduction Communicator::reduce_or_fail(Reduction mine,
                                                      std::exception_ptr failure) const {
   if (failure) mine.failed = size() - rank();
-  const Reduction all = reduce(mine);
+  Reduction all;
+  try {
+    all = reduce(mine);
+  } catch (...) {  // the other ranks wait for this one
+    if (!failure) failure = std::current_exception();
+    mine.failed = size() - rank();
+    all = reduce(mine);
+  }
   if (all.failed == 0) return all;
+  ++agreed_failures_;
   const int failed = size() - static_cast<int>(all.failed);
   FailureNote note;
   if (rank() == failed) note = describe(failure);
-  broadcast_bytes(reinterpret_cast<char*>(&note), sizeof note, failed);
+  try {
+    broadcast_bytes(reinterpret_cast<char*>(&note), sizeof note, failed);
+  } catch (...) {  // all ranks throw now, this one without the text
+    note = describe(std::current_exception());
+  }
   try {
     throw AgreedError(note.kind, "rank " + std::to_string(failed) + ": " + note.text.data());
   } catch (const std::bad_alloc&) {

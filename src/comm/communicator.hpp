@@ -5,8 +5,14 @@
 // reduction of one and the same form, in which each rank tells whether it has failed. A rank that
 // throws between two of them leaves for the end of the work it is in, where agree_on_failure has it
 // take part in that reduction; the others, wherever they are, then throw its failure, too. What all
-// ranks throw is an AgreedError, and is not told again. Only exchange() has no such beginning: who
-// calls it must be sure that its neighbours do.
+// ranks throw is an AgreedError, and is not told again. Exchanges between neighbours have no such
+// beginning: the ranks must have agreed before that all of them take part.
+//
+// The same holds where a call of MPI fails. The exchange is completed on all ranks, so that none
+// waits for a message, and the ranks that lack one throw. The tags of messages change whenever
+// ranks agree on a failure: a message that was left over then is never taken for one of a later
+// exchange. If MPI fails in a collective operation but a reduction, or sends nothing at all any
+// more, ranks may wait for ever.
 #pragma once
 
 #include <cstddef>
@@ -37,14 +43,18 @@ struct Message {
   Bytes bytes;
 };
 
-// One exchange between neighbours that can be done again and again: messages of known sizes from
-// and to buffers that stay where they are. Between start() and wait() these belong to it. Goes only
-// when its messages have arrived.
-class KnownExchange {
+// An exchange between neighbours that can be done again and again: messages of known sizes from
+// and to buffers that stay where they are. Between start() and wait() these belong to it. Its
+// destructor waits for messages that are on their way.
+class PersistentExchange {
  public:
-  virtual ~KnownExchange() = default;
-  virtual void start() = 0;  // needs no memory
-  virtual void wait() = 0;   // for this rank's messages; those of others do not matter
+  virtual ~PersistentExchange() = default;
+  // Posts the messages. All neighbours start; several exchanges may be under way at a time, and
+  // ranks start them in the same order. Does not throw and allocates no memory.
+  virtual void start() noexcept = 0;
+  // Waits for this rank's messages. Local: other ranks need not wait. Throws Error(ErrorKind::mpi)
+  // if one of them failed, when all have ended.
+  virtual void wait() = 0;
 };
 
 class Communicator {
@@ -74,19 +84,17 @@ class Communicator {
   virtual std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const = 0;
 
   // Sends outgoing[k] to rank neighbours[k] and returns what they sent. Every rank named must name
-  // us in its own call at the same time. Messages may be empty. Throws only when all messages have
-  // arrived.
+  // us in its own call at the same time. Messages may be empty. Collective, without a reduction at
+  // its beginning: the ranks agree once they know the sizes, also on `failure`, that of this rank's
+  // work before, if there is one. After that only MPI can fail: on a rank that lacks a message.
   virtual std::vector<Bytes> exchange(const std::vector<int>& neighbours,
-                                      const std::vector<Bytes>& outgoing) const = 0;
-  // The same for messages whose sizes both sides know: incoming[k] has the size of what comes.
-  virtual void exchange_known(const std::vector<int>& neighbours,
-                              const std::vector<Bytes>& outgoing,
-                              std::vector<Bytes>& incoming) const = 0;
-  // The same, to be started and waited for apart. Several may be under way at a time; ranks start
-  // them in the same order. Local.
-  virtual std::unique_ptr<KnownExchange> known_exchange(const std::vector<int>& neighbours,
-                                                        const std::vector<Bytes>& outgoing,
-                                                        std::vector<Bytes>& incoming) const = 0;
+                                      const std::vector<Bytes>& outgoing,
+                                      std::exception_ptr failure) const = 0;
+  // An exchange for messages whose sizes both sides know: incoming[k] has the size of what comes.
+  // The buffers must outlive it. Local.
+  virtual std::unique_ptr<PersistentExchange> persistent_exchange(
+      const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
+      std::vector<Bytes>& incoming) const = 0;
 
   // Opens an existing file for all ranks to write parts of. Collective; agreed. `name` stands for
   // the file in messages.
@@ -110,10 +118,14 @@ class Communicator {
                                const std::vector<int>& offsets, Bytes& all) const = 0;
   // Throws if that many bytes are too many for allgather_bytes().
   virtual int message_length(std::uint64_t size) const = 0;
+  // Failures that the ranks have agreed on so far, the same on all of them.
+  std::uint32_t agreed_failures() const { return agreed_failures_; }
 
  private:
   friend void agree_on_failure(const Communicator& comm, std::exception_ptr failure);
   Reduction reduce_or_fail(Reduction mine, std::exception_ptr failure = nullptr) const;
+
+  mutable std::uint32_t agreed_failures_ = 0;
 };
 
 std::shared_ptr<Communicator> serial_communicator();
@@ -138,6 +150,17 @@ void attempt(std::exception_ptr& failure, const Work& work) {
     work();
   } catch (...) {
     failure = std::current_exception();
+  }
+}
+
+// Runs a piece of this rank's work in any case, because other ranks wait for it, and keeps its
+// failure unless there is one already.
+template <class Work>
+void run_and_keep(std::exception_ptr& failure, const Work& work) {
+  try {
+    work();
+  } catch (...) {
+    if (!failure) failure = std::current_exception();
   }
 }
 

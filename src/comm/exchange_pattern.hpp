@@ -38,7 +38,13 @@ void fill_ghosts(const Communicator& comm, const ExchangePattern& pattern,
   const std::vector<Message> incoming = comm.sparse_all_to_all(outgoing);
   std::size_t k = 0;
   for (const Message& message : incoming) {
-    while (pattern.ranks[k] != message.rank) ++k;
+    while (k < pattern.ranks.size() && pattern.ranks[k] != message.rank) ++k;
+    if (k == pattern.ranks.size() ||
+        message.bytes.size() !=
+            sizeof(Value) * at(pattern.receive_offsets[k + 1] - pattern.receive_offsets[k]))
+      throw Error(ErrorKind::internal, "rank " + std::to_string(message.rank) +
+                                           " sent values of other nodes than the ghosts of this "
+                                           "rank");
     std::int64_t next = pattern.receive_offsets[k];
     for_records<Value>({message.bytes}, [&](const Value& value) {
       values[at(pattern.receive_nodes[at(next++)])] = value;

@@ -17,7 +17,7 @@ void GhostSum::pack(const Communicator& comm, const std::shared_ptr<const Exchan
     pattern_.reset();  // until all is made
     outgoing_ = exchange_buffers(pattern->receive_offsets, bytes_of_node);
     incoming_ = exchange_buffers(pattern->send_offsets, bytes_of_node);
-    exchange_ = comm.known_exchange(pattern->ranks, outgoing_, incoming_);
+    exchange_ = comm.persistent_exchange(pattern->ranks, outgoing_, incoming_);
     parts_.resize(pattern->send_nodes.size() * static_cast<std::size_t>(components));
     components_ = components;
     pattern_ = pattern;

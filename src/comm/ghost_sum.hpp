@@ -17,7 +17,8 @@ class GhostSum {
   // Copies the values of the ghosts. values: [nodes and ghosts][components]. Local.
   void pack(const Communicator& comm, const std::shared_ptr<const ExchangePattern>& pattern,
             std::int64_t components, const double* values);
-  // Sends what is packed, and waits for what comes. All ranks do, and none fails.
+  // Sends what is packed, and waits for what comes. All ranks do, after they have agreed that all
+  // of them have packed. Throws Error(ErrorKind::mpi) on a rank that lacks some of it.
   void exchange();
   // Adds what has come to the values of the owned nodes, of which there are n: the exact sum,
   // rounded once, so that no order of ranks matters. Local.
@@ -34,9 +35,9 @@ class GhostSum {
   std::shared_ptr<const ExchangePattern> pattern_;
   std::int64_t components_ = 0;
   std::vector<Bytes> outgoing_, incoming_;
-  std::vector<Part> by_node_;                // of the pattern
-  std::vector<double> parts_;                // [all that comes][components]
-  std::unique_ptr<KnownExchange> exchange_;  // between the buffers, and gone before them
+  std::vector<Part> by_node_;                     // of the pattern
+  std::vector<double> parts_;                     // [all that comes][components]
+  std::unique_ptr<PersistentExchange> exchange_;  // between the buffers, and gone before them
 };
 
 }  // namespace pnpbs

@@ -16,7 +16,7 @@ void GhostUpdate::pack(const Communicator& comm,
     pattern_.reset();  // until all is made
     outgoing_ = exchange_buffers(pattern->send_offsets, bytes_of_node);
     incoming_ = exchange_buffers(pattern->receive_offsets, bytes_of_node);
-    exchange_ = comm.known_exchange(pattern->ranks, outgoing_, incoming_);
+    exchange_ = comm.persistent_exchange(pattern->ranks, outgoing_, incoming_);
     pattern_ = pattern;
     components_ = components;
   }
@@ -31,7 +31,14 @@ void GhostUpdate::start() {
   exchange_->start();
 }
 
-void GhostUpdate::wait() { exchange_->wait(); }
+void GhostUpdate::wait() {
+  try {
+    exchange_->wait();
+  } catch (...) {
+    under_way_ = false;
+    throw;
+  }
+}
 
 void GhostUpdate::unpack(double* values) {
   const std::size_t bytes_of_node = static_cast<std::size_t>(components_) * sizeof(double);

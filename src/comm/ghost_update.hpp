@@ -25,9 +25,10 @@ class GhostUpdate {
   // Copies what is to be sent. values: [nodes and ghosts][components]. Local.
   void pack(const Communicator& comm, const std::shared_ptr<const ExchangePattern>& pattern,
             std::int64_t components, const double* values);
-  // What is packed. All ranks start, and none fails.
+  // Sends what is packed. All ranks start, after they have agreed that all of them have packed.
   void start();
-  // For what comes to this rank. Local: who sends it has started.
+  // Waits for the values of this rank's ghosts. Local. Throws Error(ErrorKind::mpi) if some did not
+  // come, which ends the update.
   void wait();
   // Fills the values of the ghosts. Local.
   void unpack(double* values);
@@ -38,7 +39,7 @@ class GhostUpdate {
   std::shared_ptr<const ExchangePattern> pattern_;
   std::int64_t components_ = 0;
   std::vector<Bytes> outgoing_, incoming_;
-  std::unique_ptr<KnownExchange> exchange_;  // between the buffers, and gone before them
+  std::unique_ptr<PersistentExchange> exchange_;  // between the buffers, and gone before them
   bool under_way_ = false;
 };
 

@@ -15,6 +15,7 @@
 
 #include "comm/mpi_calls.hpp"
 #include "comm/mpi_file.hpp"
+#include "comm/mpi_messages.hpp"
 #include "comm/mpi_sparse_exchange.hpp"
 #endif
 
@@ -26,144 +27,101 @@ namespace {
 
 using mpi::check;
 using mpi::count;
-using mpi::for_pieces;
 using mpi::kPiece;
+using mpi::pieces;
+
+bool mpi_has_ended() {
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  return finalized != 0;
+}
 
 // After it has ended MPI would abort the process. Asked where calls begin to talk.
 void require_mpi_runs() {
-  int finalized = 0;
-  MPI_Finalized(&finalized);
-  if (finalized)
+  if (mpi_has_ended())
     throw Error(ErrorKind::mpi,
                 "MPI is already finalised: nothing can be computed over its ranks any more");
 }
 
-void wait_for(std::vector<MPI_Request>& requests) {
-  check(MPI_Waitall(count(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+std::uint64_t pieces_of(const std::vector<Bytes>& messages) {
+  std::uint64_t all = 0;
+  for (const Bytes& bytes : messages) all += pieces(bytes.size());
+  return all;
 }
 
-// One message to and from each neighbour.
+// One message to and from each neighbour, in pieces. The memory must have been reserved.
 void post(MPI_Comm comm, int tag, const std::vector<int>& neighbours,
-          const std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming,
-          std::vector<MPI_Request>& requests) {
+          const std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming, MpiMessages& messages) {
   for (std::size_t k = 0; k < neighbours.size(); ++k)
-    for_pieces(incoming[k].size(), [&](std::uint64_t at, int length) {
-      MPI_Irecv(incoming[k].data() + at, length, MPI_BYTE, neighbours[k], tag, comm,
-                &requests.emplace_back());
+    mpi::for_pieces(incoming[k].size(), [&](std::uint64_t at, int length) {
+      messages.receive(incoming[k].data() + at, length, neighbours[k], tag, comm);
     });
   for (std::size_t k = 0; k < neighbours.size(); ++k)
-    for_pieces(outgoing[k].size(), [&](std::uint64_t at, int length) {
-      MPI_Isend(outgoing[k].data() + at, length, MPI_BYTE, neighbours[k], tag, comm,
-                &requests.emplace_back());
+    mpi::for_pieces(outgoing[k].size(), [&](std::uint64_t at, int length) {
+      messages.send(outgoing[k].data() + at, length, neighbours[k], tag, comm);
     });
 }
-
-class MpiKnownExchange : public KnownExchange {
- public:
-  MpiKnownExchange(MPI_Comm comm, int tag, const std::vector<int>& neighbours,
-                   const std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming)
-      : comm_(comm), tag_(tag), neighbours_(neighbours), outgoing_(outgoing), incoming_(incoming) {
-    std::uint64_t messages = 0;
-    for (const Bytes& bytes : outgoing) messages += mpi::pieces(bytes.size());
-    for (const Bytes& bytes : incoming) messages += mpi::pieces(bytes.size());
-    requests_.reserve(messages);
-  }
-  MpiKnownExchange(const MpiKnownExchange&) = delete;
-  MpiKnownExchange& operator=(const MpiKnownExchange&) = delete;
-  ~MpiKnownExchange() override {
-    int finalized = 0;
-    MPI_Finalized(&finalized);
-    if (!finalized && !requests_.empty())
-      MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
-  }
-
-  void start() override { post(comm_, tag_, neighbours_, outgoing_, incoming_, requests_); }
-  void wait() override {
-    require_mpi_runs();
-    wait_for(requests_);
-    requests_.clear();
-  }
-
- private:
-  MPI_Comm comm_;
-  int tag_;
-  const std::vector<int> neighbours_;
-  const std::vector<Bytes>& outgoing_;
-  std::vector<Bytes>& incoming_;
-  std::vector<MPI_Request> requests_;  // under way
-};
 
 class MpiCommunicator : public Communicator {
  public:
-  explicit MpiCommunicator(MPI_Comm parent) {
-    check(MPI_Comm_dup(parent, &comm_), "MPI_Comm_dup");
-    MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN);  // nothing of ours ends the process
-    MPI_Comm_rank(comm_, &rank_);
-    MPI_Comm_size(comm_, &size_);
-    MPI_Comm node;
-    check(MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node),
-          "MPI_Comm_split_type");
-    MPI_Comm_size(node, &ranks_on_node_);
-    MPI_Comm_free(&node);
-    const auto ranks = static_cast<std::size_t>(size_);
-    requests_.reserve(2 * ranks);
-    sizes_in_.resize(ranks);
-    sizes_out_.resize(ranks);
-    check(MPI_Type_contiguous(sizeof(Reduction), MPI_BYTE, &reduction_), "MPI_Type_contiguous");
-    check(MPI_Type_commit(&reduction_), "MPI_Type_commit");
-    check(MPI_Op_create(combine, 1, &combining_), "MPI_Op_create");
+  // Allocates the memory for as many neighbours as there can be, so that exchanges need none.
+  explicit MpiCommunicator(int ranks) : sizes_in_(index(ranks)), sizes_out_(index(ranks)) {
+    messages_.reserve(2 * static_cast<std::uint64_t>(ranks));
   }
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;
   ~MpiCommunicator() override {
-    int finalized = 0;
-    MPI_Finalized(&finalized);
-    if (finalized) return;  // to free anything would abort
-    MPI_Op_free(&combining_);
-    MPI_Type_free(&reduction_);
-    MPI_Comm_free(&comm_);
+    if (mpi_has_ended()) return;  // to free anything would abort
+    if (combining_ != MPI_OP_NULL) MPI_Op_free(&combining_);
+    if (reduction_ != MPI_DATATYPE_NULL) MPI_Type_free(&reduction_);
+    if (comm_ != MPI_COMM_NULL) MPI_Comm_free(&comm_);
+  }
+
+  // Duplicates the communicator. Collective.
+  void connect(MPI_Comm parent) {
+    check(MPI_Comm_dup(parent, &comm_), "MPI_Comm_dup");
+    // No error of this library's calls ends the process.
+    check(MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    check(MPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
+    check(MPI_Comm_size(comm_, &size_), "MPI_Comm_size");
+    MPI_Comm node;
+    check(MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node),
+          "MPI_Comm_split_type");
+    const int code = MPI_Comm_size(node, &ranks_on_node_);
+    check(MPI_Comm_free(&node), "MPI_Comm_free");
+    check(code, "MPI_Comm_size");
+    check(MPI_Type_contiguous(sizeof(Reduction), MPI_BYTE, &reduction_), "MPI_Type_contiguous");
+    check(MPI_Type_commit(&reduction_), "MPI_Type_commit");
+    check(MPI_Op_create(combine, 1, &combining_), "MPI_Op_create");
   }
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   int ranks_on_node() const override { return ranks_on_node_; }
 
-  // Sizes first, then the messages, in pieces of limited size: those of a rank that finds no room
-  // here are received one by one and dropped, because its neighbours must not wait for ever. All
-  // memory is found before the first receive is posted: what is under way must stay where it is.
+  // Sizes first, then the messages, in pieces of limited size. Memory is allocated between the two,
+  // and only if that was possible on all ranks messages are sent.
   std::vector<Bytes> exchange(const std::vector<int>& neighbours,
-                              const std::vector<Bytes>& outgoing) const override {
-    require_mpi_runs();
-    exchange_sizes(neighbours, outgoing);
+                              const std::vector<Bytes>& outgoing,
+                              std::exception_ptr failure) const override {
     std::vector<Bytes> incoming;
-    std::exception_ptr failure;
+    MpiMessages messages;
+    run_and_keep(failure, [&] { exchange_sizes(neighbours, outgoing); });
     attempt(failure, [&] {
       incoming.resize(neighbours.size());
       for (std::size_t k = 0; k < neighbours.size(); ++k) incoming[k].resize(sizes_in_[k]);
-      reserve_requests(outgoing, incoming);
+      messages.reserve(pieces_of(outgoing) + pieces_of(incoming));
     });
-    if (failure) {
-      exchange_in_turn(neighbours, outgoing, nullptr);
-      std::rethrow_exception(failure);
-    }
-    exchange_at_once(neighbours, outgoing, incoming);
+    agree_on_failure(*this, failure);
+    post(comm_, tag(kDataTag), neighbours, outgoing, incoming, messages);
+    messages.wait();
     return incoming;
   }
 
-  // Throws for no lack of memory: nobody is ready to be told.
-  void exchange_known(const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
-                      std::vector<Bytes>& incoming) const override {
-    std::exception_ptr failure;
-    attempt(failure, [&] { reserve_requests(outgoing, incoming); });
-    if (!failure) return exchange_at_once(neighbours, outgoing, incoming);
-    for (std::size_t k = 0; k < neighbours.size(); ++k) sizes_in_[k] = incoming[k].size();
-    exchange_in_turn(neighbours, outgoing, &incoming);
-  }
-
-  std::unique_ptr<KnownExchange> known_exchange(const std::vector<int>& neighbours,
-                                                const std::vector<Bytes>& outgoing,
-                                                std::vector<Bytes>& incoming) const override {
-    return std::make_unique<MpiKnownExchange>(comm_, kKnownTag, neighbours, outgoing, incoming);
+  std::unique_ptr<PersistentExchange> persistent_exchange(
+      const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
+      std::vector<Bytes>& incoming) const override {
+    return std::make_unique<MpiPersistentExchange>(*this, neighbours, outgoing, incoming);
   }
 
   // The agreement at its end keeps the next exchange from mixing with this one: nobody begins that
@@ -175,7 +133,7 @@ class MpiCommunicator : public Communicator {
     attempt(failure, [&] {
       for (const Message& message : outgoing)
         if (message.rank == rank_) incoming.push_back(message);
-      exchange.emplace(comm_, rank_, outgoing);
+      exchange.emplace(comm_, rank_, tag(kSparseTag), outgoing);
     });
     agree_on_failure(*this, failure);
     if (size_ == 1) return incoming;
@@ -228,72 +186,62 @@ class MpiCommunicator : public Communicator {
   int message_length(std::uint64_t size) const override { return count(size); }
 
  private:
-  // And those of sparse exchanges. What is waited for later must not meet what comes between.
-  static constexpr int kSizeTag = 1, kDataTag = 2, kKnownTag = 6;
+  // Messages that are waited for later must not meet those that come in between.
+  static constexpr int kSizeTag = 1, kDataTag = 2, kPersistentTag = 3, kSparseTag = 4;
+  static constexpr int kTags = kSparseTag + MpiSparseExchange::kTags;
 
+  class MpiPersistentExchange : public PersistentExchange {
+   public:
+    MpiPersistentExchange(const MpiCommunicator& comm, const std::vector<int>& neighbours,
+                          const std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming)
+        : comm_(comm), neighbours_(neighbours), outgoing_(outgoing), incoming_(incoming) {
+      messages_.reserve(pieces_of(outgoing) + pieces_of(incoming));
+    }
+    MpiPersistentExchange(const MpiPersistentExchange&) = delete;
+    MpiPersistentExchange& operator=(const MpiPersistentExchange&) = delete;
+    ~MpiPersistentExchange() override {
+      if (messages_.none() || mpi_has_ended()) return;
+      try {
+        messages_.wait();
+      } catch (...) {  // the values are dropped anyway
+      }
+    }
+
+    void start() noexcept override {
+      post(comm_.comm_, comm_.tag(kPersistentTag), neighbours_, outgoing_, incoming_, messages_);
+    }
+    void wait() override {
+      require_mpi_runs();
+      messages_.wait();
+    }
+
+   private:
+    const MpiCommunicator& comm_;  // used by start() alone
+    const std::vector<int> neighbours_;
+    const std::vector<Bytes>& outgoing_;
+    std::vector<Bytes>& incoming_;
+    MpiMessages messages_;
+  };
+
+  static std::size_t index(int rank) { return static_cast<std::size_t>(rank); }
+
+  // MPI has tags up to 32767 at least.
+  int tag(int of_kind) const {
+    constexpr std::uint32_t kCycle = 32768 / kTags;
+    return static_cast<int>(agreed_failures() % kCycle) * kTags + of_kind;
+  }
+
+  // A size that does not arrive is unknown, and the exchange goes no further then.
   void exchange_sizes(const std::vector<int>& neighbours,
                       const std::vector<Bytes>& outgoing) const {
-    requests_.clear();
+    require_mpi_runs();
+    constexpr int kBytes = sizeof(std::uint64_t);
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
       sizes_out_[k] = outgoing[k].size();
-      MPI_Irecv(&sizes_in_[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_,
-                &requests_.emplace_back());
-      MPI_Isend(&sizes_out_[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_,
-                &requests_.emplace_back());
+      messages_.receive(&sizes_in_[k], kBytes, neighbours[k], tag(kSizeTag), comm_);
+      messages_.send(&sizes_out_[k], kBytes, neighbours[k], tag(kSizeTag), comm_);
     }
-    wait_for(requests_);
-  }
-
-  void reserve_requests(const std::vector<Bytes>& outgoing,
-                        const std::vector<Bytes>& incoming) const {
-    std::uint64_t pieces = 0;
-    for (const Bytes& bytes : outgoing) pieces += mpi::pieces(bytes.size());
-    for (const Bytes& bytes : incoming) pieces += mpi::pieces(bytes.size());
-    requests_.reserve(pieces);
-  }
-
-  void exchange_at_once(const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
-                        std::vector<Bytes>& incoming) const {
-    requests_.clear();
-    post(comm_, kDataTag, neighbours, outgoing, incoming, requests_);
-    wait_for(requests_);
-  }
-
-  // Needs no memory: a piece to and from one neighbour at a time. What comes goes to `incoming`, or
-  // is dropped if that is NULL. Ranks that do this take their pairs in the same order, that of the
-  // lower rank and then the higher one, so that no ring of them waits for each other.
-  void exchange_in_turn(const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
-                        std::vector<Bytes>* incoming) const {
-    const auto pair_with = [this](int other) {
-      return std::pair(std::min(rank_, other), std::max(rank_, other));
-    };
-    std::pair<int, int> last(-1, -1);
-    for (std::size_t n = 0; n < neighbours.size(); ++n) {
-      std::size_t next = neighbours.size();
-      for (std::size_t k = 0; k < neighbours.size(); ++k)
-        if (pair_with(neighbours[k]) > last &&
-            (next == neighbours.size() || pair_with(neighbours[k]) < pair_with(neighbours[next])))
-          next = k;
-      last = pair_with(neighbours[next]);
-      exchange_with(neighbours[next], outgoing[next], sizes_in_[next],
-                    incoming ? (*incoming)[next].data() : nullptr);
-    }
-  }
-
-  void exchange_with(int neighbour, const Bytes& outgoing, std::uint64_t size, char* to) const {
-    const std::uint64_t end = std::max<std::uint64_t>(outgoing.size(), size);
-    const auto partner = [&](bool any) { return any ? neighbour : MPI_PROC_NULL; };
-    const auto length_of = [](std::uint64_t all, std::uint64_t at) {
-      return at < all ? static_cast<int>(std::min<std::uint64_t>(kPiece, all - at)) : 0;
-    };
-    for (std::uint64_t at = 0; at < end; at += kPiece) {
-      const int sent = length_of(outgoing.size(), at), received = length_of(size, at);
-      check(
-          MPI_Sendrecv(sent > 0 ? outgoing.data() + at : nullptr, sent, MPI_BYTE, partner(sent > 0),
-                       kDataTag, to && received > 0 ? to + at : dropped_.get(), received, MPI_BYTE,
-                       partner(received > 0), kDataTag, comm_, MPI_STATUS_IGNORE),
-          "MPI_Sendrecv");
-    }
+    messages_.wait();
   }
 
   static void combine(void* in, void* in_out, int* length, MPI_Datatype*) {
@@ -310,12 +258,27 @@ class MpiCommunicator : public Communicator {
   MPI_Datatype reduction_ = MPI_DATATYPE_NULL;
   MPI_Op combining_ = MPI_OP_NULL;
   int rank_ = 0, size_ = 1, ranks_on_node_ = 1;
-  // Kept, so that exchanges need no memory: requests, and the sizes of messages from and to as many
-  // neighbours as there may be.
-  mutable std::vector<MPI_Request> requests_;
+  // Sizes of the messages from and to neighbours, and the messages that bring them.
   mutable std::vector<std::uint64_t> sizes_in_, sizes_out_;
+  mutable MpiMessages messages_;
   std::unique_ptr<char[]> dropped_ = std::make_unique<char[]>(kPiece);
 };
+
+// All ranks have their memory before the first of them waits for the others.
+std::shared_ptr<Communicator> connected_to(MPI_Comm parent) {
+  int ranks = 0;
+  check(MPI_Comm_size(parent, &ranks), "MPI_Comm_size");
+  std::shared_ptr<MpiCommunicator> made;
+  std::exception_ptr failure;
+  attempt(failure, [&] { made = std::make_shared<MpiCommunicator>(ranks); });
+  const int mine = failure ? 1 : 0;
+  int all = 0;
+  check(MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, parent), "MPI_Allreduce");
+  if (failure) std::rethrow_exception(failure);
+  if (all != 0) throw Error(ErrorKind::memory, "another rank: " + std::string(kOutOfMemory));
+  made->connect(parent);
+  return made;
+}
 
 }  // namespace
 
@@ -332,7 +295,7 @@ std::shared_ptr<Communicator> mpi_communicator(std::int32_t fortran_handle) {
   if (comm == MPI_COMM_NULL)
     throw Error(ErrorKind::mpi, "the communicator (Fortran handle " +
                                     std::to_string(fortran_handle) + ") is MPI_COMM_NULL");
-  return std::make_shared<MpiCommunicator>(comm);
+  return connected_to(comm);
 }
 
 void require_our_mpi(const std::string& library) {

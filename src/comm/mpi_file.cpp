@@ -18,7 +18,7 @@ class MpiFile : public RankFile {
   // one; for the opening itself the handler of MPI_FILE_NULL counts.
   MpiFile(const std::string& path, std::string name) : name_(std::move(name)) {
     check(MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_));
-    MPI_File_set_errhandler(file_, MPI_ERRORS_RETURN);
+    check(MPI_File_set_errhandler(file_, MPI_ERRORS_RETURN));
   }
   MpiFile(const MpiFile&) = delete;
   MpiFile& operator=(const MpiFile&) = delete;
@@ -31,7 +31,7 @@ class MpiFile : public RankFile {
     MPI_Status status;
     check(MPI_File_write_at(file_, place, bytes.data(), size, MPI_BYTE, &status));
     int wrote = 0;
-    MPI_Get_count(&status, MPI_BYTE, &wrote);
+    check(MPI_Get_count(&status, MPI_BYTE, &wrote));
     if (wrote != size)  // how some file systems' drivers say that the disk is full
       throw Error(ErrorKind::file, "cannot write " + name_ + ": only " + std::to_string(wrote) +
                                        " of " + std::to_string(size) +

@@ -10,9 +10,8 @@ namespace pnpbs {
 
 namespace {
 
-// A message of one piece as it is; the size of a longer one, whose pieces follow. No other tags:
-// a rank that is done already may send to one that still looks for messages.
-constexpr int kWholeTag = 3, kLongTag = 4, kPieceTag = 5;
+// Calls of MPI that may fail before an exchange is given up.
+constexpr int kMostFailures = 100;
 
 bool is_long(const Message& message) { return message.bytes.size() > mpi::kPiece; }
 
@@ -28,17 +27,11 @@ char* room_for(std::vector<Message>& incoming, int rank, std::uint64_t size,
   return room;
 }
 
-// Is a message with this tag there?
-bool arrived(MPI_Comm comm, int tag, MPI_Status& status) {
-  int there = 0;
-  mpi::check(MPI_Iprobe(MPI_ANY_SOURCE, tag, comm, &there, &status), "MPI_Iprobe");
-  return there != 0;
-}
-
 }  // namespace
 
-MpiSparseExchange::MpiSparseExchange(MPI_Comm comm, int rank, const std::vector<Message>& outgoing)
-    : comm_(comm), rank_(rank), outgoing_(outgoing) {
+MpiSparseExchange::MpiSparseExchange(MPI_Comm comm, int rank, int first_tag,
+                                     const std::vector<Message>& outgoing)
+    : comm_(comm), rank_(rank), first_tag_(first_tag), outgoing_(outgoing) {
   std::uint64_t pieces = 0, sizes = 0;
   for (const Message& message : outgoing) {
     if (!is_long(message)) continue;
@@ -47,42 +40,71 @@ MpiSparseExchange::MpiSparseExchange(MPI_Comm comm, int rank, const std::vector<
   }
   sizes_.reserve(sizes);
   pieces_.reserve(pieces);
+  piece_.reserve(1);
   announced_.reserve(outgoing.size());
 }
 
 void MpiSparseExchange::run(std::vector<Message>& incoming, char* dropped,
                             std::exception_ptr& failure) {
-  send();
-  MPI_Request barrier = MPI_REQUEST_NULL;
-  for (int all_done = 0; !all_done;) {
-    receive_whole(incoming, dropped, failure);
-    receive_long(incoming, dropped, failure);
-    if (barrier != MPI_REQUEST_NULL)
-      mpi::check(MPI_Test(&barrier, &all_done, MPI_STATUS_IGNORE), "MPI_Test");
-    else if (all_received())
-      mpi::check(MPI_Ibarrier(comm_, &barrier), "MPI_Ibarrier");
+  send(failure);
+  int failures = 0;
+  for (bool all_done = false; !all_done;) {
+    const std::exception_ptr now = failure_of([&] {
+      receive_whole(incoming, dropped, failure);
+      receive_long(incoming, dropped, failure);
+      all_done = all_entered_barrier();
+    });
+    if (!now) continue;
+    if (!failure) failure = now;
+    if (++failures == kMostFailures) std::rethrow_exception(failure);
   }
-  mpi::check(MPI_Waitall(mpi::count(pieces_.size()), pieces_.data(), MPI_STATUSES_IGNORE),
-             "MPI_Waitall");
+  run_and_keep(failure, [&] { pieces_.wait(); });
 }
 
-void MpiSparseExchange::send() {
+// A message that could not be announced does not arrive, and nobody waits for it.
+bool MpiSparseExchange::announce(const void* bytes, int n, MPI_Datatype type, int to, int tag,
+                                 std::exception_ptr& failure) {
+  MPI_Request& request = announced_.emplace_back(MPI_REQUEST_NULL);
+  run_and_keep(failure, [&] {
+    mpi::check(MPI_Issend(bytes, n, type, to, tag, comm_, &request), "MPI_Issend");
+  });
+  return request != MPI_REQUEST_NULL;
+}
+
+void MpiSparseExchange::send(std::exception_ptr& failure) {
   for (const Message& message : outgoing_) {
     const Bytes& bytes = message.bytes;
     if (message.rank == rank_ || bytes.empty()) continue;
     if (!is_long(message)) {
-      MPI_Issend(bytes.data(), mpi::count(bytes.size()), MPI_BYTE, message.rank, kWholeTag, comm_,
-                 &announced_.emplace_back());
+      announce(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, message.rank, whole_tag(),
+               failure);
       continue;
     }
     sizes_.push_back(bytes.size());
-    MPI_Issend(&sizes_.back(), 1, MPI_UINT64_T, message.rank, kLongTag, comm_,
-               &announced_.emplace_back());
+    if (!announce(&sizes_.back(), 1, MPI_UINT64_T, message.rank, long_tag(), failure)) continue;
     mpi::for_pieces(bytes.size(), [&](std::uint64_t at, int length) {
-      MPI_Isend(bytes.data() + at, length, MPI_BYTE, message.rank, kPieceTag, comm_,
-                &pieces_.emplace_back());
+      pieces_.send(bytes.data() + at, length, message.rank, piece_tag(), comm_);
     });
   }
+}
+
+// Enters the barrier once this rank's messages have been received.
+bool MpiSparseExchange::all_entered_barrier() {
+  int all = 0;
+  if (entered_) {
+    mpi::check(MPI_Test(&barrier_, &all, MPI_STATUS_IGNORE), "MPI_Test");
+  } else if (all_received()) {
+    const int code = MPI_Ibarrier(comm_, &barrier_);
+    entered_ = code == MPI_SUCCESS || barrier_ != MPI_REQUEST_NULL;
+    mpi::check(code, "MPI_Ibarrier");
+  }
+  return all != 0;
+}
+
+bool MpiSparseExchange::arrived(int tag, MPI_Status& status) const {
+  int there = 0;
+  mpi::check(MPI_Iprobe(MPI_ANY_SOURCE, tag, comm_, &there, &status), "MPI_Iprobe");
+  return there != 0;
 }
 
 bool MpiSparseExchange::all_received() {
@@ -96,13 +118,13 @@ bool MpiSparseExchange::all_received() {
 void MpiSparseExchange::receive_whole(std::vector<Message>& incoming, char* dropped,
                                       std::exception_ptr& failure) {
   MPI_Status status;
-  if (!arrived(comm_, kWholeTag, status)) return;
+  if (!arrived(whole_tag(), status)) return;
   int size = 0;
   mpi::check(MPI_Get_count(&status, MPI_BYTE, &size), "MPI_Get_count");
   const int from = status.MPI_SOURCE;
   char* room = room_for(incoming, from, static_cast<std::uint64_t>(size), failure);
   mpi::check(
-      MPI_Recv(room ? room : dropped, size, MPI_BYTE, from, kWholeTag, comm_, MPI_STATUS_IGNORE),
+      MPI_Recv(room ? room : dropped, size, MPI_BYTE, from, whole_tag(), comm_, MPI_STATUS_IGNORE),
       "MPI_Recv");
 }
 
@@ -110,16 +132,15 @@ void MpiSparseExchange::receive_whole(std::vector<Message>& incoming, char* drop
 void MpiSparseExchange::receive_long(std::vector<Message>& incoming, char* dropped,
                                      std::exception_ptr& failure) {
   MPI_Status status;
-  if (!arrived(comm_, kLongTag, status)) return;
+  if (!arrived(long_tag(), status)) return;
   std::uint64_t size = 0;
   const int from = status.MPI_SOURCE;
-  mpi::check(MPI_Recv(&size, 1, MPI_UINT64_T, from, kLongTag, comm_, MPI_STATUS_IGNORE),
+  mpi::check(MPI_Recv(&size, 1, MPI_UINT64_T, from, long_tag(), comm_, MPI_STATUS_IGNORE),
              "MPI_Recv");
   char* room = room_for(incoming, from, size, failure);
   mpi::for_pieces(size, [&](std::uint64_t at, int length) {
-    mpi::check(MPI_Recv(room ? room + at : dropped, length, MPI_BYTE, from, kPieceTag, comm_,
-                        MPI_STATUS_IGNORE),
-               "MPI_Recv");
+    piece_.receive(room ? room + at : dropped, length, from, piece_tag(), comm_);
+    run_and_keep(failure, [&] { piece_.wait(); });
   });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/abandoned_files.hpp"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -12,7 +14,6 @@
 #include <random>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "base/mixed_hash.hpp"
 
@@ -60,22 +61,24 @@ std::string unfinished_name_beside(const std::string& target) {
       .string();
 }
 
+// By calls of the system: the iterators of std::filesystem end the process where memory is lacking.
 void remove_abandoned_beside(const std::string& target) noexcept {
+  DIR* folder = nullptr;
   try {
     const std::filesystem::path path(target);
     const std::string prefix = prefix_of(path);
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    std::vector<std::filesystem::path> abandoned;
-    for (const std::filesystem::directory_entry& entry :
-         std::filesystem::directory_iterator(folder)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with(prefix) && has_ended(std::string_view(name).substr(prefix.size())))
-        abandoned.push_back(entry.path());
+    const std::string parent = path.parent_path().string();
+    folder = ::opendir(parent.empty() ? "." : parent.c_str());
+    if (!folder) return;
+    while (const dirent* entry = ::readdir(folder)) {
+      const std::string_view name = entry->d_name;
+      if (name.starts_with(prefix) && has_ended(name.substr(prefix.size())))
+        ::unlinkat(::dirfd(folder), entry->d_name, 0);
     }
-    for (const std::filesystem::path& file : abandoned) ::unlink(file.c_str());
   } catch (...) {
     // They may stay; the new file counts.
   }
+  if (folder) ::closedir(folder);
 }
 
 }  // namespace pnpbs::io

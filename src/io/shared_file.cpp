@@ -106,39 +106,39 @@ void SharedFile::write_at_place(std::span<const char> bytes) {
   place_ += std::ssize(bytes);
 }
 
-// A rank's bytes go to rank 0 part by part; an empty one is the last. A rank that has failed still
-// keeps to this, so that nobody waits for ever.
+// The bytes of the ranks go to rank 0 part by part, one rank after the other. All ranks take part
+// in each step, so that all of them learn of a failure.
 void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
-  std::exception_ptr failure;
-  if (is_first()) {
-    Sink sink(to_descriptor(stream_, output_.quoted(), before_write_));
-    attempt(failure, [&] {
-      write(sink);
-      sink.flush();
-    });
+  agreed(*comm_, [&] {
+    Sink stream(to_descriptor(stream_, output_.quoted(), before_write_));
+    if (is_first()) {
+      write(stream);
+      stream.flush();
+    }
     for (int rank = 1; rank < comm_->size(); ++rank) {
-      for (;;) {
-        const Bytes part = comm_->exchange({rank}, {Bytes()})[0];
-        if (part.empty()) break;
-        attempt(failure, [&] {
-          sink.bytes(part.data(), part.size());
-          sink.flush();
-        });
+      if (rank == comm_->rank()) {
+        Sink sink([&](std::span<const char> bytes) { pass_to_first(bytes, stream); }, kPartSize);
+        write(sink);
+        sink.flush();
+        pass_to_first({}, stream);
+      } else {
+        while (pass_to_first({}, stream)) {
+        }
       }
     }
-  } else {
-    Sink sink(
-        [&](std::span<const char> bytes) {
-          comm_->exchange({0}, {Bytes(bytes.begin(), bytes.end())});
-        },
-        kPartSize);
-    attempt(failure, [&] {
-      write(sink);
-      sink.flush();
-    });
-    comm_->exchange({0}, {Bytes()});
+  });
+}
+
+// Brings a part of one rank to the stream of rank 0, and returns whether there was one. Collective.
+bool SharedFile::pass_to_first(std::span<const char> bytes, Sink& stream) {
+  if (comm_->allreduce_sum(static_cast<std::uint64_t>(bytes.size())) == 0) return false;
+  std::vector<Message> part;
+  if (!bytes.empty()) part.push_back({0, Bytes(bytes.begin(), bytes.end())});
+  for (const Message& message : comm_->sparse_all_to_all(part)) {
+    stream.bytes(message.bytes.data(), message.bytes.size());
+    stream.flush();
   }
-  agree_on_failure(*comm_, failure);
+  return true;
 }
 
 void SharedFile::close() {

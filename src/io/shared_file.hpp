@@ -54,6 +54,7 @@ class SharedFile {
   void append_at_places(const std::function<void(Sink&)>& write);
   void write_at_place(std::span<const char> bytes);
   void append_in_turn(const std::function<void(Sink&)>& write);
+  bool pass_to_first(std::span<const char> bytes, Sink& stream);
 
   std::shared_ptr<const Communicator> comm_;
   std::function<void()> before_write_;

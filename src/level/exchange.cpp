@@ -6,6 +6,17 @@
 
 namespace pnpbs {
 
+namespace {
+
+template <int Dim>
+void update_without_agreement(Level<Dim>& level) {
+  count_inexact_nodes(level);
+  const PhaseTimer timer(level.timers, Phase::exchange);
+  level.ghosts.update(level.nodes);
+}
+
+}  // namespace
+
 template <int Dim>
 void exchange(Level<Dim>& level, int hops) {
   if (!level.distributed()) return;
@@ -26,7 +37,7 @@ void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure) {
     agree_on_failure(*level.comm, failure);
     exchange(level, hops);
   } else {
-    update_ghosts(level);
+    run_and_keep(failure, [&] { update_without_agreement(level); });
     attempt(failure, [&] { level.neighbourhood.measure_displacement(level.nodes); });
   }
 }
@@ -34,9 +45,8 @@ void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure) {
 template <int Dim>
 void update_ghosts(Level<Dim>& level) {
   if (!level.distributed()) return;
-  count_inexact_nodes(level);
-  const PhaseTimer timer(level.timers, Phase::exchange);
-  level.ghosts.update(*level.comm, level.nodes);
+  agree_on_failure(*level.comm, nullptr);
+  update_without_agreement(level);
 }
 
 template <int Dim>

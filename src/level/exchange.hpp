@@ -15,11 +15,12 @@ template <int Dim>
 void exchange(Level<Dim>& level, int hops);
 // For the steps until the next exchange: at the beginning of a row of steps, and once in a while
 // within it. Between agreements only positions and velocities travel, in buffers that are there: a
-// rank that has failed meanwhile sends what it has. Where ranks agree a failure of this rank so far
-// is reported.
+// rank that has failed meanwhile sends what it has, and keeps a failure of the messages for the
+// next agreement. Where ranks agree a failure of this rank so far is reported.
 template <int Dim>
 void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure);
-// The ghosts there are become exact again.
+// The ghosts there are become exact again. Collective, with an agreement at the beginning; throws
+// on a rank that lacks values of its ghosts.
 template <int Dim>
 void update_ghosts(Level<Dim>& level);
 

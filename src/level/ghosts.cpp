@@ -19,51 +19,45 @@ bool Ghosts<Dim>::can_stay(const Settings& settings, int hops) const {
 }
 
 template <int Dim>
-void Ghosts<Dim>::update(const Communicator& comm, Nodes<Dim>& nodes) {
+void Ghosts<Dim>::update(Nodes<Dim>& nodes) {
   if (exact_at_ == nodes.positions()) return;
-  halo_.update(comm, nodes);
+  halo_.update(nodes);
   nodes.moved();
   exact_at_ = nodes.positions();
 }
 
 template <int Dim>
-void Ghosts<Dim>::fill(const Communicator& comm, const View<double>& values) const {
-  std::vector<Bytes> outgoing, incoming;
-  agreed(comm, [&] { halo_.make_buffers(outgoing, incoming); });
-  halo_.update(comm, values, outgoing, incoming);
-}
-
-// A rank that fails within has its messages come and go, but empty: its neighbours must not wait.
-template <int Dim>
 void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const Settings& settings,
                            int hops, Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood) {
   hops_ = 0;
-  std::vector<Bytes> outgoing, incoming;
+  std::vector<Bytes> outgoing;
   agreed(comm, [&] {
     const std::vector<int>& neighbours = tree.halo(hops, settings).neighbours();
-    halo_.start(neighbours);
+    halo_.start(comm, neighbours);
     outgoing.resize(neighbours.size());
   });
   const Halo& halo = tree.halo(hops, settings);
-  std::exception_ptr failure;
   const NodeExchange<Dim> travel{tree.tree(), tree.distribution(), halo, comm.rank(), halo_};
-  attempt(failure, [&] {
+  View<std::int32_t> stay;
+  std::int64_t kept = 0;
+  const std::exception_ptr failure = failure_of([&] {
     const Buckets<Dim>& buckets = neighbourhood.buckets();
     const auto known_leaf = [&](std::int64_t i) {
       return buckets.knows(i) ? buckets.bucket_of(i) : -1;
     };
-    View<std::int32_t>& stay = nodes.order_scratch();
-    neighbourhood.keep_nodes(nodes, stay, travel.pack_leaving(nodes, known_leaf, outgoing, stay));
+    stay = nodes.order_scratch();
+    kept = travel.pack_leaving(nodes, known_leaf, outgoing, stay);
   });
-  if (failure)
-    for (Bytes& bytes : outgoing) bytes.clear();
-  try {
-    incoming = comm.exchange(halo.neighbours(), outgoing);
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  attempt(failure, [&] { travel.append_arriving(nodes, incoming); });
-  agree_on_failure(comm, failure);
+  std::vector<Bytes> incoming;
+  agreed(comm, [&] {
+    incoming = comm.exchange(halo.neighbours(), outgoing, failure);
+    travel.reserve(nodes, kept, incoming);
+  });
+  // All ranks have what they need: from here on no node can be lost.
+  agreed(comm, [&] {
+    neighbourhood.keep_nodes(nodes, stay, kept);
+    travel.append_arriving(nodes, incoming);
+  });
   hops_ = hops;
   exact_at_ = nodes.positions();
   steps_since_choice_ = 0;

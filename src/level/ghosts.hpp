@@ -27,10 +27,13 @@ class Ghosts {
   // next exchange. Collective.
   void migrate(const Communicator& comm, const LevelTree<Dim>& tree, Nodes<Dim>& nodes,
                Neighbourhood<Dim>& neighbourhood);
-  // The same ghosts, exact again. All neighbours at the same time; no ranks agree on anything.
-  void update(const Communicator& comm, Nodes<Dim>& nodes);
-  // Values at nodes: those at ghosts become those of their owners. Collective.
-  void fill(const Communicator& comm, const View<double>& values) const;
+  // The same ghosts, exact again. All neighbours at the same time, without an agreement. Throws on
+  // a rank that lacks some of them.
+  void update(Nodes<Dim>& nodes);
+  // Fills values at ghosts with those of their owners. Collective.
+  void fill(const Communicator& comm, const View<double>& values) const {
+    halo_.fill(comm, values);
+  }
   // All nodes in these boxes become ghosts of ours, until the next exchange. Each is with the rank
   // that owns its place, so nobody else is asked. Collective.
   void fetch(const Communicator& comm, const LevelTree<Dim>& tree,
@@ -58,6 +61,8 @@ class Ghosts {
     exact_at_ = exact ? nodes.positions() : -1;
   }
   void count_step() { ++steps_since_choice_; }
+  // Allocates memory for permute(), which then cannot fail.
+  void reserve_order(std::int64_t count) { halo_.reserve_order(count); }
   // The nodes were put into another order: what was at from(i) is at i now.
   void permute(const View<std::int32_t>& from, std::int64_t count) { halo_.permute(from, count); }
 

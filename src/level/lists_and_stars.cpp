@@ -97,13 +97,19 @@ void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double ra
   agreed(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
 }
 
+// Ghosts follow the order of the nodes also where sorting fails after it has changed that.
 template <int Dim>
 void sort_nodes(Level<Dim>& level) {
   if (!level.neighbourhood.is_for(*level.tree))
     level.neighbourhood.adopt(
         *level.tree, NearBoundary<Dim>::near_leaves(*level.tree, edge_radius(level.settings)));
-  if (level.neighbourhood.sort_nodes(level.nodes, *level.tree, level.settings))
+  level.ghosts.reserve_order(level.nodes.count);
+  const std::int64_t before = level.nodes.arrangement();
+  const std::exception_ptr failure =
+      failure_of([&] { level.neighbourhood.sort_nodes(level.nodes, *level.tree, level.settings); });
+  if (level.nodes.arrangement() != before)
     level.ghosts.permute(level.neighbourhood.buckets().order(), level.nodes.count);
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace

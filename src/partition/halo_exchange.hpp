@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which owned nodes other ranks have as ghosts, and where our ghosts come from: as long as nobody
-// changes its mind about that, positions and velocities of ghosts are renewed by one message to and
-// from each neighbour, in buffers that stay.
+// A halo exchange plan: which owned nodes other ranks have as ghosts, and which ranks own our
+// ghosts. Until the plan is built anew, positions and velocities of ghosts are updated by one
+// message to and from each neighbour, in buffers that stay.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 #include "base/nodes.hpp"
@@ -18,14 +19,15 @@ namespace pnpbs {
 template <int Dim>
 class HaloExchange {
  public:
-  void start(const std::vector<int>& neighbours) {
+  // Begins a plan without nodes. The communicator must outlive it.
+  void start(const Communicator& comm, const std::vector<int>& neighbours) {
+    comm_ = &comm;
+    exchange_.reset();
     neighbours_ = neighbours;
     places_ = {};
     for (const int rank : neighbours) places_.add(rank);
     send_.assign(neighbours.size(), {});
     receive_.assign(neighbours.size(), {});
-    outgoing_.resize(neighbours.size());
-    incoming_.resize(neighbours.size());
   }
   // Both sides of a pair of ranks must do so.
   void add_neighbour(int rank) {
@@ -34,8 +36,6 @@ class HaloExchange {
     neighbours_.push_back(rank);
     send_.emplace_back();
     receive_.emplace_back();
-    outgoing_.emplace_back();
-    incoming_.emplace_back();
   }
   bool knows(int rank) const { return places_.of(rank) >= 0; }
   std::size_t place(int rank) const { return static_cast<std::size_t>(places_.of(rank)); }
@@ -50,6 +50,11 @@ class HaloExchange {
   }
   void send(int rank, std::int32_t node) { send_[place(rank)].push_back(node); }
   void receive(int rank, std::int32_t node) { receive_[place(rank)].push_back(node); }
+  template <class Visit>
+  void for_received(const Visit& visit) const {
+    for (const std::vector<std::int32_t>& list : receive_)
+      for (const std::int32_t node : list) visit(node);
+  }
 
   std::int64_t neighbour_count() const { return static_cast<std::int64_t>(neighbours_.size()); }
   std::int64_t nodes_sent() const {
@@ -61,22 +66,26 @@ class HaloExchange {
   static constexpr std::size_t kRecordSize =
       2 * Dim * sizeof(double) + (Dim == 3 ? sizeof(std::int32_t) : 0);
 
-  // Both sides put their lists into the order of ids, so that they match, and make the buffers.
+  // Completes the plan: sorts the lists by id on both sides, so that they match, and makes the
+  // buffers.
   void build(const Nodes<Dim>& nodes) {
     for (auto* lists : {&send_, &receive_})
       for (std::vector<std::int32_t>& list : *lists)
         std::sort(list.begin(), list.end(),
                   [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
-    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      outgoing_[k].resize(send_[k].size() * kRecordSize);
-      incoming_[k].resize(receive_[k].size() * kRecordSize);
-    }
+    exchange_.reset();
+    make_buffers(kRecordSize, outgoing_, incoming_);
+    exchange_ = comm_->persistent_exchange(neighbours_, outgoing_, incoming_);
   }
 
+  // Allocates memory for permute(), which then cannot fail.
+  void reserve_order(std::int64_t count) {
+    if (!neighbours_.empty()) moved_to_.resize(static_cast<std::size_t>(count));
+  }
   // The nodes were put into another order: what was at from(i) is at i now.
   void permute(const View<std::int32_t>& from, std::int64_t count) {
     if (neighbours_.empty()) return;
-    moved_to_.resize(static_cast<std::size_t>(count));
+    reserve_order(count);
     for (std::int64_t i = 0; i < count; ++i)
       moved_to_[static_cast<std::size_t>(from(i))] = static_cast<std::int32_t>(i);
     for (auto* lists : {&send_, &receive_})
@@ -84,53 +93,60 @@ class HaloExchange {
         for (std::int32_t& node : list) node = moved_to_[static_cast<std::size_t>(node)];
   }
 
-  // Owners send values; these buffers must not be those of another exchange. All neighbours at the
-  // same time, after each has made its buffers.
-  void make_buffers(std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming) const {
-    for (const std::vector<std::int32_t>& list : send_)
-      outgoing.emplace_back(list.size() * sizeof(double));
-    for (const std::vector<std::int32_t>& list : receive_)
-      incoming.emplace_back(list.size() * sizeof(double));
-  }
-  void update(const Communicator& comm, const View<double>& values, std::vector<Bytes>& outgoing,
-              std::vector<Bytes>& incoming) const {
-    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      char* out = outgoing[k].data();
-      for (const std::int32_t i : send_[k]) put(out, values(i));
-    }
-    comm.exchange_known(neighbours_, outgoing, incoming);
-    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      const char* in = incoming[k].data();
-      for (const std::int32_t i : receive_[k]) take(in, values(i));
-    }
+  // Fills the values at ghosts with those of their owners. Collective. Throws on a rank that lacks
+  // some of them.
+  void fill(const Communicator& comm, const View<double>& values) const {
+    std::vector<Bytes> outgoing, incoming;
+    std::unique_ptr<PersistentExchange> exchange;
+    agreed(comm, [&] {
+      make_buffers(sizeof(double), outgoing, incoming);
+      exchange = comm.persistent_exchange(neighbours_, outgoing, incoming);
+    });
+    run(*exchange, outgoing, incoming,
+        [&](std::int32_t i, const auto& visit) { visit(values(i)); });
   }
 
-  // Owners send positions and velocities. All neighbours at the same time.
-  void update(const Communicator& comm, Nodes<Dim>& nodes) {
-    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      char* out = outgoing_[k].data();
-      for (std::int32_t i : send_[k]) {
-        for (int d = 0; d < Dim; ++d) {
-          put(out, nodes.x[d](i));
-          put(out, nodes.v[d](i));
-        }
-        if constexpr (Dim == 3) put(out, nodes.boundary_node(i));
+  // Updates positions and velocities of ghosts. All neighbours at the same time. Throws on a rank
+  // that lacks some of them, whose ghosts are then as before.
+  void update(Nodes<Dim>& nodes) {
+    run(*exchange_, outgoing_, incoming_, [&](std::int32_t i, const auto& visit) {
+      for (int d = 0; d < Dim; ++d) {
+        visit(nodes.x[d](i));
+        visit(nodes.v[d](i));
       }
-    }
-    comm.exchange_known(neighbours_, outgoing_, incoming_);
-    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      const char* in = incoming_[k].data();
-      for (std::int32_t i : receive_[k]) {
-        for (int d = 0; d < Dim; ++d) {
-          take(in, nodes.x[d](i));
-          take(in, nodes.v[d](i));
-        }
-        if constexpr (Dim == 3) take(in, nodes.boundary_node(i));
-      }
-    }
+      if constexpr (Dim == 3) visit(nodes.boundary_node(i));
+    });
   }
 
  private:
+  // One buffer for each neighbour, with so many bytes for each node.
+  void make_buffers(std::size_t bytes_of_node, std::vector<Bytes>& outgoing,
+                    std::vector<Bytes>& incoming) const {
+    outgoing.resize(neighbours_.size());
+    incoming.resize(neighbours_.size());
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      outgoing[k].resize(send_[k].size() * bytes_of_node);
+      incoming[k].resize(receive_[k].size() * bytes_of_node);
+    }
+  }
+
+  // Sends the values that for_values(node, visit) visits. Allocates no memory.
+  template <class ForValues>
+  void run(PersistentExchange& exchange, std::vector<Bytes>& outgoing,
+           const std::vector<Bytes>& incoming, const ForValues& for_values) const {
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      char* out = outgoing[k].data();
+      for (const std::int32_t i : send_[k])
+        for_values(i, [&](const auto& value) { put(out, value); });
+    }
+    exchange.start();
+    exchange.wait();
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      const char* in = incoming[k].data();
+      for (const std::int32_t i : receive_[k]) for_values(i, [&](auto& value) { take(in, value); });
+    }
+  }
+
   template <class T>
   static void put(char*& out, T value) {
     std::memcpy(out, &value, sizeof value);
@@ -145,8 +161,10 @@ class HaloExchange {
   std::vector<int> neighbours_;
   RankPlaces places_;
   std::vector<std::vector<std::int32_t>> send_, receive_;  // places in memory
-  std::vector<Bytes> outgoing_, incoming_;
   std::vector<std::int32_t> moved_to_;
+  const Communicator* comm_ = nullptr;
+  std::vector<Bytes> outgoing_, incoming_;
+  std::unique_ptr<PersistentExchange> exchange_;  // between the buffers, and gone before them
 };
 
 }  // namespace pnpbs

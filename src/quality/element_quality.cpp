@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <tuple>
 
@@ -241,22 +242,26 @@ QualitySums local_quality_sums(const MeasuredNodes<Dim>& measured, const Stars<D
   constexpr bool kTriangles = std::tuple_size_v<Element> == 3;
   constexpr double kOfLargestMin = kTriangles ? 0.5 : 1.0 / 3;  // 60 degrees, 70.5 degrees
   const View<std::int64_t> steps = make_view<std::int64_t>("pnpbs::quality", kQualitySteps);
-  Kokkos::deep_copy(steps, 0);
-  const QualitySums sums = sums_over(
-      "pnpbs::quality_sums", measured.nodes.count, QualitySums(kOfLargestMin),
-      [&](std::int64_t i, QualitySums& sum) {
-        for_elements_of<Element, Dim>(measured, stars, i, [&](const Element& corners) {
-          const double quality = quality_of(corners);
-          const auto step = static_cast<std::int64_t>(kQualitySteps * quality);
-          Kokkos::atomic_inc(&steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
-          ++sum.elements;
-          sum.quality.add(quality);
-          sum.min = std::min(sum.min, quality);
-          const Angles angles = angles_of(corners);
-          sum.obtuse += angles.obtuse;
-          sum.max_cosine = std::max(sum.max_cosine, angles.max_cosine);
-        });
-      });
+  std::fill_n(steps.data(), kQualitySteps, 0);
+  const auto count = [&](double quality) {
+    const auto step = static_cast<std::int64_t>(kQualitySteps * quality);
+    std::atomic_ref entry(steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
+    entry.fetch_add(1, std::memory_order_relaxed);
+  };
+  const QualitySums sums =
+      sums_over("pnpbs::quality_sums", measured.nodes.count, QualitySums(kOfLargestMin),
+                [&](std::int64_t i, QualitySums& sum) {
+                  for_elements_of<Element, Dim>(measured, stars, i, [&](const Element& corners) {
+                    const double quality = quality_of(corners);
+                    count(quality);
+                    ++sum.elements;
+                    sum.quality.add(quality);
+                    sum.min = std::min(sum.min, quality);
+                    const Angles angles = angles_of(corners);
+                    sum.obtuse += angles.obtuse;
+                    sum.max_cosine = std::max(sum.max_cosine, angles.max_cosine);
+                  });
+                });
   histogram.assign(steps.data(), steps.data() + kQualitySteps);
   return sums;
 }

@@ -56,7 +56,7 @@ class BoxNodes {
   void exchange(int hops) {
     if (comm_->size() == 1) return;
     const pnpbs::Halo& halo = this->halo(hops);
-    plan_.start(halo.neighbours());
+    plan_.start(*comm_, halo.neighbours());
     std::vector<pnpbs::Bytes> outgoing(halo.neighbours().size());
     const pnpbs::NodeExchange<3> travel{tree_, distribution_, halo, comm_->rank(), plan_};
     const auto known_leaf = [this](std::int64_t i) {
@@ -66,13 +66,13 @@ class BoxNodes {
     const std::int64_t kept = travel.pack_leaving(nodes_, known_leaf, outgoing, stay);
     nodes_.keep(stay, kept);
     buckets_.keep(stay, kept);
-    travel.append_arriving(nodes_, comm_->exchange(halo.neighbours(), outgoing));
+    travel.append_arriving(nodes_, comm_->exchange(halo.neighbours(), outgoing, nullptr));
     lists_valid_ = false;
   }
 
   // The same ghosts get the positions and velocities of their owners.
   void update_ghosts() {
-    if (comm_->size() > 1) plan_.update(*comm_, nodes_);
+    if (comm_->size() > 1) plan_.update(nodes_);
   }
 
   const pnpbs::Halo& halo(int hops) { return distribution_.halo(hops, 1 / pnpbs::kRoomForGrowth); }
