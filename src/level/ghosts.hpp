@@ -56,10 +56,6 @@ class Ghosts {
 
   // The next exchange must choose them.
   void choose_anew() { hops_ = 0; }
-  // States whether the ghosts are where their owners have them, as long as no node moves.
-  void set_exact(bool exact, const Nodes<Dim>& nodes) noexcept {
-    exact_at_ = exact ? nodes.positions() : -1;
-  }
   void count_step() { ++steps_since_choice_; }
   // Allocates memory for permute(), which then cannot fail.
   void reserve_order(std::int64_t count) { halo_.reserve_order(count); }

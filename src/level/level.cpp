@@ -58,10 +58,9 @@ LevelCopy<Dim> Level<Dim>::copy() const {
 template <int Dim>
 void Level<Dim>::put_back(LevelCopy<Dim>&& earlier) noexcept {
   LevelState<Dim>& state = earlier.state;
-  const bool exact = state.ghosts.are_exact(state.nodes, 0);
   const std::int64_t before = version();
   state.nodes.renew_stamps(nodes);
-  state.ghosts.set_exact(exact, state.nodes);
+  state.ghosts.choose_anew();
   static_cast<LevelState<Dim>&>(*this) = std::move(state);
   neighbourhood.forget(*tree, nodes, earlier.figures);
   forget_stars();

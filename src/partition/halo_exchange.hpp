@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/nodes.hpp"
@@ -19,6 +20,27 @@ namespace pnpbs {
 template <int Dim>
 class HaloExchange {
  public:
+  HaloExchange() = default;
+  // Copies and moves the lists. The result exchanges nothing until it is built.
+  HaloExchange(const HaloExchange& other)
+      : comm_(other.comm_),
+        neighbours_(other.neighbours_),
+        places_(other.places_),
+        send_(other.send_),
+        receive_(other.receive_) {}
+  HaloExchange(HaloExchange&& other) noexcept { *this = std::move(other); }
+  HaloExchange& operator=(const HaloExchange& other) { return *this = HaloExchange(other); }
+  HaloExchange& operator=(HaloExchange&& other) noexcept {
+    exchange_.reset();
+    comm_ = other.comm_;
+    neighbours_ = std::move(other.neighbours_);
+    places_ = std::move(other.places_);
+    send_ = std::move(other.send_);
+    receive_ = std::move(other.receive_);
+    return *this;
+  }
+  ~HaloExchange() = default;
+
   // Begins a plan without nodes. The communicator must outlive it.
   void start(const Communicator& comm, const std::vector<int>& neighbours) {
     comm_ = &comm;
