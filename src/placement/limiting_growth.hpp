@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "base/warning.hpp"
 #include "comm/communicator.hpp"
 #include "domain/domain.hpp"
 #include "level/finer_places.hpp"
@@ -73,6 +74,6 @@ std::shared_ptr<const Spacing<3>> spacing_with(const FinerPlaces& found, const C
 template <int Dim>
 bool too_steep(const SteepestGrowth<Dim>& steepest);
 template <int Dim>
-std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
+Warning warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
 
 }  // namespace pnpbs

@@ -106,7 +106,7 @@ Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>
 template <int Dim>
 std::unique_ptr<Level<Dim>> PlacementOf<Dim>::replace_level(std::unique_ptr<Level<Dim>> next,
                                                             PlacedSpacing<Dim> placed) {
-  std::vector<std::string> warnings =
+  std::vector<Warning> warnings =
       warnings_of_level(*next, *domain_, *spacing_, placed.steepest, options_);
   std::unique_ptr<Level<Dim>> before = std::move(level_);
   if (before) state_.keep_counts(*before);
@@ -212,7 +212,7 @@ Outcome PlacementOf<Dim>::run() {
 // Ends with whether the elements are such as can be used.
 template <int Dim>
 Outcome PlacementOf<Dim>::steps_and_finish() {
-  state_.warnings.resize(state_.warnings_of_level);
+  state_.forget_warnings_of_run();
   const ProgressPart part = part_of_steps(rounds_of_run_, state_.schedule.refined());
   const Outcome outcome = simulation().advance(most_steps(*level_), part);
   state_.schedule.progress = Progress::ended;
@@ -223,9 +223,9 @@ Outcome PlacementOf<Dim>::steps_and_finish() {
   state_.warn(warning_of_surface_fit(state_.surface_fit, options_));
   state_.warn(warning_of_features_left_out(*level_));
   const bool conforms = elements_conform(results_, state_, unresolved_);
-  const std::string missed = warning_of_missed_spacing(state_.edge_bands);
+  const std::optional<Warning> missed = warning_of_missed_spacing(state_.edge_bands);
   state_.warn(missed);
-  return !conforms ? Outcome::not_conforming : !missed.empty() ? Outcome::spacing_missed : outcome;
+  return !conforms ? Outcome::not_conforming : missed ? Outcome::spacing_missed : outcome;
 }
 
 // Rounds after the first one, as long as the elements cannot be used, or fewer and fewer of them

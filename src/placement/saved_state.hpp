@@ -27,7 +27,7 @@ struct SavedState {
   std::uint64_t domain_fingerprint = 0;
   std::uint64_t checksum = 0;  // of the nodes, whatever their order, and of `held`
   std::string options;         // those that decide, "name = value" in lines
-  std::string warnings;        // of the last run, in lines
+  std::string warnings;        // of the last run: see saved_warnings.hpp
   std::vector<double> held;    // no field: places where d is held down, each followed by d there
 };
 
