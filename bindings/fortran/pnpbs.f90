@@ -41,6 +41,20 @@ module pnpbs
   public :: PNPBS_ERROR_CALLBACK, PNPBS_ERROR_MEMORY, PNPBS_ERROR_MPI, PNPBS_ERROR_KOKKOS
   public :: PNPBS_ERROR_UNSUPPORTED, PNPBS_ERROR_INTERNAL
   public :: PNPBS_BOUNDARY, PNPBS_INNER
+  public :: PNPBS_REASON_OTHER, PNPBS_REASON_CROSSING, PNPBS_WARNING_UNKNOWN
+  public :: PNPBS_WARNING_LEFT_OUT_OUTSIDE, PNPBS_WARNING_UNUSED_VERTICES
+  public :: PNPBS_WARNING_REGION_POINTS, PNPBS_WARNING_SIMPLIFIED, PNPBS_WARNING_REPAIRED
+  public :: PNPBS_WARNING_TRIANGLES_LEFT_OUT, PNPBS_WARNING_TRIANGLES_TURNED
+  public :: PNPBS_WARNING_VERTICES_MERGED, PNPBS_WARNING_SURFACES_TOUCH
+  public :: PNPBS_WARNING_PIECES_LEFT_OUT, PNPBS_WARNING_EDGES_ROUNDED
+  public :: PNPBS_WARNING_CREASES_IGNORED, PNPBS_WARNING_FEATURE_ANGLE
+  public :: PNPBS_WARNING_CURVED_ELEMENTS, PNPBS_WARNING_GROUPS, PNPBS_WARNING_FEATURE_UNRESOLVED
+  public :: PNPBS_WARNING_FIXED_NODES_CLOSE, PNPBS_WARNING_GROWTH, PNPBS_WARNING_PARTIAL_EXTENT
+  public :: PNPBS_WARNING_SPACING_COARSE, PNPBS_WARNING_SPACING_MISSED, PNPBS_WARNING_SPACING_HELD
+  public :: PNPBS_WARNING_BOUNDARY_NOT_FOLLOWED, PNPBS_WARNING_NOT_CONFORMING
+  public :: PNPBS_WARNING_SMALL_ANGLES, PNPBS_WARNING_FEATURES_LEFT_OUT
+  public :: PNPBS_WARNING_OPTION_WITHOUT_EFFECT, PNPBS_WARNING_OPTIONS_CHANGED
+  public :: PNPBS_WARNING_DEPENDS_ON_RANKS
   public :: PNPBS_VERSION_MAJOR, PNPBS_VERSION_MINOR, PNPBS_VERSION_PATCH
   public :: pnpbs_curve_fn, pnpbs_level_set_fn, pnpbs_spacing_fn, pnpbs_monitor_fn
   public :: pnpbs_context, pnpbs_domain, pnpbs_placement, pnpbs_transfer, pnpbs_mesh
@@ -67,6 +81,8 @@ module pnpbs
     procedure, private :: context_set_real
     generic :: set => context_set_text, context_set_int32, context_set_int64, context_set_real
     procedure :: last_error => context_last_error
+    procedure :: last_error_data => context_last_error_data
+    procedure :: last_error_point => context_last_error_point
     procedure :: handle => context_handle
     procedure :: from_handle => context_from_handle
   end type
@@ -208,6 +224,7 @@ module pnpbs
     procedure :: get_cell_bands => placement_get_cell_bands
     procedure :: warning_count => placement_warning_count
     procedure :: get_warning => placement_get_warning
+    procedure :: get_warning_data => placement_get_warning_data
     procedure :: write => placement_write
     procedure :: write_files => placement_write_files
     procedure, private :: placement_add_output_field
@@ -544,6 +561,41 @@ contains
     character(len=:), allocatable :: text
     text = text_of(c_last_error(self%c))
   end function
+
+  !> Returns data of that error: one of PNPBS_REASON_..., and how many points the message names.
+  !> Local.
+  subroutine context_last_error_data(self, reason, points)
+    class(pnpbs_context), intent(in) :: self
+    integer(c_int32_t), intent(out) :: reason
+    integer(c_int32_t), intent(out), optional :: points
+    integer(c_int32_t) :: named
+    integer(c_int) :: status
+    status = c_last_error_data(self%c, reason, named)
+    if (present(points)) points = named
+  end subroutine
+
+  !> Returns a point that the message names; NaN if there is no such point. Local.
+  !>   index  1 .. points, in the order of the message
+  !>   point  (3), in the plane with NaN behind x and y; on a sphere in space
+  !>   first  of the characters of the message that name it
+  !>   last   likewise
+  subroutine context_last_error_point(self, index, point, first, last)
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    class(pnpbs_context), intent(in) :: self
+    integer(c_int32_t), intent(in) :: index
+    real(c_double), intent(out) :: point(3)
+    integer(c_int64_t), intent(out), optional :: first, last
+    real(c_double), target :: x(3)
+    integer(c_int64_t) :: begins, ends
+    integer(c_int) :: status
+    begins = 0
+    ends = 0
+    x = ieee_value(x, ieee_quiet_nan)
+    status = c_last_error_point(self%c, index - 1_c_int32_t, c_loc(x), begins, ends)
+    point = x
+    if (present(first)) first = begins + 1
+    if (present(last)) last = ends
+  end subroutine
 
   !> Returns the handle as an integer, for common blocks and other code without derived types; 0 if
   !> there is no context. Local.
@@ -2686,6 +2738,34 @@ contains
     text = ''
     call conclude('placement%get_warning', status, stat, errmsg)
     if (status >= 0) text = text_of(c)
+  end subroutine
+
+  !> Returns one of the warnings as data. Local.
+  !>   index  1 .. count of warnings
+  !>   code   one of PNPBS_WARNING_...
+  !>   count  how many nodes, edges, triangles or points it is about; 0: not known
+  !>   value  a number that it is about; NaN if there is none
+  !>   point  (3) the first point that the text names, as coordinates of nodes are handed out; in
+  !>          the plane with NaN behind x and y; NaN if there is none
+  subroutine placement_get_warning_data(self, index, code, count, value, point, stat, errmsg)
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(in) :: index
+    integer(c_int32_t), intent(out) :: code
+    integer(c_int64_t), intent(out) :: count
+    real(c_double), intent(out) :: value, point(3)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double), target :: x(3)
+    code = PNPBS_WARNING_UNKNOWN
+    count = 0
+    value = ieee_value(value, ieee_quiet_nan)
+    x = value
+    point = value
+    call conclude('placement%get_warning_data', &
+                  c_placement_get_warning_data(self%c, index - 1_c_int32_t, code, count, value, &
+                                               c_loc(x)), stat, errmsg)
+    point = x
   end subroutine
 
   ! ------------------------------------------------------------ transfer ----------------------

@@ -38,11 +38,79 @@ module pnpbs_c
   integer(c_int), parameter :: PNPBS_ERROR_UNSUPPORTED = -13  !< not supported by this build
   integer(c_int), parameter :: PNPBS_ERROR_INTERNAL = -14     !< internal error
 
+  !> What else is known of an error, for programs that act on it: the status and this number decide,
+  !> never the text. PNPBS_REASON_CROSSING comes with PNPBS_ERROR_DOMAIN: segments of curves cross
+  !> or overlap. More may be added.
+  integer(c_int32_t), parameter :: PNPBS_REASON_OTHER = 0
+  integer(c_int32_t), parameter :: PNPBS_REASON_CROSSING = 1
+
   !> Role of a curve, or of a surface in space. PNPBS_BOUNDARY separates inside from outside: a
   !> point is inside if it lies behind an odd number of them (holes and islands nest to any depth).
   !> PNPBS_INNER lies in the domain, and nodes follow it. Curves in space are always PNPBS_INNER.
   integer(c_int32_t), parameter :: PNPBS_BOUNDARY = 0
   integer(c_int32_t), parameter :: PNPBS_INNER = 1
+
+  !> Warnings about the domain. In parentheses: what `count` and `value` of
+  !> pnpbs_placement_get_warning_data are. More codes may be added: programs must expect numbers
+  !> that they do not know. PNPBS_WARNING_UNKNOWN is none of the others. LEFT_OUT_OUTSIDE: curves or
+  !> triangles outside of the domain are left out (their names). UNUSED_VERTICES: vertices are in no
+  !> segment (vertices). REGION_POINTS: region points have no effect (points). SIMPLIFIED: vertices
+  !> were left out (vertices). REPAIRED: the body was repaired (triangles, resolution).
+  !> TRIANGLES_LEFT_OUT: they have no area, or are given twice (triangles). TRIANGLES_TURNED: to
+  !> agree with neighbours, or outwards (triangles). VERTICES_MERGED: they were closer than the
+  !> tolerance (vertices, tolerance). SURFACES_TOUCH: in single vertices (vertices).
+  !> PIECES_LEFT_OUT: parts of a body are too thin (parts, mean thickness). EDGES_ROUNDED: edges of
+  !> a level set are rounded by the resolution (triangle edges). CREASES_IGNORED: short creases are
+  !> no features (edges). FEATURE_ANGLE: the smallest holds for all surfaces (-, degrees).
+  !> CURVED_ELEMENTS: elements of a file are treated as straight (elements). GROUPS: entities of a
+  !> file are in several groups (entities).
+  integer(c_int32_t), parameter :: PNPBS_WARNING_UNKNOWN = 0
+  integer(c_int32_t), parameter :: PNPBS_WARNING_LEFT_OUT_OUTSIDE = 101
+  integer(c_int32_t), parameter :: PNPBS_WARNING_UNUSED_VERTICES = 102
+  integer(c_int32_t), parameter :: PNPBS_WARNING_REGION_POINTS = 103
+  integer(c_int32_t), parameter :: PNPBS_WARNING_SIMPLIFIED = 104
+  integer(c_int32_t), parameter :: PNPBS_WARNING_REPAIRED = 105
+  integer(c_int32_t), parameter :: PNPBS_WARNING_TRIANGLES_LEFT_OUT = 106
+  integer(c_int32_t), parameter :: PNPBS_WARNING_TRIANGLES_TURNED = 107
+  integer(c_int32_t), parameter :: PNPBS_WARNING_VERTICES_MERGED = 108
+  integer(c_int32_t), parameter :: PNPBS_WARNING_SURFACES_TOUCH = 109
+  integer(c_int32_t), parameter :: PNPBS_WARNING_PIECES_LEFT_OUT = 110
+  integer(c_int32_t), parameter :: PNPBS_WARNING_EDGES_ROUNDED = 111
+  integer(c_int32_t), parameter :: PNPBS_WARNING_CREASES_IGNORED = 112
+  integer(c_int32_t), parameter :: PNPBS_WARNING_FEATURE_ANGLE = 113
+  integer(c_int32_t), parameter :: PNPBS_WARNING_CURVED_ELEMENTS = 114
+  integer(c_int32_t), parameter :: PNPBS_WARNING_GROUPS = 115
+
+  !> Warnings about the spacing. FEATURE_UNRESOLVED: d is larger than a feature (boundary edges or
+  !> nodes, the least length or distance over d). FIXED_NODES_CLOSE: to the boundary or each other
+  !> (fixed nodes, the least distance over d). GROWTH: d grows too fast (-, growth per length).
+  !> PARTIAL_EXTENT: d is given for a part of the domain only (nodes beyond it). SPACING_COARSE: d
+  !> is too large for the whole domain (-, least d). SPACING_MISSED: the nodes do not follow d
+  !> (edges of a band of d, their mean length over d). SPACING_HELD: d was reduced where it did not
+  !> resolve the shape (points, least d).
+  integer(c_int32_t), parameter :: PNPBS_WARNING_FEATURE_UNRESOLVED = 201
+  integer(c_int32_t), parameter :: PNPBS_WARNING_FIXED_NODES_CLOSE = 202
+  integer(c_int32_t), parameter :: PNPBS_WARNING_GROWTH = 203
+  integer(c_int32_t), parameter :: PNPBS_WARNING_PARTIAL_EXTENT = 204
+  integer(c_int32_t), parameter :: PNPBS_WARNING_SPACING_COARSE = 205
+  integer(c_int32_t), parameter :: PNPBS_WARNING_SPACING_MISSED = 206
+  integer(c_int32_t), parameter :: PNPBS_WARNING_SPACING_HELD = 207
+
+  !> Warnings about the elements. BOUNDARY_NOT_FOLLOWED: by the tetrahedra (triangles).
+  !> NOT_CONFORMING: they do not fill the domain (nodes, edges or tetrahedra, or 0). SMALL_ANGLES:
+  !> some dihedral angles are below a limit (tetrahedra, degrees). FEATURES_LEFT_OUT: the tetrahedra
+  !> of a thin body do not reach corners and sharp edges (nodes).
+  integer(c_int32_t), parameter :: PNPBS_WARNING_BOUNDARY_NOT_FOLLOWED = 301
+  integer(c_int32_t), parameter :: PNPBS_WARNING_NOT_CONFORMING = 302
+  integer(c_int32_t), parameter :: PNPBS_WARNING_SMALL_ANGLES = 303
+  integer(c_int32_t), parameter :: PNPBS_WARNING_FEATURES_LEFT_OUT = 304
+
+  !> Warnings about options and the run. OPTION_WITHOUT_EFFECT: an option does nothing here.
+  !> OPTIONS_CHANGED: since the checkpoint (options). DEPENDS_ON_RANKS: the nodes may do so
+  !> (decisions).
+  integer(c_int32_t), parameter :: PNPBS_WARNING_OPTION_WITHOUT_EFFECT = 401
+  integer(c_int32_t), parameter :: PNPBS_WARNING_OPTIONS_CHANGED = 402
+  integer(c_int32_t), parameter :: PNPBS_WARNING_DEPENDS_ON_RANKS = 403
 
   !> The version this module was written for; pnpbs_version tells the library's.
   integer(c_int32_t), parameter :: PNPBS_VERSION_MAJOR = 0
@@ -135,6 +203,25 @@ module pnpbs_c
       implicit none
       type(c_ptr), value :: context
       type(c_ptr) :: c_last_error
+    end function
+
+    function c_last_error_data(context, reason, points) bind(C, name="pnpbs_last_error_data")
+      import
+      implicit none
+      type(c_ptr), value :: context
+      integer(c_int32_t), intent(out) :: reason, points
+      integer(c_int) :: c_last_error_data
+    end function
+
+    function c_last_error_point(context, index, point, begin, end) bind(C, &
+      name="pnpbs_last_error_point")
+      import
+      implicit none
+      type(c_ptr), value :: context
+      integer(c_int32_t), value :: index
+      type(c_ptr), value :: point ! double *
+      integer(c_int64_t), intent(out) :: begin, end
+      integer(c_int) :: c_last_error_point
     end function
 
     function c_version(major, minor, patch) bind(C, name="pnpbs_version")
@@ -1227,6 +1314,19 @@ module pnpbs_c
       integer(c_int32_t), value :: index
       type(c_ptr), intent(out) :: text
       integer(c_int) :: c_placement_get_warning
+    end function
+
+    function c_placement_get_warning_data(placement, index, code, count, value, point) bind(C, &
+      name="pnpbs_placement_get_warning_data")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), value :: index
+      integer(c_int32_t), intent(out) :: code
+      integer(c_int64_t), intent(out) :: count
+      real(c_double), intent(out) :: value
+      type(c_ptr), value :: point ! double *
+      integer(c_int) :: c_placement_get_warning_data
     end function
 
     function c_transfer_create(placement, n, components, values, transfer) bind(C, &

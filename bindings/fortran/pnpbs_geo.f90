@@ -16,6 +16,12 @@ module pnpbs_geo
   private
 
   public :: pnpbs_geo_shapes, pnpbs_geo_grid
+  public :: PNPBS_GEO_NOTE_NO_GEOMETRY, PNPBS_GEO_NOTE_HEIGHTS_LEFT_OUT
+  public :: PNPBS_GEO_NOTE_NEARLY_TOUCHING, PNPBS_GEO_NOTE_NO_REFERENCE_SYSTEM
+  public :: PNPBS_GEO_NOTE_DEGREES_IN_PLANE, PNPBS_GEO_NOTE_SCALE, PNPBS_GEO_NOTE_SEGMENTS_RETAGGED
+  public :: PNPBS_GEO_NOTE_LINES_ALONG_BOUNDARY, PNPBS_GEO_NOTE_SHARED_SEGMENTS_LEFT_OUT
+  public :: PNPBS_GEO_NOTE_WHOLE_SPHERE, PNPBS_GEO_NOTE_LINES_LEFT_OUT
+  public :: PNPBS_GEO_NOTE_SEGMENTS_LEFT_OUT
   public :: pnpbs_geo_last_error, pnpbs_geo_build_info, pnpbs_geo_depth_spacing
 
   !> Shapes of one layer of a file, projected.
@@ -35,6 +41,7 @@ module pnpbs_geo
     procedure :: explain => geo_explain
     procedure :: note_count => geo_note_count
     procedure :: get_note => geo_get_note
+    procedure :: get_note_data => geo_get_note_data
   end type
 
   !> Values on a grid in a file: GeoTIFF, NetCDF and other formats that GDAL reads.
@@ -203,8 +210,8 @@ contains
     call converted('from_degrees', c_geo_from_degrees, self, coordinates, stat, errmsg)
   end subroutine
 
-  !> Returns a message about a domain of these shapes, with longitude and latitude inserted after
-  !> each point "(x, y)". Local.
+  !> Returns the message of the last error about a domain of these shapes, with longitude and
+  !> latitude inserted after each point "(x, y)". Any other text is returned as it is. Local.
   function geo_explain(self, message) result(text)
     class(pnpbs_geo_shapes), intent(in) :: self
     character(len=*), intent(in) :: message
@@ -220,6 +227,23 @@ contains
     character(len=*), intent(inout), optional :: errmsg
     count = 0
     call conclude_geo('note_count', c_geo_note_count(self%c, count), stat, errmsg)
+  end subroutine
+
+  !> Returns one of the notes as data. Local.
+  !>   index  1 .. count of notes
+  !>   code   one of PNPBS_GEO_NOTE_...
+  !>   count  how many features, lines or segments it is about; 0: none are counted
+  subroutine geo_get_note_data(self, index, code, count, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    integer(c_int32_t), intent(in) :: index
+    integer(c_int32_t), intent(out) :: code
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    code = 0
+    count = 0
+    call conclude_geo('get_note_data', &
+                      c_geo_get_note_data(self%c, index - 1_c_int32_t, code, count), stat, errmsg)
   end subroutine
 
   !> Returns one of the notes. Local.

@@ -8,6 +8,32 @@ module pnpbs_geo_c
   implicit none
   public
 
+  ! ------------------------------------------------------------ status and constants ----------
+
+  !> Codes of notes. More may be added: programs must expect numbers that they do not know. In
+  !> parentheses: what is counted. NO_GEOMETRY: features without a geometry are left out (features).
+  !> HEIGHTS_LEFT_OUT: heights in the file are ignored. NEARLY_TOUCHING: features that may be meant
+  !> as neighbours have no edge in common (features). NO_REFERENCE_SYSTEM: the file does not say
+  !> what its coordinates are. DEGREES_IN_PLANE: longitude and latitude are taken as x and y. SCALE:
+  !> lengths in the projection differ from those on the Earth by 2 percent or more.
+  !> SEGMENTS_RETAGGED: segments of polygons have the tag of a line (segments).
+  !> LINES_ALONG_BOUNDARY: lines are parts of the boundary (lines). SHARED_SEGMENTS_LEFT_OUT: they
+  !> lie between polygons (segments). WHOLE_SPHERE: nothing bounds the domain. LINES_LEFT_OUT:
+  !> another line has the segments with another tag (segments). SEGMENTS_LEFT_OUT: they repeat
+  !> others, or lead there and back (segments).
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_NO_GEOMETRY = 1
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_HEIGHTS_LEFT_OUT = 2
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_NEARLY_TOUCHING = 3
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_NO_REFERENCE_SYSTEM = 4
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_DEGREES_IN_PLANE = 5
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_SCALE = 6
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_SEGMENTS_RETAGGED = 7
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_LINES_ALONG_BOUNDARY = 8
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_SHARED_SEGMENTS_LEFT_OUT = 9
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_WHOLE_SPHERE = 10
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_LINES_LEFT_OUT = 11
+  integer(c_int32_t), parameter :: PNPBS_GEO_NOTE_SEGMENTS_LEFT_OUT = 12
+
   ! ------------------------------------------------------------ functions ---------------------
 
   interface
@@ -123,6 +149,17 @@ module pnpbs_geo_c
       integer(c_int32_t), value :: index
       type(c_ptr), intent(out) :: note
       integer(c_int) :: c_geo_get_note
+    end function
+
+    function c_geo_get_note_data(shapes, index, code, count) bind(C, &
+      name="pnpbs_geo_get_note_data")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      integer(c_int32_t), value :: index
+      integer(c_int32_t), intent(out) :: code
+      integer(c_int64_t), intent(out) :: count
+      integer(c_int) :: c_geo_get_note_data
     end function
 
     function c_geo_grid_read(path, variable, projection, low, high, grid) bind(C, &

@@ -132,6 +132,28 @@ PNPBS_API const char *pnpbs_status_string(pnpbs_status status);
  *  thread, for failed creates and dead handles. Local. "" if there was none. */
 PNPBS_API const char *pnpbs_last_error(pnpbs_context context);
 
+/** What else is known of an error, for programs that act on it: the status and this number decide,
+ *  never the text. PNPBS_REASON_CROSSING comes with PNPBS_ERROR_DOMAIN: segments of curves cross or
+ *  overlap. More may be added. */
+#define PNPBS_REASON_OTHER 0
+#define PNPBS_REASON_CROSSING 1
+
+/** Returns data of the last error, as pnpbs_last_error selects it: one of PNPBS_REASON_..., and
+ *  how many points the message names. Local; outputs may be NULL. Leaves the last error as it is.
+ */
+PNPBS_API pnpbs_status pnpbs_last_error_data(pnpbs_context context, int32_t *reason,
+                                             int32_t *points);
+
+/** Returns a point that the message of the last error names, and which bytes of the message do so:
+ *  from `begin` to before `end`. Local; outputs may be NULL. Leaves the last error as it is, even
+ *  where it returns PNPBS_ERROR_ARGUMENT, as for an index that is out of range.
+ *  @param[in] index   0 .. points-1, in the order of the message
+ *  @param[out] point  [3] in the plane with NaN behind x and y; on a sphere in space
+ *  @param[out] begin  0-based
+ *  @param[out] end    likewise */
+PNPBS_API pnpbs_status pnpbs_last_error_point(pnpbs_context context, int32_t index, double *point,
+                                              int64_t *begin, int64_t *end);
+
 /** Returns the version of the library at run time. Any pointer may be NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_version(int32_t *major, int32_t *minor, int32_t *patch);
 
@@ -596,7 +618,7 @@ PNPBS_API pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure
  *  within 1e-7 of the domain's size for arcs and curves by callback. Local; checks the domain
  *  first. The first query after a change of the domain builds a search tree and calls the callbacks
  *  of curves: make one query before querying from inside a callback (as a spacing callback may).
- *  Errors: PNPBS_ERROR_ARGUMENT if nothing has the tag.
+ *  Errors: PNPBS_ERROR_ARGUMENT if nothing has the tag, or for coordinates beyond 1e60.
  *  @param[in] tag          of curves, surfaces or nodes; 0: the boundary of the domain
  *  @param[in] coordinates  [n][dim]
  *  @param[out] distances   [n] */
@@ -1168,6 +1190,80 @@ PNPBS_API pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, 
 PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
                                                    const char **text);
 
+/** Warnings about the domain. In parentheses: what `count` and `value` of
+ *  pnpbs_placement_get_warning_data are. More codes may be added: programs must expect numbers that
+ *  they do not know. PNPBS_WARNING_UNKNOWN is none of the others.
+ *
+ *  LEFT_OUT_OUTSIDE: curves or triangles outside of the domain are left out (their names).
+ *  UNUSED_VERTICES: vertices are in no segment (vertices). REGION_POINTS: region points have no
+ *  effect (points). SIMPLIFIED: vertices were left out (vertices). REPAIRED: the body was repaired
+ *  (triangles, resolution). TRIANGLES_LEFT_OUT: they have no area, or are given twice (triangles).
+ *  TRIANGLES_TURNED: to agree with neighbours, or outwards (triangles). VERTICES_MERGED: they were
+ *  closer than the tolerance (vertices, tolerance). SURFACES_TOUCH: in single vertices (vertices).
+ *  PIECES_LEFT_OUT: parts of a body are too thin (parts, mean thickness). EDGES_ROUNDED: edges of a
+ *  level set are rounded by the resolution (triangle edges). CREASES_IGNORED: short creases are no
+ *  features (edges). FEATURE_ANGLE: the smallest holds for all surfaces (-, degrees).
+ *  CURVED_ELEMENTS: elements of a file are treated as straight (elements). GROUPS: entities of a
+ *  file are in several groups (entities). */
+#define PNPBS_WARNING_UNKNOWN 0
+#define PNPBS_WARNING_LEFT_OUT_OUTSIDE 101
+#define PNPBS_WARNING_UNUSED_VERTICES 102
+#define PNPBS_WARNING_REGION_POINTS 103
+#define PNPBS_WARNING_SIMPLIFIED 104
+#define PNPBS_WARNING_REPAIRED 105
+#define PNPBS_WARNING_TRIANGLES_LEFT_OUT 106
+#define PNPBS_WARNING_TRIANGLES_TURNED 107
+#define PNPBS_WARNING_VERTICES_MERGED 108
+#define PNPBS_WARNING_SURFACES_TOUCH 109
+#define PNPBS_WARNING_PIECES_LEFT_OUT 110
+#define PNPBS_WARNING_EDGES_ROUNDED 111
+#define PNPBS_WARNING_CREASES_IGNORED 112
+#define PNPBS_WARNING_FEATURE_ANGLE 113
+#define PNPBS_WARNING_CURVED_ELEMENTS 114
+#define PNPBS_WARNING_GROUPS 115
+
+/** Warnings about the spacing. FEATURE_UNRESOLVED: d is larger than a feature (boundary edges or
+ *  nodes, the least length or distance over d). FIXED_NODES_CLOSE: to the boundary or each other
+ *  (fixed nodes, the least distance over d). GROWTH: d grows too fast (-, growth per length).
+ *  PARTIAL_EXTENT: d is given for a part of the domain only (nodes beyond it). SPACING_COARSE: d is
+ *  too large for the whole domain (-, least d). SPACING_MISSED: the nodes do not follow d (edges of
+ *  a band of d, their mean length over d). SPACING_HELD: d was reduced where it did not resolve the
+ *  shape (points, least d). */
+#define PNPBS_WARNING_FEATURE_UNRESOLVED 201
+#define PNPBS_WARNING_FIXED_NODES_CLOSE 202
+#define PNPBS_WARNING_GROWTH 203
+#define PNPBS_WARNING_PARTIAL_EXTENT 204
+#define PNPBS_WARNING_SPACING_COARSE 205
+#define PNPBS_WARNING_SPACING_MISSED 206
+#define PNPBS_WARNING_SPACING_HELD 207
+
+/** Warnings about the elements. BOUNDARY_NOT_FOLLOWED: by the tetrahedra (triangles).
+ *  NOT_CONFORMING: they do not fill the domain (nodes, edges or tetrahedra, or 0). SMALL_ANGLES:
+ *  some dihedral angles are below a limit (tetrahedra, degrees). FEATURES_LEFT_OUT: the tetrahedra
+ *  of a thin body do not reach corners and sharp edges (nodes). */
+#define PNPBS_WARNING_BOUNDARY_NOT_FOLLOWED 301
+#define PNPBS_WARNING_NOT_CONFORMING 302
+#define PNPBS_WARNING_SMALL_ANGLES 303
+#define PNPBS_WARNING_FEATURES_LEFT_OUT 304
+
+/** Warnings about options and the run. OPTION_WITHOUT_EFFECT: an option does nothing here.
+ *  OPTIONS_CHANGED: since the checkpoint (options). DEPENDS_ON_RANKS: the nodes may do so
+ *  (decisions). */
+#define PNPBS_WARNING_OPTION_WITHOUT_EFFECT 401
+#define PNPBS_WARNING_OPTIONS_CHANGED 402
+#define PNPBS_WARNING_DEPENDS_ON_RANKS 403
+
+/** Returns a warning as data. Local; outputs may be NULL.
+ *  @param[in] index   0 .. count-1
+ *  @param[out] code   one of PNPBS_WARNING_...
+ *  @param[out] count  how many nodes, edges, triangles or points it is about; 0: not known
+ *  @param[out] value  a number that it is about; NaN if there is none
+ *  @param[out] point  [3] the first point that the text names, as coordinates of nodes are handed
+ *                     out; in the plane with NaN behind x and y; NaN if there is none */
+PNPBS_API pnpbs_status pnpbs_placement_get_warning_data(pnpbs_placement placement, int32_t index,
+                                                        int32_t *code, int64_t *count,
+                                                        double *value, double *point);
+
 /* ---------------------------------------------------------------- transfer -------------- */
 
 /** Transfers a field to a later set of nodes: copies the values of all ranks at the current nodes
@@ -1239,7 +1335,7 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_pl
                                                int32_t conserve, int64_t capacity, double *values);
 
 /** Evaluates the field at arbitrary points; each rank passes its own, 0 or more. Collective.
- *  Errors: PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
+ *  Errors: PNPBS_ERROR_ARGUMENT for coordinates that are not finite, or beyond 1e60.
  *  @param[in] n            points of this rank
  *  @param[in] coordinates  [n][dim]; on a sphere points are taken along the ray from the origin
  *  @param[out] values      [n][components] */

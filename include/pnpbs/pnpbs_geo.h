@@ -135,9 +135,10 @@ PNPBS_API pnpbs_status pnpbs_geo_to_degrees(pnpbs_geo_shapes shapes, int64_t n,
 PNPBS_API pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n,
                                               double *coordinates);
 
-/** Returns a message about a domain of these shapes, with longitude and latitude inserted after
- *  each point "(x, y)". Local; valid until the next call of this library on this thread. Never
- *  NULL. */
+/** Returns the message of the last error of pnpbs.h or of this library on the calling thread, with
+ *  longitude and latitude inserted after each point "(x, y)" of a domain of these shapes that it
+ *  names. `message` may have other words around it; any other text is returned as it is. Local;
+ *  valid until the next call of this library on this thread. Never NULL. */
 PNPBS_API const char *pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char *message);
 
 /** Returns the notes on how the file was interpreted: their number, and one of them, valid until
@@ -146,6 +147,37 @@ PNPBS_API const char *pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char *mes
 PNPBS_API pnpbs_status pnpbs_geo_note_count(pnpbs_geo_shapes shapes, int32_t *count);
 PNPBS_API pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index,
                                           const char **note);
+
+/** Codes of notes. More may be added: programs must expect numbers that they do not know. In
+ *  parentheses: what is counted. NO_GEOMETRY: features without a geometry are left out (features).
+ *  HEIGHTS_LEFT_OUT: heights in the file are ignored. NEARLY_TOUCHING: features that may be meant
+ *  as neighbours have no edge in common (features). NO_REFERENCE_SYSTEM: the file does not say what
+ *  its coordinates are. DEGREES_IN_PLANE: longitude and latitude are taken as x and y. SCALE:
+ *  lengths in the projection differ from those on the Earth by 2 percent or more.
+ *  SEGMENTS_RETAGGED: segments of polygons have the tag of a line (segments). LINES_ALONG_BOUNDARY:
+ *  lines are parts of the boundary (lines). SHARED_SEGMENTS_LEFT_OUT: they lie between polygons
+ *  (segments). WHOLE_SPHERE: nothing bounds the domain. LINES_LEFT_OUT: another line has the
+ *  segments with another tag (segments). SEGMENTS_LEFT_OUT: they repeat others, or lead there and
+ *  back (segments). */
+#define PNPBS_GEO_NOTE_NO_GEOMETRY 1
+#define PNPBS_GEO_NOTE_HEIGHTS_LEFT_OUT 2
+#define PNPBS_GEO_NOTE_NEARLY_TOUCHING 3
+#define PNPBS_GEO_NOTE_NO_REFERENCE_SYSTEM 4
+#define PNPBS_GEO_NOTE_DEGREES_IN_PLANE 5
+#define PNPBS_GEO_NOTE_SCALE 6
+#define PNPBS_GEO_NOTE_SEGMENTS_RETAGGED 7
+#define PNPBS_GEO_NOTE_LINES_ALONG_BOUNDARY 8
+#define PNPBS_GEO_NOTE_SHARED_SEGMENTS_LEFT_OUT 9
+#define PNPBS_GEO_NOTE_WHOLE_SPHERE 10
+#define PNPBS_GEO_NOTE_LINES_LEFT_OUT 11
+#define PNPBS_GEO_NOTE_SEGMENTS_LEFT_OUT 12
+
+/** Returns a note as data. Local; outputs may be NULL.
+ *  @param[in] index   0 .. count-1
+ *  @param[out] code   one of PNPBS_GEO_NOTE_...
+ *  @param[out] count  how many features, lines or segments it is about; 0: none are counted */
+PNPBS_API pnpbs_status pnpbs_geo_get_note_data(pnpbs_geo_shapes shapes, int32_t index,
+                                               int32_t *code, int64_t *count);
 
 /** Values on a grid in a file. Opaque. */
 typedef struct pnpbs_geo_grid_handle *pnpbs_geo_grid;

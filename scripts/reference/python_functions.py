@@ -18,6 +18,7 @@ CLASSES = {"Context": ("context", "context"), "Domain": ("domain", "domain"),
            "GeoGrid": ("geo_grid", "grid")}
 # What reaches the user in another way than through a function that he calls.
 OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError",
+             "pnpbs_last_error_data": "PNPBSError", "pnpbs_last_error_point": "PNPBSError",
              "pnpbs_status_string": "Status", "pnpbs_placement_write": "placement.write",
              "pnpbs_mesh_get_connectivity_int32": "DistributedMesh"}
 # What a function calls on its way, but does not stand for.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Status, errors, versions and contexts of the C interface.
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <exception>
 
@@ -12,18 +13,29 @@
 
 namespace pnpbs::api {
 
-std::string& thread_error() {
-  static thread_local std::string message;
-  return message;
+LastError& thread_error() {
+  static thread_local LastError error;
+  return error;
 }
 
 namespace {
 
-void keep_message(Context* context, const char* text) noexcept {
+void keep_error(Context* context, const auto& message,
+                ErrorReason reason = ErrorReason::other) noexcept {
   try {
-    thread_error() = text;
-    if (context) context->last_error = text;
+    thread_error() = {message, reason};
+    if (context) context->last_error = thread_error();
   } catch (...) {  // no memory for the message: the status must do
+  }
+}
+
+// No room for a copy: then there is nothing to return.
+LastError last_error_of(pnpbs_context context) noexcept {
+  try {
+    const auto object = contexts().find(context);
+    return object ? object->last_error : thread_error();
+  } catch (...) {
+    return {};
   }
 }
 
@@ -63,6 +75,12 @@ pnpbs_status create_context(pnpbs_context* handle, const auto& make_communicator
 }
 
 }  // namespace
+
+void copy_point(const NamedPoint& point, double* output) noexcept {
+  if (!output) return;
+  for (std::size_t k = 0; k < 3; ++k)
+    output[k] = static_cast<int>(k) < point.dimension ? point.x[k] : std::nan("");
+}
 
 pnpbs_status status_of(ErrorKind kind) noexcept {
   switch (kind) {
@@ -104,19 +122,19 @@ pnpbs_status report_failure(Context* context) noexcept {
   try {
     throw;
   } catch (const Error& error) {
-    keep_message(context, error.what());
+    keep_error(context, error.message(), error.reason());
     return status_of(error.kind());
   } catch (const std::bad_alloc&) {
-    keep_message(context, kOutOfMemory);
+    keep_error(context, kOutOfMemory);
     return PNPBS_ERROR_MEMORY;
   } catch (const std::length_error&) {
-    keep_message(context, kArrayTooLong);
+    keep_error(context, kArrayTooLong);
     return PNPBS_ERROR_MEMORY;
   } catch (const std::exception& error) {
-    keep_message(context, error.what());
+    keep_error(context, error.what());
     return PNPBS_ERROR_INTERNAL;
   } catch (...) {
-    keep_message(context, kForeignException);
+    keep_error(context, kForeignException);
     return PNPBS_ERROR_CALLBACK;
   }
 }
@@ -145,12 +163,32 @@ const char* pnpbs_last_error(pnpbs_context context) {
   try {
     const auto object = contexts().find(context);
     if (object) {
-      object->returned_text = object->last_error;
+      object->returned_text = object->last_error.message.text();
       return object->returned_text.c_str();
     }
   } catch (...) {
   }
-  return thread_error().c_str();
+  return thread_error().message.text().c_str();
+}
+
+// These two leave the last error as it is.
+pnpbs_status pnpbs_last_error_data(pnpbs_context context, int32_t* reason, int32_t* points) {
+  const LastError error = last_error_of(context);
+  if (reason) *reason = static_cast<int32_t>(error.reason);
+  if (points) *points = static_cast<int32_t>(error.message.points().size());
+  return PNPBS_OK;
+}
+
+pnpbs_status pnpbs_last_error_point(pnpbs_context context, int32_t index, double* point,
+                                    int64_t* begin, int64_t* end) {
+  const LastError error = last_error_of(context);
+  const std::vector<NamedPoint>& points = error.message.points();
+  if (index < 0 || index >= std::ssize(points)) return PNPBS_ERROR_ARGUMENT;
+  const NamedPoint& named = points[static_cast<std::size_t>(index)];
+  copy_point(named, point);
+  if (begin) *begin = static_cast<int64_t>(named.begin);
+  if (end) *end = static_cast<int64_t>(named.end);
+  return PNPBS_OK;
 }
 
 pnpbs_status pnpbs_version(int32_t* major, int32_t* minor, int32_t* patch) {

@@ -341,14 +341,15 @@ pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, i
 }
 
 pnpbs_status pnpbs_placement_check(pnpbs_placement placement) {
-  std::string lacking;
+  std::optional<MessageText> lacking;
   const pnpbs_status status = collective_results(placement, [&](NodalResults& results) {
     in_its_dimension(results, [&](auto& in) { lacking = check_results(in); });
     return PNPBS_OK;
   });
-  if (status != PNPBS_OK || lacking.empty()) return status;
+  if (status != PNPBS_OK || !lacking) return status;
   return guarded(placement, [&](PlacementObject& object) {
-    thread_error() = object.context->last_error = in_degrees(sphere_of(object), lacking);
+    thread_error() =
+        object.context->last_error = {in_degrees(sphere_of(object), as_worded(*lacking))};
     return PNPBS_NOT_CONFORMING;
   });
 }

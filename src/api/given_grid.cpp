@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "api/guard.hpp"
-#include "base/places_in_text.hpp"
+#include "base/point_text.hpp"
 #include "domain/given_values.hpp"
 #include "spacing/given_field.hpp"
 #include "spacing/sphere_grid_spacing.hpp"

@@ -8,16 +8,17 @@
 #include "api/calls_in_progress.hpp"
 #include "api/floating_point.hpp"
 #include "api/handles.hpp"
+#include "base/message_text.hpp"
 
 namespace pnpbs::api {
 
-// The calling thread's last message, for calls that have no live context.
-std::string& thread_error();
+// The calling thread's last error, for calls that have no live context.
+LastError& thread_error();
 
 pnpbs_status status_of(ErrorKind kind) noexcept;
 
-// The sphere that an object is on, or null: messages name places by the chart of it, and users want
-// to know longitude and latitude.
+// Returns the sphere that an object is on, or null. Messages name points by the chart of it, and
+// users want to know longitude and latitude.
 inline const StereographicChart* sphere_of(const Context&) { return nullptr; }
 template <class Object>
 const StereographicChart* sphere_of(const Object&) {
@@ -29,8 +30,13 @@ inline const StereographicChart* sphere_of(const DomainObject& object) {
 inline const StereographicChart* sphere_of(const PlacementObject& object) {
   return object.placement->chart();
 }
-std::string in_degrees(const StereographicChart* chart, std::string text);
+// Returns the message with longitude and latitude for the points of the chart in it, which become
+// points of the sphere in space.
+MessageText in_degrees(const StereographicChart* chart, const MessageText& message);
 void tell_in_degrees(const StereographicChart* chart, Context& context) noexcept;
+
+// [3], NaN for the third coordinate in the plane. Nothing if `output` is null.
+void copy_point(const NamedPoint& point, double* output) noexcept;
 
 // Turns the exception in flight into a status; puts the message where last_error finds it.
 pnpbs_status report_failure(Context* context) noexcept;

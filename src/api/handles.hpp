@@ -25,10 +25,15 @@
 
 namespace pnpbs::api {
 
+struct LastError {
+  MessageText message;
+  ErrorReason reason = ErrorReason::other;
+};
+
 struct Context {
   std::shared_ptr<Communicator> communicator;
   Options options;
-  std::string last_error;
+  LastError last_error;
   std::string returned_text;  // the last string handed out
   bool computing = false;     // a call that may run callbacks is in progress
 };

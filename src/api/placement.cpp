@@ -7,7 +7,7 @@
 #include "api/sphere_points.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "base/mixed_hash.hpp"
-#include "base/point_text.hpp"
+#include "domain/given_values.hpp"
 #include "placement/statistics.hpp"
 
 using namespace pnpbs;
@@ -116,14 +116,12 @@ IncomingNodes<Dim> checked_nodes(std::int64_t n, const double* coordinates,
                                  const std::int64_t* ids) {
   require_count(n, "n");
   if (n > 0) require_pointer(coordinates, "coordinates");
+  given_values::require_points<Dim>("argument coordinates", n, coordinates);
   constexpr std::int64_t kMaxId = std::int64_t{1} << 62;  // leaves numbers for new nodes
   IncomingNodes<Dim> nodes;
   for (std::int64_t i = 0; i < n; ++i) {
     Point<Dim> x;
     std::copy_n(coordinates + Dim * i, Dim, x.begin());
-    if (!std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); }))
-      throw Error(ErrorKind::argument, "argument coordinates[" + std::to_string(i) +
-                                           "] = " + point_text(x) + " must be finite");
     if (ids && (ids[i] < 0 || ids[i] > kMaxId))
       throw Error(ErrorKind::argument, "argument ids[" + std::to_string(i) + "] = " +
                                            std::to_string(ids[i]) + " must be in 0 .. 2^62");
@@ -264,18 +262,74 @@ pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t* c
   });
 }
 
+namespace {
+
+constexpr std::pair<WarningCode, int> kCodes[] = {
+    {WarningCode::unknown, PNPBS_WARNING_UNKNOWN},
+    {WarningCode::left_out_outside, PNPBS_WARNING_LEFT_OUT_OUTSIDE},
+    {WarningCode::unused_vertices, PNPBS_WARNING_UNUSED_VERTICES},
+    {WarningCode::region_points, PNPBS_WARNING_REGION_POINTS},
+    {WarningCode::simplified, PNPBS_WARNING_SIMPLIFIED},
+    {WarningCode::repaired, PNPBS_WARNING_REPAIRED},
+    {WarningCode::triangles_left_out, PNPBS_WARNING_TRIANGLES_LEFT_OUT},
+    {WarningCode::triangles_turned, PNPBS_WARNING_TRIANGLES_TURNED},
+    {WarningCode::vertices_merged, PNPBS_WARNING_VERTICES_MERGED},
+    {WarningCode::surfaces_touch, PNPBS_WARNING_SURFACES_TOUCH},
+    {WarningCode::pieces_left_out, PNPBS_WARNING_PIECES_LEFT_OUT},
+    {WarningCode::edges_rounded, PNPBS_WARNING_EDGES_ROUNDED},
+    {WarningCode::creases_ignored, PNPBS_WARNING_CREASES_IGNORED},
+    {WarningCode::feature_angle, PNPBS_WARNING_FEATURE_ANGLE},
+    {WarningCode::curved_elements, PNPBS_WARNING_CURVED_ELEMENTS},
+    {WarningCode::groups, PNPBS_WARNING_GROUPS},
+    {WarningCode::feature_unresolved, PNPBS_WARNING_FEATURE_UNRESOLVED},
+    {WarningCode::fixed_nodes_close, PNPBS_WARNING_FIXED_NODES_CLOSE},
+    {WarningCode::growth, PNPBS_WARNING_GROWTH},
+    {WarningCode::partial_extent, PNPBS_WARNING_PARTIAL_EXTENT},
+    {WarningCode::spacing_coarse, PNPBS_WARNING_SPACING_COARSE},
+    {WarningCode::spacing_missed, PNPBS_WARNING_SPACING_MISSED},
+    {WarningCode::spacing_held, PNPBS_WARNING_SPACING_HELD},
+    {WarningCode::boundary_not_followed, PNPBS_WARNING_BOUNDARY_NOT_FOLLOWED},
+    {WarningCode::not_conforming, PNPBS_WARNING_NOT_CONFORMING},
+    {WarningCode::small_angles, PNPBS_WARNING_SMALL_ANGLES},
+    {WarningCode::features_left_out, PNPBS_WARNING_FEATURES_LEFT_OUT},
+    {WarningCode::option_without_effect, PNPBS_WARNING_OPTION_WITHOUT_EFFECT},
+    {WarningCode::options_changed, PNPBS_WARNING_OPTIONS_CHANGED},
+    {WarningCode::depends_on_ranks, PNPBS_WARNING_DEPENDS_ON_RANKS}};
+static_assert(std::ranges::all_of(kCodes, [](const auto& code) {
+  return static_cast<int>(code.first) == code.second;
+}));
+
+const Warning& warning_at(const PlacementObject& object, std::int32_t at) {
+  const std::vector<Warning>& warnings = object.placement->warnings();
+  if (at < 0 || at >= std::ssize(warnings))
+    throw Error(ErrorKind::argument, "argument index = " + std::to_string(at) + "; there are " +
+                                         std::to_string(warnings.size()) + " warnings");
+  return warnings[static_cast<std::size_t>(at)];
+}
+
+}  // namespace
+
 pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
                                          const char** text) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(text, "text");
-    const std::vector<std::string>& warnings = object.placement->warnings();
-    if (index < 0 || static_cast<std::size_t>(index) >= warnings.size())
-      throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) +
-                                           "; there are " + std::to_string(warnings.size()) +
-                                           " warnings");
     object.context->returned_text =
-        in_degrees(sphere_of(object), warnings[static_cast<std::size_t>(index)]);
+        in_degrees(sphere_of(object), warning_at(object, index).message).text();
     *text = object.context->returned_text.c_str();
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_get_warning_data(pnpbs_placement placement, int32_t index,
+                                              int32_t* code, int64_t* count, double* value,
+                                              double* point) {
+  return guarded(placement, [&](PlacementObject& object) {
+    const Warning& warning = warning_at(object, index);
+    const MessageText message = in_degrees(sphere_of(object), warning.message);
+    if (code) *code = static_cast<int32_t>(warning.code);
+    if (count) *count = warning.count;
+    if (value) *value = warning.value;
+    copy_point(message.points().empty() ? NamedPoint{} : message.points().front(), point);
     return PNPBS_OK;
   });
 }

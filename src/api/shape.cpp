@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "api/placement_calls.hpp"
-#include "base/point_text.hpp"
 #include "base/started_execution.hpp"
+#include "domain/given_values.hpp"
 #include "spacing/sphere_spacing.hpp"
 
 using namespace pnpbs;
@@ -98,6 +98,7 @@ pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
     require_count(n, "n");
     if (n > 0) require_pointer(coordinates, "coordinates");
     if (n > 0) require_pointer(distances, "distances");
+    given_values::require_points<Dim>("argument coordinates", n, coordinates);
     const ShapeIndex<Dim>& index = shapes.index();
     require_tag_in(index, tag);
     const Point<Dim>* const x = points_from<Dim>(coordinates);
@@ -113,6 +114,7 @@ pnpbs_status pnpbs_domain_shape_spacing(pnpbs_domain domain, double nodes_per_tu
     require_count(n, "n");
     if (n > 0) require_pointer(coordinates, "coordinates");
     if (n > 0) require_pointer(d, "d");
+    given_values::require_points<Dim>("argument coordinates", n, coordinates);
     shapes
         .spacing(demands_from(nodes_per_turn, nodes_across, nodes_per_edge),
                  limits_from(growth, 0, 0))

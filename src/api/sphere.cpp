@@ -5,7 +5,7 @@
 
 #include "api/domain_calls.hpp"
 #include "api/sphere_points.hpp"
-#include "base/places_in_text.hpp"
+#include "base/point_text.hpp"
 #include "domain/given_values.hpp"
 #include "sphere/degrees.hpp"
 
@@ -27,18 +27,26 @@ void require_degrees(std::int64_t i, const double* degrees) {
 
 }  // namespace
 
-std::string pnpbs::api::in_degrees(const StereographicChart* chart, std::string text) {
-  if (!chart) return text;
-  return with_places(text, [chart](const Point<2>& u, const std::string&) {
-    return "(" + degrees_text(degrees_of(chart->on_sphere(u))) + ")";
-  });
+MessageText pnpbs::api::in_degrees(const StereographicChart* chart, const MessageText& message) {
+  if (!chart) return message;
+  const auto moved = [chart](NamedPoint point) {
+    if (point.dimension != 2) return point;
+    point.x = chart->on_sphere({point.x[0], point.x[1]});
+    point.dimension = 3;
+    return point;
+  };
+  const auto words = [&](const NamedPoint& point, const std::string& text) {
+    return point.dimension == 2 ? "(" + degrees_text(degrees_of(moved(point).x)) + ")" : text;
+  };
+  return with_points_told(message, words, moved);
 }
 
 // No room for it: then the message is as it was.
 void pnpbs::api::tell_in_degrees(const StereographicChart* chart, Context& context) noexcept {
   if (!chart) return;
   try {
-    thread_error() = context.last_error = in_degrees(chart, context.last_error);
+    context.last_error.message = in_degrees(chart, context.last_error.message);
+    thread_error() = context.last_error;
   } catch (...) {
   }
 }

@@ -2,8 +2,11 @@
 // Errors are exceptions inside the library; src/api turns them into status and message.
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
+
+#include "base/message_text.hpp"
 
 namespace pnpbs {
 
@@ -26,15 +29,34 @@ enum class ErrorKind {
   internal
 };
 
+// Further reasons that the public interface tells apart (PNPBS_REASON_...).
+enum class ErrorReason {
+  other,
+  crossing  // curves cross or overlap
+};
+
 class Error : public std::runtime_error {
  public:
-  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
-  // With the text of another, which needs no memory.
-  Error(ErrorKind kind, const Error& text) : std::runtime_error(text), kind_(kind) {}
+  Error(ErrorKind kind, MessageText message, ErrorReason reason = ErrorReason::other)
+      : Error(kind, std::make_shared<const MessageText>(as_worded(std::move(message))), reason) {}
+  // Another kind with the message of `other`. Needs no memory.
+  Error(ErrorKind kind, const Error& other)
+      : std::runtime_error(other), kind_(kind), reason_(other.reason_), message_(other.message_) {}
   ErrorKind kind() const { return kind_; }
+  ErrorReason reason() const { return reason_; }
+  // The text of what(), and the points in it.
+  const MessageText& message() const { return *message_; }
 
  private:
+  Error(ErrorKind kind, std::shared_ptr<const MessageText> message, ErrorReason reason)
+      : std::runtime_error(message->text()),
+        kind_(kind),
+        reason_(reason),
+        message_(std::move(message)) {}
+
   ErrorKind kind_;
+  ErrorReason reason_;
+  std::shared_ptr<const MessageText> message_;
 };
 
 // What failures are told as that are no Error.

@@ -88,7 +88,7 @@ Conformity<Dim> conformity_of(const Results<Dim>& results) {
 }
 
 template <int Dim>
-std::string text_of(const Conformity<Dim>& conformity, const Results<Dim>& results) {
+MessageText text_of(const Conformity<Dim>& conformity, const Results<Dim>& results) {
   const Level<Dim>& level = results.level();
   const std::string element = elements_of(results);
   if (!conformity.any_elements()) {
@@ -146,7 +146,7 @@ template struct Conformity<2>;
 template struct Conformity<3>;
 template Conformity<2> conformity_of(const Results<2>&);
 template Conformity<3> conformity_of(const Results<3>&);
-template std::string text_of(const Conformity<2>&, const Results<2>&);
-template std::string text_of(const Conformity<3>&, const Results<3>&);
+template MessageText text_of(const Conformity<2>&, const Results<2>&);
+template MessageText text_of(const Conformity<3>&, const Results<3>&);
 
 }  // namespace pnpbs

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message_text.hpp"
 #include "check/boundary_topology.hpp"
 #include "check/element_measure.hpp"
 #include "level/found_nodes.hpp"
@@ -31,6 +32,13 @@ struct Conformity {
     return any_elements() && isolated.count == 0 && unmatched.count == 0 && flat.count == 0 &&
            !measure.far_off();
   }
+  // Nodes, edges or elements that text_of counts; 0 if it counts none.
+  std::int64_t faults() const {
+    if (!any_elements()) return 0;
+    for (const std::int64_t count : {isolated.count, unmatched.count, flat.count})
+      if (count > 0) return count;
+    return measure.far_off() ? 0 : boundary.torn.count;
+  }
   bool holds() const { return fills() && boundary.agrees(); }
 };
 
@@ -40,6 +48,6 @@ Conformity<Dim> conformity_of(const Results<Dim>& results);
 
 // What is wrong, with places; empty if nothing is. Collective.
 template <int Dim>
-std::string text_of(const Conformity<Dim>& conformity, const Results<Dim>& results);
+MessageText text_of(const Conformity<Dim>& conformity, const Results<Dim>& results);
 
 }  // namespace pnpbs

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message_text.hpp"
 #include "check/node_check.hpp"
 #include "comm/records.hpp"
 
@@ -41,7 +42,7 @@ class CornerCheck {
          })) {
       const std::int64_t i = check_.owned_node(wanted.of);
       if (i < 0 || !star_has(i, wanted.others))
-        fail(i < 0 ? std::to_string(wanted.of) : check_.name(i),
+        fail(i < 0 ? MessageText(std::to_string(wanted.of)) : check_.name(i),
              [&](std::size_t k) { return std::to_string(wanted.others[k]); });
     }
   }
@@ -73,8 +74,8 @@ class CornerCheck {
   }
 
   template <class NameOf>
-  [[noreturn]] static void fail(const std::string& corner, const NameOf& name_of) {
-    std::string names = name_of(0);
+  [[noreturn]] static void fail(const MessageText& corner, const NameOf& name_of) {
+    MessageText names = name_of(0);
     for (std::size_t k = 1; k < Others; ++k)
       names += (k + 1 < Others ? ", " : " and ") + name_of(k);
     fail_check("the star of node " + corner + " lacks the " +

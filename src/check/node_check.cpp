@@ -10,7 +10,7 @@
 
 namespace pnpbs {
 
-void fail_check(const std::string& what) {
+void fail_check(const MessageText& what) {
   throw Error(ErrorKind::internal, "the check of the results failed: " + what);
 }
 

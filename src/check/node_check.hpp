@@ -13,7 +13,7 @@
 namespace pnpbs {
 
 // Throws Error(ErrorKind::internal).
-[[noreturn]] void fail_check(const std::string& what);
+[[noreturn]] void fail_check(const MessageText& what);
 
 // Of what is handed out. Its checks are collective, and fail on any rank that finds something.
 template <int Dim>
@@ -34,7 +34,7 @@ class NodeCheck {
   void check_lists() const;
 
   const Level<Dim>& level() const { return level_; }
-  std::string name(std::int64_t i) const {
+  MessageText name(std::int64_t i) const {
     return std::to_string(nodes_.id(i)) + " " + point_text(position(i));
   }
   // The owned node with this id, or -1.
@@ -84,7 +84,7 @@ class NodeCheck {
   std::int64_t owned_;
 
  private:
-  static std::string text_of(const PlacedId& node) {
+  static MessageText text_of(const PlacedId& node) {
     return std::to_string(node.id) + " " + point_text(node.x);
   }
   std::vector<PlacedId> gathered_by(std::uint64_t (*key)(const PlacedId&)) const;

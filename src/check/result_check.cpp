@@ -195,11 +195,12 @@ void ResultCheck::check_area() const {
 
 }  // namespace
 
-std::string check_results(Results<2>& results) {
+std::optional<MessageText> check_results(Results<2>& results) {
   results.prepare_lists();
   results.prepare_stars();
   const Conformity<2> conformity = conformity_of(results);
   ResultCheck(results).check(conformity.fills());
+  if (conformity.holds()) return std::nullopt;
   return text_of(conformity, results);
 }
 

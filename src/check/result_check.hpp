@@ -3,14 +3,15 @@
 // out: nodes, lists and stars, over all ranks.
 #pragma once
 
-#include <string>
+#include <optional>
 
+#include "base/message_text.hpp"
 #include "results/results.hpp"
 
 namespace pnpbs {
 
-// Where elements are missing without which they cannot fill the domain (conformity.hpp), says so;
-// otherwise empty. Throws Error(ErrorKind::internal), which says what is wrong and at which nodes,
+// Returns what is wrong where elements are missing without which they cannot fill the domain
+// (conformity.hpp). Throws Error(ErrorKind::internal), which says what is wrong and at which nodes,
 // unless
 // - ids are unique, no two nodes lie in one place, all lie inside or are nodes of the boundary,
 //   and all of those are there,
@@ -20,7 +21,7 @@ namespace pnpbs {
 //   triangles are one conforming triangulation, which holds all edges of the boundary,
 // - the triangles' areas add up to the domain's.
 // No rank learns more than what its own nodes and ghosts are. Collective.
-std::string check_results(Results<2>& results);
+std::optional<MessageText> check_results(Results<2>& results);
 // The same in space, unless
 // - ids and places as there, all nodes lie inside, on a surface or where they were laid on the
 //   features, and all of those are there,
@@ -30,7 +31,7 @@ std::string check_results(Results<2>& results);
 // - the faces with a tetrahedron on one side only are closed surfaces, which enclose the volume of
 //   the tetrahedra, and that of the domain but for what they may cut off.
 // Collective.
-std::string check_results(Results<3>& results);
+std::optional<MessageText> check_results(Results<3>& results);
 // The same of surfaces alone, unless
 // - ids, places, nodes and lists as there,
 // - each triangle is in the stars of its three corners,

@@ -155,13 +155,14 @@ void VolumeResultCheck::check_volume(bool fills) const {
 
 }  // namespace
 
-std::string check_results(Results<3>& results) {
+std::optional<MessageText> check_results(Results<3>& results) {
   results.prepare_stars();
   const Conformity<3> conformity = conformity_of(results);
   if (results.surfaces_alone())
     check_surfaces(results, conformity.fills());
   else
     VolumeResultCheck(results, conformity).check();
+  if (conformity.holds()) return std::nullopt;
   return text_of(conformity, results);
 }
 

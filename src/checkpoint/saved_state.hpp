@@ -27,7 +27,7 @@ struct SavedState {
   std::uint64_t domain_fingerprint = 0;
   std::uint64_t checksum = 0;  // of the nodes, whatever their order, and of the tables
   std::string options;         // those that decide, "name = value" in lines
-  std::string warnings;        // of the last run, in lines
+  std::string warnings;        // of the last run: see saved_warnings.hpp
 
   // Tables, in rows of numbers: they are no fields.
   std::vector<double> held;          // places where d is reduced, each followed by d there

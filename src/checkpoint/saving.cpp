@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <span>
 #include <utility>
 
 #include "base/error.hpp"
@@ -11,6 +11,7 @@
 #include "base/point_text.hpp"
 #include "checkpoint/domain_fingerprint.hpp"
 #include "checkpoint/option_changes.hpp"
+#include "checkpoint/saved_warnings.hpp"
 #include "comm/records.hpp"
 #include "level/exchange.hpp"
 #include "level/node_spacing.hpp"
@@ -22,7 +23,7 @@ namespace pnpbs {
 
 namespace {
 
-[[noreturn]] void damaged(const std::string& what) { throw Error(ErrorKind::file, what); }
+[[noreturn]] void damaged(const MessageText& what) { throw Error(ErrorKind::file, what); }
 
 bool is_flag(std::int64_t value) { return value == 0 || value == 1; }
 
@@ -60,7 +61,7 @@ void require_possible_node(const Level<Dim>& level, const SavedState& state,
   bool inside = true;
   for (int k = 0; k < Dim; ++k)
     inside = inside && node.x[k] >= bounds.low[k] - margin && node.x[k] <= bounds.high[k] + margin;
-  const std::string which = "node " + std::to_string(node.id) + " at " + point_text(node.x);
+  const MessageText which = "node " + std::to_string(node.id) + " at " + point_text(node.x);
   if (node.id < 0 || node.id >= state.next_id)
     damaged(which + ": ids are from 0 up to " + std::to_string(state.next_id) +
             " without it: it is damaged");
@@ -147,6 +148,7 @@ void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<D
 
 // What no placement can have saved.
 void require_possible(const SavedState& s) {
+  warnings_in(s.warnings);
   const auto count = [](std::int64_t n) { return n >= 0; };
   const bool flags = is_flag(s.refined) && is_flag(s.coarser) && is_flag(s.taken_over) &&
                      is_flag(s.ended) && is_flag(s.population_settled) && is_flag(s.at_event) &&
@@ -264,8 +266,7 @@ Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Sizing
     for (std::int32_t i = 0; i < level.nodes.count; ++i)
       if (level.nodes.owned(i)) saved.owned.push_back(i);
     for (std::int64_t k = 0; k < saved.count(); ++k) checksum += checksum_of(saved.node(k));
-    for (std::size_t w = run.warnings_of_level; w < run.warnings.size(); ++w)
-      s.warnings += run.warnings[w] + "\n";
+    s.warnings = saved_warnings(std::span(run.warnings).subspan(run.warnings_of_level));
     s.options = lines_of_deciding(options.in(Dim));
     if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(&spacing.source()))
       saved.patch = &nodal->patch();
@@ -378,8 +379,8 @@ void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
   run.surface_fit.missing_faces = s.missing_faces;
   level.left_out = s.left_out;
   level.held_rounds = s.held_rounds;
-  std::istringstream lines(s.warnings);
-  for (std::string line; std::getline(lines, line);) run.warnings.push_back(line);
+  const std::vector<Warning> of_run = warnings_in(s.warnings);
+  run.warnings.insert(run.warnings.end(), of_run.begin(), of_run.end());
 }
 
 template KnownValues<2> finer_places_of(const SavedState&);

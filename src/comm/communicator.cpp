@@ -53,14 +53,27 @@ class SerialCommunicator : public Communicator {
   int message_length(std::uint64_t) const override { return 0; }
 };
 
-// Kind and text of a failure, in a message of one size: telling of it needs no memory.
+// Kind, reason and message of a failure, in a message of one size: sending it needs no memory.
 struct FailureNote {
   ErrorKind kind = ErrorKind::internal;
-  std::array<char, 4092> text{};
+  ErrorReason reason = ErrorReason::other;
+  std::size_t points = 0;
+  std::array<NamedPoint, 32> point{};
+  std::array<char, 4096> text{};
 
   void set(ErrorKind of, const char* what) {
     kind = of;
     std::strncpy(text.data(), what, text.size() - 1);
+  }
+  // Points that do not fit stay parts of the text.
+  void set(const Error& error) {
+    set(error.kind(), error.what());
+    reason = error.reason();
+    for (const NamedPoint& named : error.message().points())
+      if (points < point.size() && named.end < text.size()) point[points++] = named;
+  }
+  MessageText message() const {
+    return {text.data(), {point.begin(), point.begin() + static_cast<std::ptrdiff_t>(points)}};
   }
 };
 
@@ -69,7 +82,7 @@ FailureNote describe(std::exception_ptr failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const Error& error) {
-    note.set(error.kind(), error.what());
+    note.set(error);
   } catch (const std::bad_alloc&) {
     note.set(ErrorKind::memory, kOutOfMemory);
   } catch (const std::length_error&) {
@@ -110,7 +123,8 @@ Communicator::Reduction Communicator::reduce_or_fail(Reduction mine,
     note = describe(std::current_exception());
   }
   try {
-    throw AgreedError(note.kind, "rank " + std::to_string(failed) + ": " + note.text.data());
+    throw AgreedError(note.kind, "rank " + std::to_string(failed) + ": " + note.message(),
+                      note.reason);
   } catch (const std::bad_alloc&) {
     throw AgreedError(note.kind, kNoRoomForText);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "base/warning.hpp"
 #include "domain/given_points.hpp"
 #include "formats/group_names.hpp"
 
@@ -27,7 +28,7 @@ class DomainBase {
   // One of a file's, called so in messages: see RegionPoint.
   void add_region_of_file(const Point<Dim>& point, std::int32_t tag, std::string name);
   // To be told with those that check() finds.
-  void add_warning(std::string warning) {
+  void add_warning(Warning warning) {
     given_warnings_.push_back(std::move(warning));
     checked_ = false;
   }
@@ -39,7 +40,7 @@ class DomainBase {
  protected:
   std::vector<FixedNode<Dim>> given_nodes_;
   std::vector<RegionPoint<Dim>> region_points_;
-  std::vector<std::string> given_warnings_;
+  std::vector<Warning> given_warnings_;
   bool checked_ = false;
 
  private:

@@ -23,7 +23,7 @@ void as_of_file(const std::string& name, const Work& work) {
     work();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::argument) throw;
-    throw Error(ErrorKind::file, name + ": " + error.what());
+    throw Error(ErrorKind::file, name + ": " + error.message(), error.reason());
   }
 }
 
@@ -84,7 +84,7 @@ void add_regions(DomainBase<Dim>& domain, const MshMesh& mesh) {
 
 template <int Dim>
 void add_names_and_warnings(DomainBase<Dim>& domain, const MshMesh& mesh) {
-  for (const std::string& warning : mesh.warnings) domain.add_warning(warning);
+  for (const Warning& warning : mesh.warnings) domain.add_warning(warning);
   for (const auto& [group, name] : mesh.names.all()) domain.names().add(group, name);
 }
 
@@ -102,8 +102,8 @@ void add_poly(PlaneDomain& domain, const PolyGraph& graph) {
       changed.add_region_of_file({regions.points[2 * k], regions.points[2 * k + 1]},
                                  regions.tags[k], graph.name + ": " + regions.names[k]);
   });
-  if (std::string warning = warning_of_skipped(graph.regions.skipped, graph.name); !warning.empty())
-    changed.add_warning(std::move(warning));
+  if (auto warning = warning_of_skipped(graph.regions.skipped, graph.name))
+    changed.add_warning(std::move(*warning));
   domain = std::move(changed);
 }
 

@@ -3,7 +3,7 @@
 
 namespace pnpbs::given_values {
 
-void reject(const std::string& message) { throw Error(ErrorKind::argument, message); }
+void reject(const MessageText& message) { throw Error(ErrorKind::argument, message); }
 
 std::string indexed(const std::string& name, std::int64_t index) {
   return name + "[" + std::to_string(index) + "]";

@@ -13,7 +13,7 @@
 
 namespace pnpbs::given_values {
 
-[[noreturn]] void reject(const std::string& message);
+[[noreturn]] void reject(const MessageText& message);
 
 // "name[3]"
 std::string indexed(const std::string& name, std::int64_t index);
@@ -28,6 +28,17 @@ void require_angle(const char* name, double degrees);
 template <int Dim>
 void require_point(const std::string& name, const Point<Dim>& x) {
   for (int k = 0; k < Dim; ++k) require_number(indexed(name, k), x[k]);
+}
+
+// Throws Error(ErrorKind::argument) that names index and value of the first coordinate that is no
+// number up to 1e60.
+template <int Dim>
+void require_points(const std::string& name, std::int64_t n, const double* coordinates) {
+  for (std::int64_t i = 0; i < n; ++i) {
+    Point<Dim> x;
+    std::copy_n(coordinates + Dim * i, Dim, x.begin());
+    if (!is_usable(x)) require_point<Dim>(indexed(name, i), x);
+  }
 }
 
 template <int Dim>

@@ -28,7 +28,7 @@ std::string about_resolve(const NodeLimit& limit) {
 
 }  // namespace
 
-void NodeLimit::report_too_many(double nodes, double d, const std::string& place) const {
+void NodeLimit::report_too_many(double nodes, double d, const MessageText& place) const {
   throw Error(ErrorKind::spacing,
               "spacing d = " + number_text(d) + " near " + place + " would mean about " +
                   number_text(std::round(nodes)) + " nodes or more; the option max_nodes allows " +

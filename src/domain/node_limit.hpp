@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "base/message_text.hpp"
+
 namespace pnpbs {
 
 // What a node takes at the end of a run, its share of lists and tree included: measured as 222 to
@@ -17,7 +19,7 @@ struct NodeLimit {
       : max_nodes(nodes), max_bytes(bytes) {}
 
   // Throws Error(ErrorKind::spacing): there would be so many, and d is least near that place.
-  [[noreturn]] void report_too_many(double nodes, double d, const std::string& place) const;
+  [[noreturn]] void report_too_many(double nodes, double d, const MessageText& place) const;
   // Throws Error(ErrorKind::memory) if so many nodes, and all that is kept of them, would not fit.
   // So of anything else that is made for them, if it is named.
   void require_memory_for(double nodes, double bytes_per_node = kBytesPerNode,

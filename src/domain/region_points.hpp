@@ -10,27 +10,29 @@
 #include "base/domain_error.hpp"
 #include "base/index.hpp"
 #include "base/point_text.hpp"
+#include "base/warning.hpp"
 #include "domain/given_points.hpp"
 
 namespace pnpbs {
 
 template <int Dim>
-std::string name_and_place(const RegionPoint<Dim>& point) {
+MessageText name_and_place(const RegionPoint<Dim>& point) {
   return point.name + " at " + point_text(point.point);
 }
 
 // Takes the parts with holes out of those that are inside. part_of(k): where the k-th point lies.
 template <int Dim, class PartOf>
 void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& part_of,
-                  std::vector<char>& inside, std::vector<std::string>& warnings) {
+                  std::vector<char>& inside, std::vector<Warning>& warnings) {
   std::vector<const RegionPoint<Dim>*> hole_in(inside.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!points[k].is_hole()) continue;
     const std::size_t part = index(part_of(k));
     if (!inside[part]) reject_domain(name_and_place<Dim>(points[k]) + " lies outside the domain");
     if (hole_in[part])
-      warnings.push_back(name_and_place<Dim>(points[k]) + " lies in the same region as " +
-                         hole_in[part]->name);
+      warnings.emplace_back(
+          WarningCode::region_points,
+          name_and_place<Dim>(points[k]) + " lies in the same region as " + hole_in[part]->name, 1);
     else
       hole_in[part] = &points[k];
   }
@@ -45,15 +47,15 @@ void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& par
 template <int Dim, class PartOf>
 std::vector<std::int32_t> tags_of_parts(const std::vector<RegionPoint<Dim>>& points,
                                         const PartOf& part_of, const std::vector<char>& inside,
-                                        std::vector<std::string>& warnings) {
+                                        std::vector<Warning>& warnings) {
   std::vector<const RegionPoint<Dim>*> point_in(inside.size());
   std::vector<std::int32_t> tags;
-  std::vector<std::string> left_out;
+  std::vector<MessageText> left_out;
   const auto add = [&](std::size_t k) {
     const RegionPoint<Dim>& it = points[k];
     const std::size_t part = index(part_of(k));
     const RegionPoint<Dim>* other = point_in[part];
-    std::string problem;
+    MessageText problem;
     if (!inside[part])
       problem = name_and_place<Dim>(it) + " lies outside the domain";
     else if (other && other->tag != it.tag)
@@ -69,7 +71,9 @@ std::vector<std::int32_t> tags_of_parts(const std::vector<RegionPoint<Dim>>& poi
   for (const bool from_file : {false, true})
     for (std::size_t k = 0; k < points.size(); ++k)
       if (!points[k].is_hole() && points[k].from_file == from_file) add(k);
-  if (!left_out.empty()) warnings.push_back("left out: " + list_text(left_out));
+  if (!left_out.empty())
+    warnings.emplace_back(WarningCode::region_points, "left out: " + list_text(left_out),
+                          std::ssize(left_out));
   return tags;
 }
 

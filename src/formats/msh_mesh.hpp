@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "base/warning.hpp"
 #include "formats/group_names.hpp"
 
 namespace pnpbs {
@@ -50,7 +51,7 @@ struct MshMesh {
   std::array<MshCells, kMshShapes> cells;
   GroupNames names;
   std::vector<MshNodeValues> node_values;  // if they are wanted
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 
   const MshCells& of(MshShape shape) const { return cells[static_cast<std::size_t>(shape)]; }
   // Has it any elements of this dimension?

@@ -354,12 +354,17 @@ class MshParser {
 
   void warn() {
     if (curved_ > 0)
-      mesh_.warnings.push_back(
+      mesh_.warnings.emplace_back(
+          WarningCode::curved_elements,
           name_ + ": " + std::to_string(curved_) +
-          " elements of higher order are treated as straight ones between their corners");
+              " elements of higher order are treated as straight ones between their corners",
+          curved_);
     if (!in_several_.empty())
-      mesh_.warnings.push_back(name_ + ": in several physical groups, of which the first counts: " +
-                               list_text(in_several_));
+      mesh_.warnings.emplace_back(
+          WarningCode::groups,
+          name_ +
+              ": in several physical groups, of which the first counts: " + list_text(in_several_),
+          std::ssize(in_several_));
   }
 
   MshFields fields_;

@@ -159,10 +159,14 @@ RegionSection<Dim> read_regions(TextFields& fields) {
   return regions;
 }
 
-std::string warning_of_skipped(const std::vector<std::string>& skipped, const std::string& file) {
-  if (skipped.empty()) return "";
-  return file + ": regional attributes that are no integers, and so no tags, are skipped: " +
-         list_text(skipped, 5);
+std::optional<Warning> warning_of_skipped(const std::vector<std::string>& skipped,
+                                          const std::string& file) {
+  if (skipped.empty()) return std::nullopt;
+  return Warning(WarningCode::region_points,
+                 file +
+                     ": regional attributes that are no integers, and so no tags, are skipped: " +
+                     list_text(skipped, 5),
+                 std::ssize(skipped));
 }
 
 template VertexSection<2> read_vertices<2>(TextFields&, const std::function<NodeFile()>&);

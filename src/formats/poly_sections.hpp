@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "formats/text_fields.hpp"
 
 namespace pnpbs {
@@ -66,6 +68,7 @@ template <int Dim>
 RegionSection<Dim> read_regions(TextFields& fields);
 
 // Nothing if none was.
-std::string warning_of_skipped(const std::vector<std::string>& skipped, const std::string& file);
+std::optional<Warning> warning_of_skipped(const std::vector<std::string>& skipped,
+                                          const std::string& file);
 
 }  // namespace pnpbs

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "base/warning.hpp"
 
 namespace pnpbs {
 
@@ -30,7 +31,7 @@ struct SurfaceTriangles {
   // From TetGen's files: a point in each cavity, and in regions with a tag.
   std::vector<Point<3>> holes;
   std::vector<SurfaceRegion> regions;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 enum class SurfaceFormat { stl, off, obj, ply, poly, smesh };

@@ -83,8 +83,8 @@ void add_regions(const RegionSection<3>& regions, const std::string& file,
   const std::vector<Point<3>> all = points(regions.points);
   for (std::size_t k = 0; k < all.size(); ++k)
     surface.regions.push_back({all[k], file + ": " + regions.names[k], regions.tags[k]});
-  if (const std::string warning = warning_of_skipped(regions.skipped, file); !warning.empty())
-    surface.warnings.push_back(warning);
+  if (const auto warning = warning_of_skipped(regions.skipped, file))
+    surface.warnings.push_back(*warning);
 }
 
 }  // namespace

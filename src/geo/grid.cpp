@@ -45,7 +45,7 @@ std::vector<Point<2>> lattice_over(const Box<2>& box) {
   return points;
 }
 
-std::string extents_text(const Box<2>& box) {
+MessageText extents_text(const Box<2>& box) {
   return "from " + rounded_point_text<2>(box.low) + " to " + rounded_point_text<2>(box.high);
 }
 

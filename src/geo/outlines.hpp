@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/message_text.hpp"
 #include "base/types.hpp"
 #include "geo/shape_file.hpp"
 
@@ -68,7 +69,7 @@ struct Outlines {
 
 // Outlines enclose areas that do not overlap. Closed lines outside of all of them bound the domain,
 // too. Throws Error with the place, for which `where` finds words.
-using WordsFor = std::function<std::string(std::int64_t place)>;
+using WordsFor = std::function<MessageText(std::int64_t place)>;
 // radius: of the sphere that the points are in a stereographic projection of, or 0 for the plane.
 Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
                      const WordsFor& where, double radius = 0);

@@ -16,6 +16,7 @@
 #include "base/error.hpp"
 #include "geo/grid.hpp"
 #include "geo/grid_slopes.hpp"
+#include "geo/library_error.hpp"
 #include "geo/shapes.hpp"
 #include "spacing/depth_rule.hpp"
 
@@ -82,8 +83,8 @@ Registry<pnpbs_geo_grid, Grid>& grids() {
 }
 
 // ------------------------------------------------------------------ errors ---------------------
-std::string& last_error() {
-  static thread_local std::string message;
+MessageText& last_error() {
+  static thread_local MessageText message;
   return message;
 }
 
@@ -108,11 +109,11 @@ pnpbs_status status_of(ErrorKind kind) {
   }
 }
 
-pnpbs_status report(pnpbs_status status, const char* message) noexcept {
+pnpbs_status report(pnpbs_status status, const auto& message) noexcept {
   try {
     last_error() = message;
   } catch (...) {
-    last_error().clear();
+    last_error() = {};
   }
   return status;
 }
@@ -124,7 +125,7 @@ pnpbs_status guarded(const Body& body) noexcept {
     body();
     return PNPBS_OK;
   } catch (const Error& error) {
-    return report(status_of(error.kind()), error.what());
+    return report(status_of(error.kind()), error.message());
   } catch (const std::bad_alloc&) {
     return report(PNPBS_ERROR_MEMORY, "out of memory");
   } catch (const std::exception& error) {
@@ -196,7 +197,7 @@ pnpbs_status change_coordinates(pnpbs_geo_shapes shapes, std::int64_t n, double*
 
 }  // namespace
 
-const char* pnpbs_geo_last_error(void) { return last_error().c_str(); }
+const char* pnpbs_geo_last_error(void) { return last_error().text().c_str(); }
 
 const char* pnpbs_geo_build_info(void) {
   static const std::string info = [] {
@@ -288,10 +289,9 @@ pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n, double* 
 
 const char* pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char* message) {
   static thread_local std::string text;
-  const std::string given = text_of(message);
-  const pnpbs_status status =
-      guarded(shapes, [&](Object& object) { text = object.shapes.with_degrees(given); });
-  if (status != PNPBS_OK) text = given;
+  text = text_of(message);
+  const MessageText known = with_points(text, last_error());
+  guarded(shapes, [&](Object& object) { text = object.shapes.with_degrees(known).text(); });
   return text.c_str();
 }
 
@@ -305,12 +305,16 @@ pnpbs_status pnpbs_geo_note_count(pnpbs_geo_shapes shapes, int32_t* count) {
 pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index, const char** note) {
   return guarded(shapes, [&](Object& object) {
     require_pointer(note, "note");
-    const auto& notes = object.shapes.notes();
-    if (index < 0 || static_cast<std::size_t>(index) >= notes.size())
-      throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) +
-                                           ": there are " + std::to_string(notes.size()) +
-                                           " notes");
-    *note = notes[static_cast<std::size_t>(index)].c_str();
+    *note = note_at(object.shapes.notes(), index).text.c_str();
+  });
+}
+
+pnpbs_status pnpbs_geo_get_note_data(pnpbs_geo_shapes shapes, int32_t index, int32_t* code,
+                                     int64_t* count) {
+  return guarded(shapes, [&](Object& object) {
+    const Note& note = note_at(object.shapes.notes(), index);
+    put(code, static_cast<std::int32_t>(note.code));
+    put(count, note.count);
   });
 }
 

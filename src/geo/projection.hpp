@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message_text.hpp"
 #include "base/types.hpp"
 #include "geo/legs.hpp"
 #include "geo/reference_system.hpp"
@@ -38,7 +39,7 @@ class Projection {
   // From canonical points of the data. Where one cannot be projected, its index, and why.
   struct Fault {
     std::size_t index;
-    std::string reason;
+    MessageText reason;
   };
   std::optional<Fault> project(std::vector<Point<2>>& points) const;
   // Degrees on the ellipsoid of the data, from projected points or back; infinite where there are

@@ -12,13 +12,14 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "base/extension.hpp"
 #include "base/point_text.hpp"
 #include "geo/gdal_messages.hpp"
 
 namespace pnpbs::geo {
 namespace {
 
-[[noreturn]] void reject_file(const std::string& message) { throw Error(ErrorKind::file, message); }
+[[noreturn]] void reject_file(const MessageText& message) { throw Error(ErrorKind::file, message); }
 
 struct CloseDataset {
   void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
@@ -35,27 +36,35 @@ void register_drivers() {
   std::call_once(once, [] { GDALAllRegister(); });
 }
 
-// What GDAL says of a shapefile without its index names an option of GDAL's; how to set it, only we
-// can say.
-std::string with_advice(const std::string& message, const std::string& path) {
-  if (message.find("SHAPE_RESTORE_SHX") == std::string::npos) return message;
-  return message +
-         "\nA shapefile is several files of one name: provide its .shx, or recreate it "
+bool exists(const std::string& path) {
+  VSIStatBufL status;
+  return VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) == 0;
+}
+
+bool is_shapefile_without_index(const std::string& path) {
+  if (extension_of(path) != "shp") return false;
+  const std::string stem = path.substr(0, path.size() - 3);
+  return !exists(stem + "shx") && !exists(stem + "SHX");
+}
+
+// What GDAL says of a shapefile without its index names an option of GDAL's. How to set it is
+// added.
+std::string advice_on(const std::string& path) {
+  if (!is_shapefile_without_index(path)) return "";
+  return "\nA shapefile is several files of one name: provide its .shx, or recreate it "
          "with\nogrinfo --config SHAPE_RESTORE_SHX YES '" +
          path + "'";
 }
 
 Dataset open_file(const std::string& path, GdalMessages& messages) {
   register_drivers();
-  VSIStatBufL status;
-  if (VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) != 0 &&
-      path.find(':') == std::string::npos)
+  if (!exists(path) && path.find(':') == std::string::npos)
     reject_file("cannot open '" + path + "': there is no such file");
   messages.forget();
   Dataset dataset(GDALOpenEx(path.c_str(),
                              GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                              nullptr, nullptr));
-  if (!dataset) reject_file("cannot read '" + path + "': " + with_advice(messages.failure(), path));
+  if (!dataset) reject_file("cannot read '" + path + "': " + messages.failure() + advice_on(path));
   return dataset;
 }
 
@@ -232,9 +241,12 @@ void read_features(OGRLayerH layer, const std::string& tag_field, GdalMessages& 
     reject_file(shapes.name + " has no shapes: none of its " + std::to_string(features) +
                 " features has a geometry");
   if (without_shape > 0)
-    shapes.notes.push_back(std::to_string(without_shape) + " of " + std::to_string(features) +
-                           " features have no geometry and were left out");
-  if (reader.has_height()) shapes.notes.emplace_back("heights in the file are left out");
+    shapes.notes.emplace_back(NoteCode::no_geometry,
+                              std::to_string(without_shape) + " of " + std::to_string(features) +
+                                  " features have no geometry and were left out",
+                              without_shape);
+  if (reader.has_height())
+    shapes.notes.emplace_back(NoteCode::heights_left_out, "heights in the file are left out");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "geo/note.hpp"
 #include "geo/reference_system.hpp"
 
 namespace pnpbs::geo {
@@ -34,7 +35,7 @@ struct LayerShapes {
   std::vector<Spot> spots;
   std::map<std::int32_t, std::string> tag_names;
   ReferenceSystem system;  // none if the file names none
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
 };
 
 // An empty layer name is for files that have only one. Tags are the values of the field: numbers as

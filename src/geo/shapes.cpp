@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/places_in_text.hpp"
 #include "base/point_text.hpp"
+#include "geo/library_error.hpp"
 #include "geo/shores.hpp"
 #include "geo/touching.hpp"
 
@@ -38,7 +38,7 @@ ErrorKind kind_of(pnpbs_status status) {
 }
 
 void check(pnpbs_status status, pnpbs_context context) {
-  if (status < 0) throw Error(kind_of(status), pnpbs_last_error(context));
+  if (status < 0) throw Error(kind_of(status), last_message(context));
 }
 
 // Lengths that are off by more than this are told.
@@ -67,7 +67,7 @@ Shapes::Shapes(const Request& request)
   take_notes();
 }
 
-std::string Shapes::words_for(const Point<2>& given, std::int64_t feature) const {
+MessageText Shapes::words_for(const Point<2>& given, std::int64_t feature) const {
   return layer_.name + ": feature " + std::to_string(feature) + ": " + point_text(given);
 }
 
@@ -98,11 +98,13 @@ void Shapes::project() {
   for (const Spot& spot : layer_.spots) spots.push_back(number_of(spot.point, spot.feature));
 
   if (const auto miss = split_where_touched(routes, given.points(), projection_))
-    layer_.notes.push_back("features " + std::to_string(miss->feature) + " and " +
-                           std::to_string(miss->other) + " all but touch at " +
-                           point_text(given.points()[miss->place]) +
-                           " (and maybe elsewhere): if they are neighbours, give the edge between "
-                           "them the same vertices");
+    layer_.notes.emplace_back(
+        NoteCode::nearly_touching,
+        "features " + std::to_string(miss->feature) + " and " + std::to_string(miss->other) +
+            " all but touch at " + point_text(given.points()[miss->place]) +
+            " (and maybe elsewhere): if they are neighbours, give the edge between "
+            "them the same vertices",
+        2);
   std::vector<Point<2>> projected = given.points();
   if (const auto fault = projection_.project(projected))
     throw Error(ErrorKind::file, words_for(given.points()[fault->index], features[fault->index]) +
@@ -130,41 +132,57 @@ void Shapes::project() {
 }
 
 void Shapes::take_notes() {
-  std::vector<std::string>& notes = layer_.notes;
+  std::vector<Note>& notes = layer_.notes;
   if (!layer_.system)
     notes.emplace_back(
+        NoteCode::no_reference_system,
         "the file does not say what its coordinates are (there is no .prj beside it, say): they "
         "are taken as x and y in a plane");
   if (projection_.is_identity() && projection_.system().is_geographic())
-    notes.emplace_back("longitude and latitude are taken as x and y in a plane, as asked");
+    notes.emplace_back(NoteCode::degrees_in_plane,
+                       "longitude and latitude are taken as x and y in a plane, as asked");
   if (!on_sphere() && (scale_.least < 1 - told_scale || scale_.greatest > 1 + told_scale))
-    notes.push_back("in the projection '" + projection_.system().name() + "' lengths are " +
-                    rounded_text(scale_.least) + " to " + rounded_text(scale_.greatest) +
-                    " times what they are on the Earth, and d is meant in the projection");
+    notes.emplace_back(NoteCode::scale,
+                       "in the projection '" + projection_.system().name() + "' lengths are " +
+                           rounded_text(scale_.least) + " to " + rounded_text(scale_.greatest) +
+                           " times what they are on the Earth, and d is meant in the projection");
   if (outlines_.retagged_edges > 0)
-    notes.push_back(std::to_string(outlines_.retagged_edges) +
-                    " segments of polygons have the tag of the line that has them, too");
+    notes.emplace_back(NoteCode::segments_retagged,
+                       std::to_string(outlines_.retagged_edges) +
+                           " segments of polygons have the tag of the line that has them, too",
+                       outlines_.retagged_edges);
   if (lines_along_shore_ == 1)
     notes.emplace_back(
+        NoteCode::lines_along_boundary,
         "a line runs along the boundary, to 0.001 of the extent: that part of the boundary has its "
-        "tag, and the line is no curve of its own");
+        "tag, and the line is no curve of its own",
+        1);
   else if (lines_along_shore_ > 1)
-    notes.push_back(std::to_string(lines_along_shore_) +
-                    " lines run along the boundary, to 0.001 of the extent: these parts of the "
-                    "boundary have their tags, and the lines are no curves of their own");
+    notes.emplace_back(NoteCode::lines_along_boundary,
+                       std::to_string(lines_along_shore_) +
+                           " lines run along the boundary, to 0.001 of the extent: these parts of "
+                           "the boundary have their tags, and the lines are no curves of their own",
+                       lines_along_shore_);
   if (outlines_.outer_edges > 0)
-    notes.push_back(std::to_string(outlines_.outer_edges) +
-                    " segments that neighbouring polygons share were left out: the domain is "
-                    "outside of the polygons");
+    notes.emplace_back(NoteCode::shared_segments_left_out,
+                       std::to_string(outlines_.outer_edges) +
+                           " segments that neighbouring polygons share were left out: the domain "
+                           "is outside of the polygons",
+                       outlines_.outer_edges);
   if (on_sphere() && boundary_curves() == 0)
-    notes.emplace_back("no polygon and no closed line bounds the domain: it is the whole sphere");
+    notes.emplace_back(NoteCode::whole_sphere,
+                       "no polygon and no closed line bounds the domain: it is the whole sphere");
   if (outlines_.lost_tags > 0)
-    notes.push_back("lines left out: " + std::to_string(outlines_.lost_tags) +
-                    " segments that another line has with another tag");
+    notes.emplace_back(NoteCode::lines_left_out,
+                       "lines left out: " + std::to_string(outlines_.lost_tags) +
+                           " segments that another line has with another tag",
+                       outlines_.lost_tags);
   if (outlines_.dropped_edges > 0)
-    notes.push_back(std::to_string(outlines_.dropped_edges) +
-                    " segments were left out that only repeat others or lead there and back "
-                    "within a feature, as along 180 degrees");
+    notes.emplace_back(NoteCode::segments_left_out,
+                       std::to_string(outlines_.dropped_edges) +
+                           " segments were left out that only repeat others or lead there and back "
+                           "within a feature, as along 180 degrees",
+                       outlines_.dropped_edges);
 }
 
 // ------------------------------------------------------------------ into a domain --------------
@@ -205,7 +223,7 @@ void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corne
     const pnpbs_status status = pnpbs_domain_add_polyline(
         domain, curve.bounds ? PNPBS_BOUNDARY : PNPBS_INNER, curve.closed, std::ssize(points),
         coordinates.data(), curve.tags.data(), corner_angle);
-    if (status < 0) throw Error(kind_of(status), words_for(curve) + pnpbs_last_error(context));
+    if (status < 0) throw Error(kind_of(status), words_for(curve) + last_message(context));
   }
 }
 
@@ -232,15 +250,17 @@ std::int64_t Shapes::inner_curves() const {
   return static_cast<std::int64_t>(outlines_.curves.size()) - boundary_curves();
 }
 
-std::string Shapes::with_degrees(const std::string& text) const {
+MessageText Shapes::with_degrees(const MessageText& message) const {
   const ReferenceSystem& system = projection_.system();
-  if (!system || system.is_geographic()) return text;
-  return with_places(text, [this](const Point<2>& place, const std::string& here) {
-    std::vector<Point<2>> degrees{place};
+  if (!system || system.is_geographic()) return message;
+  const auto words = [this](const NamedPoint& point, const std::string& text) {
+    if (point.dimension != 2) return text;
+    std::vector<Point<2>> degrees{{point.x[0], point.x[1]}};
     projection_.to_degrees(degrees);
-    if (!std::isfinite(degrees[0][0] + degrees[0][1])) return here;
-    return here + " [" + degrees_text(degrees[0]) + "]";
-  });
+    if (!std::isfinite(degrees[0][0] + degrees[0][1])) return text;
+    return text + " [" + degrees_text(degrees[0]) + "]";
+  };
+  return with_points_told(message, words, [](const NamedPoint& point) { return point; });
 }
 
 }  // namespace pnpbs::geo

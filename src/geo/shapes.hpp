@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message_text.hpp"
 #include "geo/outlines.hpp"
 #include "geo/projection.hpp"
 #include "geo/shape_file.hpp"
@@ -21,28 +22,27 @@ class Shapes {
  public:
   explicit Shapes(const Request& request);  // reads. Throws Error
 
-  // What the library says, with the places in it in degrees, too, is the message of the Error that
-  // is thrown if it says no.
+  // Throws Error with the message of libpnpbs, and its points.
   void add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
 
   const Projection& projection() const { return projection_; }
   bool on_sphere() const { return projection_.on_sphere(); }
-  const std::vector<std::string>& notes() const { return layer_.notes; }
+  const std::vector<Note>& notes() const { return layer_.notes; }
   const Projection::Scale& scale() const { return scale_; }
   std::int64_t vertices() const;
   std::int64_t boundary_curves() const;
   std::int64_t inner_curves() const;
   std::int64_t points() const { return static_cast<std::int64_t>(layer_.spots.size()); }
 
-  // The text, and after each place "(x, y)" in it where on the Earth that is.
-  std::string with_degrees(const std::string& text) const;
+  // Returns the message with longitude and latitude after each point of the projection in it.
+  MessageText with_degrees(const MessageText& message) const;
 
  private:
   void project();
   void take_notes();
   void add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
   std::vector<double> coordinates_of(std::vector<Point<2>> points) const;
-  std::string words_for(const Point<2>& given, std::int64_t feature) const;
+  MessageText words_for(const Point<2>& given, std::int64_t feature) const;
   std::string words_for(const Curve& curve) const;
 
   LayerShapes layer_;  // its paths are empty once they are outlines

@@ -194,16 +194,18 @@ void take_care(const SurfaceSource& surface, const std::vector<std::int32_t>& tr
 void warn_of_rounded(const LevelSetCrossings& crossings, const std::vector<char>& care,
                      SurfaceSource& surface, const std::string& name) {
   std::int64_t rounded = 0;
-  std::string first;
+  MessageText first;
   for (const CreaseCrossing& edge : crossings.edges)
     if (std::max(care[index(edge.vertices[0])], care[index(edge.vertices[1])]) >= kLeftAlone &&
         rounded++ == 0)
       first = point_text(edge.at.position);
   if (rounded > 0)
-    surface.warnings.push_back(
+    surface.warnings.emplace_back(
+        WarningCode::edges_rounded,
         "edges of " + name + " are rounded by the resolution across " + std::to_string(rounded) +
-        " of " + std::to_string(crossings.edges.size()) + " triangle edges, the first at " + first +
-        ": a smaller resolution helps");
+            " of " + std::to_string(crossings.edges.size()) + " triangle edges, the first at " +
+            first + ": a smaller resolution helps",
+        rounded);
 }
 
 // Cuts the surface where that makes no triangles cross; says whether it came about.
@@ -243,8 +245,9 @@ void add_creases(const LevelSet& set, SurfaceSource& surface) {
       return;
     }
   }
-  surface.warnings.push_back("edges of " + set.name() +
-                             " are rounded by the resolution: a smaller one may help");
+  surface.warnings.emplace_back(
+      WarningCode::edges_rounded,
+      "edges of " + set.name() + " are rounded by the resolution: a smaller one may help");
 }
 
 }  // namespace pnpbs

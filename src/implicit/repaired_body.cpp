@@ -124,7 +124,7 @@ Box<3> roomy(Box<3> box, double resolution) {
 
 RepairedBody repaired_body(const std::vector<SurfaceSource>& given, double resolution) {
   RepairedBody body;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   const Box<3> box = box_around(given);
   if (resolution == 0) resolution = kRepairResolution * longest_side(box);
   if (!(resolution > 0 && resolution <= longest_side(box)))

@@ -113,14 +113,14 @@ class CheckpointReader {
   template <class Work>
   void explained(const Work& work) const {
     const auto text = [this](const Error& error) {
-      return quoted_checkpoint(path_) + ": " + error.what();
+      return quoted_checkpoint(path_) + ": " + error.message();
     };
     try {
       work();
     } catch (const AgreedError& error) {
-      throw AgreedError(error.kind(), text(error));
+      throw AgreedError(error.kind(), text(error), error.reason());
     } catch (const Error& error) {
-      throw Error(error.kind(), text(error));
+      throw Error(error.kind(), text(error), error.reason());
     }
   }
 

@@ -48,7 +48,7 @@ std::vector<Place> finer_places_of_own(const Level<3>& level) {
   return places;
 }
 
-std::string text_of(const std::vector<Place>& places) {
+MessageText text_of(const std::vector<Place>& places) {
   const Place& finest = places.front();
   return "the spacing d = " + rounded_text(finest.d) + " near " + rounded_point_text<3>(finest.x) +
          " is for so small a place that samples around have " + rounded_text(finest.sampled) +

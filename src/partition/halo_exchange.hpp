@@ -23,11 +23,11 @@ class HaloExchange {
   HaloExchange() = default;
   // Copies and moves the lists. The result exchanges nothing until it is built.
   HaloExchange(const HaloExchange& other)
-      : comm_(other.comm_),
-        neighbours_(other.neighbours_),
+      : neighbours_(other.neighbours_),
         places_(other.places_),
         send_(other.send_),
-        receive_(other.receive_) {}
+        receive_(other.receive_),
+        comm_(other.comm_) {}
   HaloExchange(HaloExchange&& other) noexcept { *this = std::move(other); }
   HaloExchange& operator=(const HaloExchange& other) { return *this = HaloExchange(other); }
   HaloExchange& operator=(HaloExchange&& other) noexcept {

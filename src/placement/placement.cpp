@@ -49,7 +49,8 @@ void Placement::adopt_changes(const std::vector<OptionChange>& changes) {
     told += "; the run is at its end, and they change nothing of it";
   }
   state_.warnings.insert(
-      state_.warnings.begin() + static_cast<std::ptrdiff_t>(state_.warnings_of_level), told);
+      state_.warnings.begin() + static_cast<std::ptrdiff_t>(state_.warnings_of_level),
+      Warning(WarningCode::options_changed, std::move(told), std::ssize(changes)));
   ++state_.warnings_of_level;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "checkpoint/option_changes.hpp"
 #include "comm/communicator.hpp"
 #include "estimate/node_estimate.hpp"
@@ -48,7 +49,7 @@ class Placement {
 
   virtual NodalResults& results() = 0;
   virtual const NodalResults& results() const = 0;
-  const std::vector<std::string>& warnings() const { return state_.warnings; }
+  const std::vector<Warning>& warnings() const { return state_.warnings; }
 
   // --- statistics ---
   const Timers& timers() const { return timers_; }

@@ -148,7 +148,7 @@ void PlacementOf<Dim>::let_go_of_nodes() {
 template <int Dim>
 std::shared_ptr<Level<Dim>> PlacementOf<Dim>::replace_level(std::shared_ptr<Level<Dim>> next,
                                                             PlacedSpacing<Dim> placed) {
-  std::vector<std::string> warnings =
+  std::vector<Warning> warnings =
       warnings_of_level(*next, *domain_, now_.spacing, placed.steepest, options_);
   std::shared_ptr<Level<Dim>> before = std::move(now_.level);
   if (before) state_.keep_counts(*before);
@@ -245,7 +245,7 @@ Outcome PlacementOf<Dim>::run_to_end() {
 // Ends with whether the elements are such as can be used.
 template <int Dim>
 Outcome PlacementOf<Dim>::steps_and_finish() {
-  state_.warnings.resize(state_.warnings_of_level);
+  state_.forget_warnings_of_run();
   const ProgressPart part = part_of_steps(rounds_of_run_, state_.schedule.refined());
   const Outcome outcome = simulation().advance(most_steps(*now_.level), part);
   state_.schedule.progress = Progress::ended;
@@ -256,9 +256,9 @@ Outcome PlacementOf<Dim>::steps_and_finish() {
   state_.warn(warning_of_surface_fit(state_.surface_fit, options_));
   state_.warn(warning_of_features_left_out(*now_.level));
   const bool conforms = elements_conform(results_, state_, now_.unresolved);
-  const std::string missed = warning_of_missed_spacing(state_.edge_bands);
+  const std::optional<Warning> missed = warning_of_missed_spacing(state_.edge_bands);
   state_.warn(missed);
-  return !conforms ? Outcome::not_conforming : !missed.empty() ? Outcome::spacing_missed : outcome;
+  return !conforms ? Outcome::not_conforming : missed ? Outcome::spacing_missed : outcome;
 }
 
 // Rounds after the first one, as long as the elements cannot be used, or fewer and fewer of them

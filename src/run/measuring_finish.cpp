@@ -16,10 +16,12 @@ void gather_unknown_uses(const Level<Dim>& level, RunState& run) {
   run.unknown_uses = static_cast<std::int64_t>(level.comm->allreduce_sum(
       static_cast<std::uint64_t>(run.unknown_uses_before + level.unknown_uses)));
   if (run.unknown_uses > 0)
-    run.warnings.push_back(
+    run.warnings.emplace_back(
+        WarningCode::depends_on_ranks,
         "the nodes may depend on the number of ranks: " + std::to_string(run.unknown_uses) +
-        " decisions looked beyond what a rank knows (statistic unknown_uses); on "
-        "one rank they do not");
+            " decisions looked beyond what a rank knows (statistic unknown_uses); on "
+            "one rank they do not",
+        run.unknown_uses);
 }
 
 void measure_finish(Results<2>&, const PlacedSpacing<2>&, RunState&) {}
@@ -44,12 +46,15 @@ void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unre
                below = min_angle > 0 ? min_angle : method::kSmallAngle;
   SmallAngleElements found = small_angle_elements(level, below);
   if (found.all.count == 0) return;
-  run.warn("dihedral angles below " + number_text(below) +
-           " degrees: " + std::to_string(found.all.count) + " tetrahedra, one of them at " +
-           rounded_point_text<3>(found.all.at) +
-           ", where the body has walls, gaps or steps much smaller than the spacing: make it "
-           "smaller there" +
-           (min_angle > 0 ? "" : ", or set the option min_angle"));
+  run.warnings.emplace_back(
+      WarningCode::small_angles,
+      "dihedral angles below " + number_text(below) +
+          " degrees: " + std::to_string(found.all.count) + " tetrahedra, one of them at " +
+          rounded_point_text<3>(found.all.at) +
+          ", where the body has walls, gaps or steps much smaller than the spacing: make it "
+          "smaller there" +
+          (min_angle > 0 ? "" : ", or set the option min_angle"),
+      found.all.count, below);
   if (min_angle == 0) return;
   unresolved.small_angles = found.all.count;
   unresolved.places = std::move(found.places);
@@ -64,7 +69,9 @@ bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresol
   const Communicator& comm = results.communicator();
   const PhaseTimer timer(results.level().timers, Phase::conformity);
   const Conformity<3> conformity = conformity_of(results);
-  run.warn(text_of(conformity, results));
+  if (!conformity.holds())
+    run.warnings.emplace_back(WarningCode::not_conforming, text_of(conformity, results),
+                              conformity.faults());
   unresolved = {};
   if (conformity.holds()) {
     find_small_angles(results.level(), run, unresolved);

@@ -5,10 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "level/finish.hpp"
 #include "level/speeds.hpp"
 #include "level/volume/surface_fit.hpp"
@@ -34,14 +35,18 @@ struct RunState {
   // Of levels that are no more; unknown uses are this rank's.
   std::int64_t rebuilds_before = 0, rebalances_before = 0, unknown_uses_before = 0;
 
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   std::size_t warnings_of_level = 0;  // the first of them; the others are of the last run
   // Of the level's finish.
   std::vector<EdgeBand> edge_bands;
   SurfaceFit surface_fit;
 
-  void warn(const std::string& warning) {
-    if (!warning.empty()) warnings.push_back(warning);
+  void warn(const std::optional<Warning>& warning) {
+    if (warning) warnings.push_back(*warning);
+  }
+  void forget_warnings_of_run() {
+    warnings.erase(warnings.begin() + static_cast<std::ptrdiff_t>(warnings_of_level),
+                   warnings.end());
   }
   // What this level has counted goes on to count when it is no more.
   template <class Level>

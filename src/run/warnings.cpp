@@ -24,37 +24,44 @@ std::string text_of(double value, std::chars_format format, int digits) {
 std::string two_decimals(double value) { return text_of(value, std::chars_format::fixed, 2); }
 std::string three_digits(double value) { return text_of(value, std::chars_format::general, 3); }
 
-std::string warning_of(const EdgeBand& band) {
+Warning warning_of(const EdgeBand& band) {
   const double mean = band.ratio.mean;
-  return "the nodes do not follow the spacing where it is " + three_digits(band.from) + " to " +
-         three_digits(band.to) + ": over " + std::to_string(band.ratio.edges) +
-         " edges, the mean length is " + two_decimals(mean) + " of it, with too " +
-         (mean > 1 ? "few" : "many") +
-         " nodes; limit the growth of the spacing (option growth_limit), or allow more steps "
-         "(option steps)";
+  return {WarningCode::spacing_missed,
+          "the nodes do not follow the spacing where it is " + three_digits(band.from) + " to " +
+              three_digits(band.to) + ": over " + std::to_string(band.ratio.edges) +
+              " edges, the mean length is " + two_decimals(mean) + " of it, with too " +
+              (mean > 1 ? "few" : "many") +
+              " nodes; limit the growth of the spacing (option growth_limit), or allow more steps "
+              "(option steps)",
+          static_cast<std::int64_t>(band.ratio.edges), mean};
 }
 
 // Nodes in corners and on curves, and nothing between them, are no picture of any spacing.
-std::string warning_of_coarse_spacing(const Level<2>&, const PlaneDomain&) { return ""; }
-std::string warning_of_coarse_spacing(const Level<3>& level, const VolumeDomain& domain) {
+std::optional<Warning> warning_of_coarse_spacing(const Level<2>&, const PlaneDomain&) {
+  return std::nullopt;
+}
+std::optional<Warning> warning_of_coarse_spacing(const Level<3>& level,
+                                                 const VolumeDomain& domain) {
   constexpr double kCoarse = 0.5, kRight = 0.25;  // of the longest side
   const Box<3>& bounds = domain.bounds();
   double side = 0;
   for (std::size_t k = 0; k < 3; ++k) side = std::max(side, bounds.high[k] - bounds.low[k]);
   const double d = spacing_variation(level).min;
-  if (d <= kCoarse * side) return "";
-  return "the spacing is " + three_digits(d) + " or more, the longest side of the domain " +
-         three_digits(side) +
-         ": corners, edges and curved surfaces alone decide where nodes are; "
-         "nodes follow a spacing of " +
-         three_digits(kRight * side) + " or less";
+  if (d <= kCoarse * side) return std::nullopt;
+  return Warning(WarningCode::spacing_coarse,
+                 "the spacing is " + three_digits(d) + " or more, the longest side of the domain " +
+                     three_digits(side) +
+                     ": corners, edges and curved surfaces alone decide where nodes are; "
+                     "nodes follow a spacing of " +
+                     three_digits(kRight * side) + " or less",
+                 0, d);
 }
 
 // ". The grid reaches from ... to ..."
 template <int Dim>
-std::string reach_text(const GivenExtent<Dim>& extent, const Domain<Dim>& domain) {
+MessageText reach_text(const GivenExtent<Dim>& extent, const Domain<Dim>& domain) {
   const std::string begin = std::string(". The ") + extent.name + " reaches ";
-  if (chart_of(domain)) return extent.on_sphere.empty() ? "" : begin + extent.on_sphere;
+  if (chart_of(domain)) return extent.on_sphere.empty() ? std::string() : begin + extent.on_sphere;
   const Box<Dim>& bounds = domain.bounds();
   return begin + extent_text<Dim>(extent.box, bounds) + ", the domain " +
          extent_text<Dim>(bounds, bounds);
@@ -64,11 +71,11 @@ std::string reach_text(const GivenExtent<Dim>& extent, const Domain<Dim>& domain
 // and a mesh whose edges cut its corners are not. Collective. Throws Error where all are on a
 // sphere, on which boxes do not tell whether it meets the domain.
 template <int Dim>
-std::string warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>& domain,
-                                      const Spacing<Dim>& given) {
+std::optional<Warning> warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>& domain,
+                                                 const Spacing<Dim>& given) {
   constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points
   const std::optional<GivenExtent<Dim>> extent = given.extent();
-  if (!extent) return "";
+  if (!extent) return std::nullopt;
   const Communicator& comm = *level.comm;
   const Nodes<Dim>& nodes = level.nodes;
   FoundNodes<Dim> beyond;
@@ -90,7 +97,7 @@ std::string warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>
   });
   beyond = over_ranks(comm, beyond);
   const std::uint64_t all = comm.allreduce_sum(static_cast<std::uint64_t>(level.owned_count()));
-  if (beyond.count == 0) return "";
+  if (beyond.count == 0) return std::nullopt;
   const std::string name = extent->name;
   if (beyond.count == static_cast<std::int64_t>(all) && chart_of(domain))
     throw AgreedError(ErrorKind::spacing, "the " + name +
@@ -98,64 +105,74 @@ std::string warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>
                                               std::to_string(all) +
                                               " nodes are farther than d from it, one of them at " +
                                               point_text(beyond.at) + reach_text(*extent, domain));
-  return "the " + name + " of the spacing covers only a part of the domain: of " +
-         std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
-         " are farther than d from it, one of them at " + rounded_point_text<Dim>(beyond.at) +
-         "; there " + extent->beyond + reach_text(*extent, domain);
+  return Warning(WarningCode::partial_extent,
+                 "the " + name + " of the spacing covers only a part of the domain: of " +
+                     std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
+                     " are farther than d from it, one of them at " +
+                     rounded_point_text<Dim>(beyond.at) + "; there " + extent->beyond +
+                     reach_text(*extent, domain),
+                 beyond.count);
 }
 
 }  // namespace
 
-std::string warning_of_missed_spacing(const std::vector<EdgeBand>& bands) {
+std::optional<Warning> warning_of_missed_spacing(const std::vector<EdgeBand>& bands) {
   const EdgeBand* worst = worst_missed_band(bands);
-  return worst ? warning_of(*worst) : "";
+  if (!worst) return std::nullopt;
+  return warning_of(*worst);
 }
 
-std::string warning_of_surface_fit(const SurfaceFit& fit, const Options& options) {
-  if (fit.missing_faces <= 0) return "";
+std::optional<Warning> warning_of_surface_fit(const SurfaceFit& fit, const Options& options) {
+  if (fit.missing_faces <= 0) return std::nullopt;
   const std::string what_helps =
       std::string("make it smaller there") +
       (options.integer("resolve") == 0 ? ", or try the option resolve" : "");
-  return "the boundary of the tetrahedra does not follow the surface at " +
-         std::to_string(fit.missing_faces) +
-         " triangles (statistic missing_faces), one of them at " +
-         rounded_point_text<3>(fit.missing_at) +
-         "; the spacing does not resolve the shape: " + what_helps;
+  return Warning(WarningCode::boundary_not_followed,
+                 "the boundary of the tetrahedra does not follow the surface at " +
+                     std::to_string(fit.missing_faces) +
+                     " triangles (statistic missing_faces), one of them at " +
+                     rounded_point_text<3>(fit.missing_at) +
+                     "; the spacing does not resolve the shape: " + what_helps,
+                 fit.missing_faces);
 }
 
-std::string warning_of_features_left_out(const Level<2>&) { return ""; }
-std::string warning_of_features_left_out(const Level<3>& level) {
+std::optional<Warning> warning_of_features_left_out(const Level<2>&) { return std::nullopt; }
+std::optional<Warning> warning_of_features_left_out(const Level<3>& level) {
   const FoundNodes<3> features = features_left_out(level);
-  if (features.count <= 0) return "";
-  return "left out: " + std::to_string(features.count) +
-         " nodes of corners and sharp edges, one of them at " + rounded_point_text<3>(features.at) +
-         ": the body is thinner than the spacing there, and no tetrahedra held on to "
-         "them; make the spacing smaller there to keep them";
+  if (features.count <= 0) return std::nullopt;
+  return Warning(WarningCode::features_left_out,
+                 "left out: " + std::to_string(features.count) +
+                     " nodes of corners and sharp edges, one of them at " +
+                     rounded_point_text<3>(features.at) +
+                     ": the body is thinner than the spacing there, and no tetrahedra held on to "
+                     "them; make the spacing smaller there to keep them",
+                 features.count);
 }
 
 template <int Dim>
-std::vector<std::string> warnings_of_level(const Level<Dim>& level, const Domain<Dim>& domain,
-                                           const Spacing<Dim>& given,
-                                           const SteepestGrowth<Dim>& steepest,
-                                           const Options& options) {
-  std::vector<std::string> warnings = domain.warnings();
+std::vector<Warning> warnings_of_level(const Level<Dim>& level, const Domain<Dim>& domain,
+                                       const Spacing<Dim>& given,
+                                       const SteepestGrowth<Dim>& steepest,
+                                       const Options& options) {
+  std::vector<Warning> warnings = domain.warnings();
   warnings.insert(warnings.end(), level.ground.warnings().begin(), level.ground.warnings().end());
   if (too_steep(steepest))
     warnings.push_back(warning_of_growth(steepest, level.settings.growth_limit));
   if (level.ground.surfaces_alone() && options.is_set("growth_limit") &&
       options.real("growth_limit") > 0)
-    warnings.push_back("the option growth_limit has no effect on surfaces alone");
-  for (const std::string& warning :
+    warnings.emplace_back(WarningCode::option_without_effect,
+                          "the option growth_limit has no effect on surfaces alone");
+  for (const auto& warning :
        {warning_of_partial_extent(level, domain, given), warning_of_coarse_spacing(level, domain)})
-    if (!warning.empty()) warnings.push_back(warning);
+    if (warning) warnings.push_back(*warning);
   return warnings;
 }
 
-template std::vector<std::string> warnings_of_level(const Level<2>&, const PlaneDomain&,
-                                                    const Spacing<2>&, const SteepestGrowth<2>&,
-                                                    const Options&);
-template std::vector<std::string> warnings_of_level(const Level<3>&, const VolumeDomain&,
-                                                    const Spacing<3>&, const SteepestGrowth<3>&,
-                                                    const Options&);
+template std::vector<Warning> warnings_of_level(const Level<2>&, const PlaneDomain&,
+                                                const Spacing<2>&, const SteepestGrowth<2>&,
+                                                const Options&);
+template std::vector<Warning> warnings_of_level(const Level<3>&, const VolumeDomain&,
+                                                const Spacing<3>&, const SteepestGrowth<3>&,
+                                                const Options&);
 
 }  // namespace pnpbs

@@ -126,25 +126,27 @@ bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms)
 }
 
 template <int Dim>
-std::string warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes) {
+Warning warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes) {
   const GrowthSource<Dim>& finest = *std::ranges::min_element(
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
-  return "the spacing did not resolve the shape at " + std::to_string(held.places.size()) +
-         " places, and is held down there, to " + rounded_text(finest.d) + " at " +
-         rounded_point_text<Dim>(finest.x) + ": " + std::to_string(nodes) + " nodes instead of " +
-         std::to_string(held.nodes_before) +
-         " (option conforming_rounds, 0 to have d as it is given)";
+  return {WarningCode::spacing_held,
+          "the spacing did not resolve the shape at " + std::to_string(held.places.size()) +
+              " places, and is held down there, to " + rounded_text(finest.d) + " at " +
+              rounded_point_text<Dim>(finest.x) + ": " + std::to_string(nodes) +
+              " nodes instead of " + std::to_string(held.nodes_before) +
+              " (option conforming_rounds, 0 to have d as it is given)",
+          std::ssize(held.places), finest.d};
 }
 
 template void hold_down(const Communicator&, PlacedSpacing<2>&, const Settings&);
 template View<char> held_nodes(const Level<2>&, const PlacedSpacing<2>&);
 template bool add_unresolved_places<2>(const Level<2>&, const Unresolved<2>&, Held<2>&);
 template bool takes_too_many(double, const Held<2>&, bool);
-template std::string warning_of_held_spacing(const Held<2>&, std::int64_t);
+template Warning warning_of_held_spacing(const Held<2>&, std::int64_t);
 template void hold_down(const Communicator&, PlacedSpacing<3>&, const Settings&);
 template View<char> held_nodes(const Level<3>&, const PlacedSpacing<3>&);
 template bool add_unresolved_places<3>(const Level<3>&, const Unresolved<3>&, Held<3>&);
 template bool takes_too_many(double, const Held<3>&, bool);
-template std::string warning_of_held_spacing(const Held<3>&, std::int64_t);
+template Warning warning_of_held_spacing(const Held<3>&, std::int64_t);
 
 }  // namespace pnpbs

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "level/level.hpp"
 #include "sizing/placed_spacing.hpp"
 
@@ -43,6 +44,6 @@ bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms)
 
 // That d is held down, of a run with so many nodes.
 template <int Dim>
-std::string warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes);
+Warning warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes);
 
 }  // namespace pnpbs

@@ -91,8 +91,8 @@ SizingField<Dim> SpacingToPlace<Dim>::bounded(SizingField<Dim> spacing,
 template <int Dim>
 void SpacingToPlace<Dim>::limit_growth(SizingField<Dim>& spacing, const Settings& settings) const {
   const auto explained = [&](const Error& error) {
-    return std::string(error.what()) + " (where d grows by at most " +
-           number_text(settings.growth_limit) + ": option growth_limit, 0 is no limit)";
+    return error.message() + " (where d grows by at most " + number_text(settings.growth_limit) +
+           ": option growth_limit, 0 is no limit)";
   };
   agreed(*comm_, [&] {
     try {
@@ -107,10 +107,10 @@ void SpacingToPlace<Dim>::limit_growth(SizingField<Dim>& spacing, const Settings
                            settings.node_limit());
     } catch (const AgreedError& error) {
       if (!is_lack_of_room(error)) throw;
-      throw AgreedError(error.kind(), explained(error));
+      throw AgreedError(error.kind(), explained(error), error.reason());
     } catch (const Error& error) {
       if (!is_lack_of_room(error)) throw;
-      throw Error(error.kind(), explained(error));
+      throw Error(error.kind(), explained(error), error.reason());
     }
   });
 }
@@ -139,22 +139,24 @@ bool too_steep(const SteepestGrowth<Dim>& steepest) {
 }
 
 template <int Dim>
-std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit) {
-  const std::string found = "the spacing grows by " + rounded_text(steepest.growth) +
+Warning warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit) {
+  const MessageText found = "the spacing grows by " + rounded_text(steepest.growth) +
                             " per unit of length near " + rounded_point_text<Dim>(steepest.at) +
                             ", faster than nodes can follow: ";
-  if (growth_limit == 0)
-    return found + "limit its growth (option growth_limit, " +
-           number_text(method::kGrowthFollowed) + " or less)";
-  return found + "its growth is limited to " + number_text(growth_limit) +
-         "; set the option growth_limit to choose another limit, or 0 to have it as given";
+  const std::string what_helps =
+      growth_limit == 0
+          ? "limit its growth (option growth_limit, " + number_text(method::kGrowthFollowed) +
+                " or less)"
+          : "its growth is limited to " + number_text(growth_limit) +
+                "; set the option growth_limit to choose another limit, or 0 to have it as given";
+  return {WarningCode::growth, found + what_helps, 0, steepest.growth};
 }
 
 template class SpacingToPlace<2>;
 template class SpacingToPlace<3>;
 template bool too_steep(const SteepestGrowth<2>&);
 template bool too_steep(const SteepestGrowth<3>&);
-template std::string warning_of_growth(const SteepestGrowth<2>&, double);
-template std::string warning_of_growth(const SteepestGrowth<3>&, double);
+template Warning warning_of_growth(const SteepestGrowth<2>&, double);
+template Warning warning_of_growth(const SteepestGrowth<3>&, double);
 
 }  // namespace pnpbs

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/warning.hpp"
 #include "comm/communicator.hpp"
 #include "domain/domain.hpp"
 #include "level/finer_places.hpp"
@@ -63,6 +64,6 @@ void add_finer_places(const FinerPlaces& found, const Communicator& comm,
 template <int Dim>
 bool too_steep(const SteepestGrowth<Dim>& steepest);
 template <int Dim>
-std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
+Warning warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
 
 }  // namespace pnpbs

@@ -29,7 +29,7 @@ std::string guess(const Box<Dim>& given, const Box<Dim>& domain) {
 }  // namespace
 
 template <int Dim>
-std::string extent_text(const Box<Dim>& box, const Box<Dim>& within) {
+MessageText extent_text(const Box<Dim>& box, const Box<Dim>& within) {
   Box<Dim> shown = box;
   for (int k = 0; k < Dim; ++k) {
     if (!std::isfinite(box.low[k])) shown.low[k] = within.low[k];
@@ -49,8 +49,8 @@ void require_meeting_boxes(const std::string& what, const Box<Dim>& given, const
                   extent_text<Dim>(domain, domain) + ": " + guess<Dim>(given, domain));
 }
 
-template std::string extent_text<2>(const Box<2>&, const Box<2>&);
-template std::string extent_text<3>(const Box<3>&, const Box<3>&);
+template MessageText extent_text<2>(const Box<2>&, const Box<2>&);
+template MessageText extent_text<3>(const Box<3>&, const Box<3>&);
 template void require_meeting_boxes<2>(const std::string&, const Box<2>&, const Box<2>&);
 template void require_meeting_boxes<3>(const std::string&, const Box<3>&, const Box<3>&);
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "base/message_text.hpp"
 #include "base/types.hpp"
 
 namespace pnpbs {
@@ -16,6 +17,6 @@ void require_meeting_boxes(const std::string& what, const Box<Dim>& given, const
 
 // "from (0, 0) to (1, 2)"; where the box has no end, it ends with `within`.
 template <int Dim>
-std::string extent_text(const Box<Dim>& box, const Box<Dim>& within);
+MessageText extent_text(const Box<Dim>& box, const Box<Dim>& within);
 
 }  // namespace pnpbs

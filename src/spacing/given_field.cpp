@@ -24,7 +24,7 @@ namespace pnpbs {
 
 using given_values::indexed;
 
-void require_spacing_value(const std::string& name, double value) {
+void require_spacing_value(const MessageText& name, double value) {
   if (!std::isfinite(value) || value <= 0)
     throw Error(ErrorKind::spacing, name + " = " + number_text(value) +
                                         ": the spacing must be finite and greater than 0");
@@ -75,12 +75,12 @@ void check_elements(const GivenField<Dim, Corners>& field) {
     for (std::size_t k = 0; k < Corners; ++k)
       corners[k] = field.points[static_cast<std::size_t>(field.elements[e][k])];
     if (turn(corners) != 0) continue;
-    std::string places;
+    MessageText corners_text;
     for (const Point<Dim>& corner : corners)
-      places += (places.empty() ? "" : ", ") + point_text(corner);
+      corners_text += (corners_text.empty() ? "" : ", ") + point_text(corner);
     throw Error(field.fault, indexed(field.elements_name, static_cast<std::int64_t>(e)) + ": the " +
                                  (Corners == 3 ? "triangle" : "tetrahedron") + " with corners at " +
-                                 places +
+                                 corners_text +
                                  (Corners == Dim ? " is a part of a great circle" : " is flat"));
   }
 }

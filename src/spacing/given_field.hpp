@@ -35,7 +35,7 @@ struct GivenField {
 using SphereField = GivenField<3, 3>;
 
 // Throws Error(ErrorKind::spacing) unless it is finite and greater than 0. `name`: "d[3]".
-void require_spacing_value(const std::string& name, double value);
+void require_spacing_value(const MessageText& name, double value);
 
 // Checks the field: coordinates and values are numbers, elements are not flat, points in one place
 // have one value, and what holds all of it meets the domain's box. Throws Error(field.fault) or

@@ -98,7 +98,7 @@ void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t 
   spacing.evaluate(n, x, d);
   for (std::int64_t i = 0; i < n; ++i) {
     if (std::isfinite(d[i]) && d[i] > 0 && meant_nodes<Dim>(d[i], measure) < kMaxNodes) continue;
-    std::string message = "spacing d = " + number_text(d[i]) + " at " + point_text(x[i]);
+    MessageText message = "spacing d = " + number_text(d[i]) + " at " + point_text(x[i]);
     if (!std::isfinite(d[i]))
       message += " is not finite; any number of nodes could be meant";
     else if (d[i] <= 0)

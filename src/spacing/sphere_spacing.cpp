@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/places_in_text.hpp"
-#include "sphere/degrees.hpp"
+#include "base/point_text.hpp"
 
 namespace pnpbs {
 
@@ -16,8 +15,8 @@ void SphereSpacing::evaluate(std::int64_t n, const Point<2>* u, double* d) const
         for (std::int64_t i = 0; i < count; ++i) {
           double& value = d[begin + i];
           if (!std::isfinite(value) || value <= 0)
-            throw Error(ErrorKind::spacing, "the spacing at (" + degrees_text(degrees_of(x[i])) +
-                                                ") is " + number_text(value) +
+            throw Error(ErrorKind::spacing, "the spacing at " + point_text(u[begin + i]) + " is " +
+                                                number_text(value) +
                                                 "; it must be finite and greater than 0");
           value *= chart_.stretch(u[begin + i]);
         }

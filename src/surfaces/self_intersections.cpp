@@ -23,7 +23,7 @@ namespace {
 
 using Pair = std::pair<std::int32_t, std::int32_t>;
 
-std::string text_of(const Triangulation& surface, const Pair& pair) {
+MessageText text_of(const Triangulation& surface, const Pair& pair) {
   const auto [t, other] = pair;
   const Contact contact = contact_of(surface.corners(t), surface.corners(other));
   const char* const how = contact.kind == Contact::Kind::cross   ? " cross at "
@@ -53,7 +53,7 @@ void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
     });
   }
   if (pairs == 0) return;
-  std::string message;
+  MessageText message;
   for (const Pair& pair : first) message += (message.empty() ? "" : "; ") + text_of(surface, pair);
   if (pairs > 1) message += "; there are " + std::to_string(pairs) + " such pairs";
   throw BrokenSurface(message);

@@ -11,7 +11,7 @@ namespace pnpbs {
 namespace {
 
 // "from vertex 1 of surface 0 (0, 0, 0) to vertex 2 of surface 0 (1, 0, 0)"
-std::string edge_name(const Triangulation& surface, const std::array<std::int32_t, 2>& ends) {
+MessageText edge_name(const Triangulation& surface, const std::array<std::int32_t, 2>& ends) {
   return "from " + surface.vertex_name(ends[0]) + " to " + surface.vertex_name(ends[1]);
 }
 
@@ -60,7 +60,7 @@ void require_closed_boundary(const Triangulation& surface, const SurfaceEdges& e
 }
 
 void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges& edges,
-                               std::vector<std::string>& warnings) {
+                               std::vector<Warning>& warnings) {
   UnionFind<std::int64_t> fans(3 * surface.triangles.size());  // of corners of triangles
   const auto corner_at = [&](std::int32_t t, std::int32_t vertex) {
     const auto& vertices = surface.triangles[t].vertices;
@@ -76,7 +76,7 @@ void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges&
   std::vector<std::int64_t> fan(surface.vertices.size(), -1);
   std::vector<char> touching(surface.vertices.size(), 0);
   std::int64_t count = 0;
-  std::string first;
+  MessageText first;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (surface.triangles[t].inner) continue;
     for (const std::int32_t v : surface.triangles[t].vertices) {
@@ -91,7 +91,9 @@ void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges&
     }
   }
   if (count == 0) return;
-  warnings.push_back("boundary surfaces touch in " + first + others_text(count, "vertices"));
+  warnings.emplace_back(WarningCode::surfaces_touch,
+                        "boundary surfaces touch in " + first + others_text(count, "vertices"),
+                        count);
 }
 
 }  // namespace pnpbs

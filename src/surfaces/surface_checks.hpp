@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "surfaces/surface_edges.hpp"
 
 namespace pnpbs {
@@ -16,6 +17,6 @@ void require_closed_boundary(const Triangulation& surface, const SurfaceEdges& e
 // Warns of vertices in which boundary surfaces touch: where triangles around it are not all joined
 // by edges.
 void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges& edges,
-                               std::vector<std::string>& warnings);
+                               std::vector<Warning>& warnings);
 
 }  // namespace pnpbs

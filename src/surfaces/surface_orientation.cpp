@@ -65,7 +65,7 @@ std::vector<std::int32_t> connected_with(std::int32_t first, const Triangulation
 }  // namespace
 
 void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_sided,
-                     std::vector<std::string>& warnings) {
+                     std::vector<Warning>& warnings) {
   const Neighbours neighbours = find_neighbours(surface, edges);
   const auto count = static_cast<std::int32_t>(surface.triangles.size());
   std::vector<signed char> turned(count, -1);  // not known yet
@@ -87,8 +87,10 @@ void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_s
   }
   if (turns == 0) return;
   edges = SurfaceEdges(surface);
-  warnings.push_back(std::to_string(turns) + (turns == 1 ? " triangle was" : " triangles were") +
-                     " turned around to agree with the neighbours; the first is " + name);
+  warnings.emplace_back(WarningCode::triangles_turned,
+                        std::to_string(turns) + (turns == 1 ? " triangle was" : " triangles were") +
+                            " turned around to agree with the neighbours; the first is " + name,
+                        turns);
 }
 
 }  // namespace pnpbs

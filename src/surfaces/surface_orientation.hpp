@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "surfaces/surface_edges.hpp"
 
 namespace pnpbs {
@@ -15,6 +16,6 @@ enum class OneSided { rejected, ignored };
 // surface, and warns if there are any. `edges` are changed accordingly. Where a surface has but one
 // side, it throws Error(ErrorKind::domain), or some neighbours do not agree.
 void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_sided,
-                     std::vector<std::string>& warnings);
+                     std::vector<Warning>& warnings);
 
 }  // namespace pnpbs

@@ -58,11 +58,13 @@ void remove_thin_pieces(SurfaceSource& surface, double least) {
   for (const ClosedPiece& piece : pieces)
     if (piece.first >= 0 && piece.thickness() < least && thin++ == 0) first = piece.first;
   if (thin > 0)
-    surface.warnings.push_back(
+    surface.warnings.emplace_back(
+        WarningCode::pieces_left_out,
         std::to_string(thin) + (thin == 1 ? " piece" : " pieces") + " of the body, thinner than " +
-        rounded_text(least) + " in the mean, " + (thin == 1 ? "is" : "are") +
-        " left out, one of them at " + rounded_point_text<3>(surface.vertices[index(first)]) +
-        ": a smaller resolution keeps them");
+            rounded_text(least) + " in the mean, " + (thin == 1 ? "is" : "are") +
+            " left out, one of them at " + rounded_point_text<3>(surface.vertices[index(first)]) +
+            ": a smaller resolution keeps them",
+        thin, least);
 }
 
 }  // namespace pnpbs

@@ -60,7 +60,7 @@ class Thinner {
       : surface_(surface), triangles_(surface.triangles), tolerance_(tolerance) {}
 
   // How many were taken out, and the first of them.
-  std::pair<std::int64_t, std::string> run() {
+  std::pair<std::int64_t, MessageText> run() {
     const std::size_t given = triangles_.size();
     for (std::size_t t = 0; t < given; ++t) look_at(static_cast<std::int32_t>(t));
     if (removed_ == 0 && thin_.empty()) return {};
@@ -138,21 +138,23 @@ class Thinner {
   std::vector<std::vector<std::int32_t>> at_vertex_;
   std::int64_t removed_ = 0;
   std::pair<std::int32_t, std::int32_t> first_{};
-  std::string first_name_;
+  MessageText first_name_;
 };
 
 }  // namespace
 
 void remove_thin_triangles(Triangulation& surface, double tolerance,
-                           std::vector<std::string>& warnings) {
+                           std::vector<Warning>& warnings) {
   const auto [count, first] = Thinner(surface, tolerance).run();
   if (count == 0) return;
-  warnings.push_back(std::to_string(count) + (count == 1 ? " triangle has" : " triangles have") +
-                     " no area to speak of and " + (count == 1 ? "is" : "are") +
-                     " left out; the first is " + first);
+  warnings.emplace_back(WarningCode::triangles_left_out,
+                        std::to_string(count) + (count == 1 ? " triangle has" : " triangles have") +
+                            " no area to speak of and " + (count == 1 ? "is" : "are") +
+                            " left out; the first is " + first,
+                        count);
 }
 
-void remove_duplicate_triangles(Triangulation& surface, std::vector<std::string>& warnings) {
+void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& warnings) {
   std::vector<SurfaceTriangle>& triangles = surface.triangles;
   const auto sorted = [&](std::int32_t t) {
     std::array<std::int32_t, 3> vertices = triangles[t].vertices;
@@ -179,10 +181,12 @@ void remove_duplicate_triangles(Triangulation& surface, std::vector<std::string>
                       " lie on each other at " +
                       point_text(surface.vertices[triangles[first].vertices[0]]));
   const auto& [later, first] = doubles.front();
-  warnings.push_back(
+  warnings.emplace_back(
+      WarningCode::triangles_left_out,
       std::to_string(doubles.size()) + (doubles.size() == 1 ? " triangle is" : " triangles are") +
-      " given twice and left out; the first is " + surface.triangle_name(later) +
-      ", which has the corners of triangle " + std::to_string(triangles[first].number));
+          " given twice and left out; the first is " + surface.triangle_name(later) +
+          ", which has the corners of triangle " + std::to_string(triangles[first].number),
+      std::ssize(doubles));
   std::vector<char> gone(triangles.size(), 0);
   for (const auto& [t, stays] : doubles) gone[t] = 1;
   std::size_t kept = 0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
@@ -14,10 +15,10 @@ namespace pnpbs {
 // are those that are flat but for the rounding of a file's numbers: within a thousand tolerances,
 // and with an angle of nearly 180 degrees. Warns if there are any.
 void remove_thin_triangles(Triangulation& surface, double tolerance,
-                           std::vector<std::string>& warnings);
+                           std::vector<Warning>& warnings);
 
 // Keeps the first of those of one source that have the same corners, with a warning. Throws
 // Error(ErrorKind::domain) if they are of two sources.
-void remove_duplicate_triangles(Triangulation& surface, std::vector<std::string>& warnings);
+void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& warnings);
 
 }  // namespace pnpbs

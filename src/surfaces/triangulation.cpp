@@ -17,7 +17,7 @@ Box<3> Triangulation::box(std::int32_t t) const {
   return box;
 }
 
-std::string Triangulation::vertex_name(std::int32_t v) const {
+MessageText Triangulation::vertex_name(std::int32_t v) const {
   const GivenVertex& first = given[v];
   return "vertex " + std::to_string(first.number) + " of " + sources[first.source] + " " +
          point_text(vertices[v]);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "geometry/boundary_mesh.hpp"
 #include "surfaces/surfaces.hpp"
 
@@ -36,7 +37,7 @@ struct SurfaceSource {
   bool approximates = false;                  // a curved surface that was given without triangles
   double feature_angle = kFeatureAngle;       // degrees
   std::vector<SurfaceCrease> creases;         // of a level set
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 struct SurfaceTriangle {
@@ -66,7 +67,7 @@ struct Triangulation {
   FacetCorners<3> corners(std::int32_t t) const;
   Box<3> box(std::int32_t t) const;
 
-  std::string vertex_name(std::int32_t v) const;    // "vertex 5 of surface 0 (1, 2, 3)"
+  MessageText vertex_name(std::int32_t v) const;    // "vertex 5 of surface 0 (1, 2, 3)"
   std::string triangle_name(std::int32_t t) const;  // "triangle 5 of surface 0"
 };
 

@@ -61,13 +61,11 @@ std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& name
 }
 
 // Many coasts in use cross themselves or each other somewhere, by a few metres.
-std::string with_advice(const std::string& message) {
-  const bool is_crossed = message.find(" cross at ") != std::string::npos ||
-                          message.find(" overlap at ") != std::string::npos;
-  return is_crossed ? message +
-                          "\nUnite crossing polygons first: docs/guide/shapes.md, "
-                          "'Polygons that cross'"
-                    : message;
+std::string advice_on(pnpbs_context context) {
+  std::int32_t reason = PNPBS_REASON_OTHER;
+  check(pnpbs_last_error_data(context, &reason, nullptr), context);
+  if (reason != PNPBS_REASON_CROSSING) return "";
+  return "\nUnite crossing polygons first: docs/guide/shapes.md, 'Polygons that cross'";
 }
 
 }  // namespace
@@ -133,7 +131,8 @@ void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context, bool
     return repair(domain, 0, context);
   }
   if (geo_ && status < 0)
-    throw Failure(exit_code_of(status), with_advice(geo_->explained(pnpbs_last_error(context))));
+    throw Failure(exit_code_of(status),
+                  geo_->explained(pnpbs_last_error(context)) + advice_on(context));
   check(status, context);
 }
 

@@ -104,4 +104,16 @@ std::vector<std::string> GeoFile::notes() const {
   return notes;
 }
 
+bool GeoFile::leaves_out_lines() const {
+  std::int32_t count = 0;
+  check(library_->note_count(shapes_, &count));
+  bool any = false;
+  for (std::int32_t k = 0; k < count; ++k) {
+    std::int32_t code = 0;
+    check(library_->get_note_data(shapes_, k, &code, nullptr));
+    any = any || code == PNPBS_GEO_NOTE_LINES_LEFT_OUT;
+  }
+  return any;
+}
+
 }  // namespace pnpbs::tool

@@ -26,7 +26,8 @@ class GeoFile {
   // All of these throw Failure. First of all, read().
   void read();
   void add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
-  std::string explained(const std::string& message) const;  // places in degrees, too
+  // The message, which is the last one of the library, with its points in degrees, too.
+  std::string explained(const std::string& message) const;
 
   // The projection in words; empty ones where it is not known.
   struct Projection {
@@ -35,6 +36,8 @@ class GeoFile {
   };
   Projection projection() const;
   std::vector<std::string> notes() const;
+  // Whether lines of the file are not among the shapes.
+  bool leaves_out_lines() const;
 
  private:
   void check(pnpbs_status status) const;

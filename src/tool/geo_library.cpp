@@ -45,6 +45,7 @@ GeoLibrary::GeoLibrary() {
   find(library, scale, "pnpbs_geo_scale");
   find(library, note_count, "pnpbs_geo_note_count");
   find(library, get_note, "pnpbs_geo_get_note");
+  find(library, get_note_data, "pnpbs_geo_get_note_data");
   find(library, grid_read, "pnpbs_geo_grid_read");
   find(library, grid_destroy, "pnpbs_geo_grid_destroy");
   find(library, grid_values, "pnpbs_geo_grid_values");

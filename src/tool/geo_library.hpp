@@ -21,6 +21,7 @@ struct GeoLibrary {
   PNPBS_TOOL_FUNCTION(scale);
   PNPBS_TOOL_FUNCTION(note_count);
   PNPBS_TOOL_FUNCTION(get_note);
+  PNPBS_TOOL_FUNCTION(get_note_data);
   PNPBS_TOOL_FUNCTION(grid_read);
   PNPBS_TOOL_FUNCTION(grid_destroy);
   PNPBS_TOOL_FUNCTION(grid_values);

@@ -74,14 +74,17 @@ std::vector<GroupName> group_names(pnpbs_domain domain, pnpbs_context context) {
   return names;
 }
 
-std::vector<std::string> warnings_of(pnpbs_context context, pnpbs_placement placement) {
+std::vector<Warning> warnings_of(pnpbs_context context, pnpbs_placement placement) {
   std::int32_t count = 0;
   check(pnpbs_placement_warning_count(placement, &count), context);
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   for (std::int32_t i = 0; i < count; ++i) {
+    std::int32_t code = PNPBS_WARNING_UNKNOWN;
+    check(pnpbs_placement_get_warning_data(placement, i, &code, nullptr, nullptr, nullptr),
+          context);
     const char* text = "";
     check(pnpbs_placement_get_warning(placement, i, &text), context);
-    warnings.emplace_back(text);
+    warnings.push_back({code, text});
   }
   return warnings;
 }

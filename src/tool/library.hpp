@@ -59,6 +59,10 @@ struct GroupName {
 };
 std::vector<GroupName> group_names(pnpbs_domain domain, pnpbs_context context);
 
-std::vector<std::string> warnings_of(pnpbs_context context, pnpbs_placement placement);
+struct Warning {
+  std::int32_t code;  // PNPBS_WARNING_...
+  std::string text;
+};
+std::vector<Warning> warnings_of(pnpbs_context context, pnpbs_placement placement);
 
 }  // namespace pnpbs::tool

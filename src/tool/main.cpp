@@ -42,9 +42,9 @@ void reserve_standard_streams() {
   }
 }
 
-// Of the warnings there are, those that have not been told yet.
-void warn(const std::vector<std::string>& warnings, std::size_t told = 0) {
-  for (std::size_t k = told; k < warnings.size(); ++k)
+// Writes the warnings from number `first` on.
+void warn(const std::vector<std::string>& warnings, std::size_t first = 0) {
+  for (std::size_t k = first; k < warnings.size(); ++k)
     std::cerr << "pnpbs: warning: " << warnings[k] << "\n";
 }
 
@@ -61,16 +61,19 @@ ExitCode exit_code_of_run(pnpbs_status status) {
   }
 }
 
-// The library's; but nobody gets the elements of nodes at centres.
+bool is_about_elements(const Warning& warning) {
+  return warning.code == PNPBS_WARNING_BOUNDARY_NOT_FOLLOWED ||
+         warning.code == PNPBS_WARNING_SMALL_ANGLES;
+}
+
+// Returns the texts of the library's warnings. The elements of nodes at centres are not written, so
+// that warnings about these are left out.
 std::vector<std::string> warnings_for(const Arguments& arguments, pnpbs_context context,
                                       pnpbs_placement placement) {
-  std::vector<std::string> warnings = warnings_of(context, placement);
-  if (arguments.at_centres)
-    std::erase_if(warnings, [](const std::string& warning) {
-      return warning.find("missing_faces") != std::string::npos ||
-             warning.starts_with("dihedral angles");
-    });
-  return warnings;
+  std::vector<std::string> texts;
+  for (const Warning& warning : warnings_of(context, placement))
+    if (!arguments.at_centres || !is_about_elements(warning)) texts.push_back(warning.text);
+  return texts;
 }
 
 // Notes on the file of geographers, the library's warnings, and those of grids.
@@ -84,12 +87,12 @@ std::vector<std::string> for_report(const Arguments& arguments, const GeoFile* g
   return warnings;
 }
 
-// Whether some of a coast is not in the result: lines outside of the polygons, above all.
-bool leave_out_shapes(const std::vector<std::string>& warnings) {
-  return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-    return warning.starts_with("outside the domain and left out: ") ||
-           warning.starts_with("lines left out: ");
-  });
+// Returns whether some of a coast is not in the result: lines outside of the polygons, above all.
+bool leaves_out_shapes(const GeoFile& geo, pnpbs_context context, pnpbs_placement placement) {
+  return geo.leaves_out_lines() ||
+         std::ranges::any_of(warnings_of(context, placement), [](const Warning& warning) {
+           return warning.code == PNPBS_WARNING_LEFT_OUT_OUTSIDE;
+         });
 }
 
 // How a file of geographers was taken: before d is asked for, since its unit hangs on it.
@@ -297,7 +300,8 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
     std::cout << summary_text(statistics, body, matter.volumes, matter.figures, outputs.files());
   const bool of_elements = status == PNPBS_NOT_CONFORMING || status == PNPBS_SPACING_MISSED;
   if (arguments.at_centres && of_elements) status = PNPBS_OK;
-  return geo && leave_out_shapes(warnings) ? ExitCode::input_left_out : exit_code_of_run(status);
+  return geo && leaves_out_shapes(*geo, context, placement) ? ExitCode::input_left_out
+                                                            : exit_code_of_run(status);
 }
 
 ExitCode run(const Arguments& arguments, const Ranks& ranks) {

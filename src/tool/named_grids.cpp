@@ -21,7 +21,7 @@ Box<3> bounds_of(pnpbs_domain domain, pnpbs_context context) {
 
 // "from (0, 0) to (1, 1)"
 template <int Dim>
-std::string extent_in(const Box<3>& box, const Box<3>& within) {
+MessageText extent_in(const Box<3>& box, const Box<3>& within) {
   Box<Dim> boxes[2];
   for (std::size_t k = 0; k < Dim; ++k)
     for (const int which : {0, 1}) {
@@ -124,10 +124,10 @@ std::string NamedGrids::extents_in_words(const NamedGrid& grid, pnpbs_domain dom
                                          pnpbs_context context) const {
   const Box<3> box = grid.extent();
   const std::string words = "The grid reaches ";
-  if (sphere_) return words + extent_in<2>(box, all_degrees);
+  if (sphere_) return words + extent_in<2>(box, all_degrees).text();
   const Box<3> bounds = bounds_of(domain, context);
   const auto extent = dimension_ == 2 ? extent_in<2> : extent_in<3>;
-  return words + extent(box, bounds) + ", the domain " + extent(bounds, bounds);
+  return words + extent(box, bounds).text() + ", the domain " + extent(bounds, bounds).text();
 }
 
 std::vector<std::string> NamedGrids::warnings(pnpbs_placement placement, pnpbs_domain domain,

@@ -9,8 +9,8 @@
 #include "base/error.hpp"
 #include "base/exact_sum.hpp"
 #include "base/execution.hpp"
-#include "base/point_text.hpp"
 #include "comm/records.hpp"
+#include "domain/given_values.hpp"
 #include "results/ghost_values.hpp"
 #include "results/results.hpp"
 #include "spacing/nodal_search.hpp"
@@ -184,13 +184,11 @@ void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* v
   const Communicator& comm = search_.communicator();
   std::vector<Point<In>> points;
   agreed(comm, [&] {
+    given_values::require_points<In>("argument coordinates", n, x);
     points.resize(static_cast<std::size_t>(n));
     for (std::int64_t i = 0; i < n; ++i) {
       Point<In>& point = points[static_cast<std::size_t>(i)];
       std::copy_n(x + In * i, In, point.begin());
-      if (!std::all_of(point.begin(), point.end(), [](double c) { return std::isfinite(c); }))
-        throw Error(ErrorKind::argument, "argument coordinates: point " + std::to_string(i) +
-                                             " is " + point_text(point) + ", which is nowhere");
     }
   });
   const auto found = search_.find(n, points.data());

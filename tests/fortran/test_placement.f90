@@ -31,7 +31,8 @@ contains
     type(pnpbs_placement) :: placement, same
     integer(c_int64_t) :: nodes, all_nodes, triangles, inserted, deleted
     integer(c_int32_t), allocatable :: tags(:)
-    integer(c_int32_t) :: warnings
+    integer(c_int32_t) :: warnings, code, points
+    real(c_double) :: point(3)
     real(c_double) :: imbalance
     character(len=:), allocatable :: hash, hash_again, text
     call square(context, domain, placement, 0.05d0)
@@ -64,6 +65,13 @@ contains
     call expect(warnings == 0, 'no warnings')
     call placement%get_warning(1, text, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'index')
+    call placement%get_warning_data(1, code, all_nodes, imbalance, point, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'index')
+    call expect(code == PNPBS_WARNING_UNKNOWN .and. all(point /= point), 'no such warning')
+    call context%last_error_data(code, points)
+    call expect(code == PNPBS_REASON_OTHER .and. points == 0, 'data of an error')
+    call context%last_error_point(1, point)
+    call expect(all(point /= point), 'no point')
     call placement%rebalance
     call placement%check(stat)
     call expect(stat == PNPBS_OK, 'the results are right')

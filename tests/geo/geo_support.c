@@ -64,3 +64,14 @@ int has_note(pnpbs_geo_shapes shapes, const char* part) {
   }
   return 0;
 }
+
+int64_t noted(pnpbs_geo_shapes shapes, int32_t code) {
+  int32_t notes = 0, k, found = 0;
+  int64_t count = 0;
+  GEO_MUST(pnpbs_geo_note_count(shapes, &notes));
+  for (k = 0; k < notes; ++k) {
+    GEO_MUST(pnpbs_geo_get_note_data(shapes, k, &found, &count));
+    if (found == code) return count;
+  }
+  return -1;
+}

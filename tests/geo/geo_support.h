@@ -54,5 +54,7 @@ void expect_counts(pnpbs_geo_shapes shapes, int64_t vertices, int64_t boundary, 
                    int64_t points);
 /* Whether one of the notes has this in it. */
 int has_note(pnpbs_geo_shapes shapes, const char* part);
+/* How many a note with this code counts; -1 if there is none. */
+int64_t noted(pnpbs_geo_shapes shapes, int32_t code);
 
 #endif

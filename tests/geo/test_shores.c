@@ -85,6 +85,7 @@ START_TEST(boundary_with_more_vertices) {
   ck_assert_double_eq_tol(length_of(&it, 1), 30 + 2 * sqrt(26), 1e-9);
   ck_assert_double_eq_tol(length_of(&it, 5), 10, 1e-9); /* an inner curve */
   ck_assert(!has_note(it.shapes, "along the boundary"));
+  ck_assert_int_eq(noted(it.shapes, PNPBS_GEO_NOTE_LINES_ALONG_BOUNDARY), -1);
   geo_end(&it);
 }
 END_TEST
@@ -111,6 +112,7 @@ START_TEST(several_lines) {
   it = begin(SEA LINE(5, "[[10,0],[10,10]]") LINE(6, "[[10,0],[10,10]]"));
   ck_assert_double_eq_tol(length_of(&it, 5), 10, 1e-9);
   ck_assert(has_note(it.shapes, "lines left out: 1 segments"));
+  ck_assert_int_eq(noted(it.shapes, PNPBS_GEO_NOTE_LINES_LEFT_OUT), 1);
   geo_end(&it);
 }
 END_TEST

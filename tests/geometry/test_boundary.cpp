@@ -53,7 +53,9 @@ PlaneDomain lake(const char* name) {
 
 bool warns(const Boundary& boundary, const std::string& part) {
   return std::any_of(boundary.warnings.begin(), boundary.warnings.end(),
-                     [&part](const std::string& w) { return w.find(part) != std::string::npos; });
+                     [&part](const pnpbs::Warning& warning) {
+                       return warning.message.text().find(part) != std::string::npos;
+                     });
 }
 
 double length(const Boundary& boundary, const BoundaryEdge& edge) {

@@ -77,7 +77,8 @@ VolumeDomain body(const Formula& f, double resolution, const Box<3>& box = kBox)
   VolumeDomain domain;
   domain.add_level_set(in_batches(f), box, resolution, 3);
   domain.check();
-  for (const std::string& warning : domain.warnings()) ck_abort_msg("%s", warning.c_str());
+  for (const pnpbs::Warning& warning : domain.warnings())
+    ck_abort_msg("%s", warning.message.text().c_str());
   return domain;
 }
 

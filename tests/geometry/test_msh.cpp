@@ -306,7 +306,8 @@ START_TEST(higher_order) {
   const VolumeDomain body = body_of(version_22(mesh, Kind::little_endian));
   expect_near(body.volume(), 1);
   ck_assert_int_eq(body.warnings().size(), 1);
-  ck_assert(body.warnings()[0].find("1 elements of higher order") != std::string::npos);
+  ck_assert(body.warnings()[0].message.text().find("1 elements of higher order") !=
+            std::string::npos);
 }
 END_TEST
 

@@ -40,7 +40,9 @@ void expect_area(PlaneDomain& domain, double area) {
 
 bool warns(const PlaneDomain& domain, const std::string& part) {
   return std::any_of(domain.warnings().begin(), domain.warnings().end(),
-                     [&part](const std::string& w) { return w.find(part) != std::string::npos; });
+                     [&part](const pnpbs::Warning& warning) {
+                       return warning.message.text().find(part) != std::string::npos;
+                     });
 }
 
 int inner_curves(const PlaneDomain& domain) {

@@ -333,8 +333,9 @@ START_TEST(crumbs_of_sheets_are_none) {
   ck_assert_double_lt(domain.bounds().high[0], 1.1);
   const auto& warnings = domain.warnings();
   ck_assert_int_eq(std::count_if(warnings.begin(), warnings.end(),
-                                 [](const std::string& text) {
-                                   return text.find("of the body, thinner") != std::string::npos;
+                                 [](const pnpbs::Warning& warning) {
+                                   return warning.code == pnpbs::WarningCode::pieces_left_out &&
+                                          warning.point().has_value();
                                  }),
                    1);
 }

@@ -111,7 +111,9 @@ inline void expect_domain_error(VolumeDomain& domain, std::initializer_list<cons
 
 inline bool warns(const VolumeDomain& domain, const std::string& part) {
   return std::any_of(domain.warnings().begin(), domain.warnings().end(),
-                     [&part](const std::string& w) { return w.find(part) != std::string::npos; });
+                     [&part](const pnpbs::Warning& warning) {
+                       return warning.message.text().find(part) != std::string::npos;
+                     });
 }
 
 inline void expect_near(double value, double expected, double relative) {

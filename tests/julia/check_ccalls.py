@@ -44,15 +44,18 @@ def c_type(text):
 # ---------------------------------------------------------------- the Julia files ----------------
 def read_package(folder):
     raw = (folder / "src/LibPNPBS.jl").read_text()
-    constants = {n: int(v) for n, v in re.findall(r"^const (PNPBS_\w+) = (-?\d+)$", raw, re.M)}
     callbacks = read_callbacks((folder / "src/callbacks.jl").read_text())
-    return read_functions(raw), callbacks, constants, read_aliases(raw)
+    return read_functions(raw), callbacks, read_constants(raw), read_aliases(raw)
 
 
 def read_shapes(folder):
-    """The same of the library of shapes, which has neither callbacks nor constants."""
+    """The same of the library of shapes, which has no callbacks."""
     raw = (folder / "src/LibPNPBSGeo.jl").read_text()
-    return read_functions(raw), {}, {}, read_aliases(raw)
+    return read_functions(raw), {}, read_constants(raw), read_aliases(raw)
+
+
+def read_constants(raw):
+    return {n: int(v) for n, v in re.findall(r"^const (PNPBS_\w+) = (-?\d+)$", raw, re.M)}
 
 
 def read_aliases(raw):

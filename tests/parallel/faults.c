@@ -30,6 +30,17 @@ static void expect_bad_rank(pnpbs_status status, pnpbs_status wanted, const char
   expect(strncmp(pnpbs_last_error(context), begin, strlen(begin)) == 0, begin);
 }
 
+/* Every rank knows the first point that the message names, where it stands in it. */
+static void expect_point(void) {
+  double point[3] = {0, 0, 0}, x = 0, y = 0;
+  int64_t begin = 0, end = 0;
+  const char* message;
+  expect(pnpbs_last_error_point(context, 0, point, &begin, &end) == PNPBS_OK, "a point");
+  message = pnpbs_last_error(context);
+  expect(sscanf(message + begin, "(%lf, %lf)", &x, &y) == 2, "its text");
+  expect(point[0] == x && point[1] == y && message[end - 1] == ')', "the same point");
+}
+
 /* --- callbacks ----------------------------------------------------------------------------- */
 
 struct fault {
@@ -105,6 +116,7 @@ static void failing_callbacks(double value, pnpbs_status wanted, const char* par
     ended = fault.calls <= after;
     MPI_Bcast(&ended, 1, MPI_INT, bad_rank, MPI_COMM_WORLD);
     if (!ended) expect_bad_rank(status, wanted, part);
+    if (!ended && wanted == PNPBS_ERROR_SPACING) expect_point();
     if (!ended && after % 3 == 0) {
       pnpbs_placement_set_spacing_callback(placement, spacing, &no_fault);
       expect(pnpbs_placement_run(placement) >= 0, "mended, it goes on");

@@ -49,6 +49,9 @@ def constant_differences(constants, interface):
     wanted = {name: value for name, value in constants.items() if "_VERSION_" not in name}
     errors = importlib.import_module(f"{interface.__package__}.errors")
     own = {f"PNPBS_{status.name}": status.value for status in errors.Status}
+    warnings = importlib.import_module(f"{interface.__package__}._warnings")
+    for prefix, codes in (("WARNING", warnings.WarningCode), ("REASON", errors.ErrorReason)):
+        own |= {f"PNPBS_{prefix}_{code.name}": code.value for code in codes}
     own |= {"PNPBS_BOUNDARY": interface.BOUNDARY, "PNPBS_INNER": interface.INNER}
     for name in sorted(set(wanted) | set(own)):
         if wanted.get(name) != own.get(name):
@@ -114,6 +117,9 @@ def main():
     shapes = importlib.import_module(f"{folder.name}.shapes")
     of_shapes = list(function_differences(geo, interface.declarations(shapes.DECLARATIONS)))
     print("\n".join(of_shapes) or f"{len(geo)} functions of shapes agree")
+    own_notes = {f"PNPBS_GEO_NOTE_{code.name}": code.value for code in shapes.NoteCode if code}
+    if own_notes != c_header.constants(text_of_geo):
+        of_shapes.append("the codes of notes differ from those of the header")
     found += of_shapes
     if "--self-test" in sys.argv:
         found += not_noticed(text, MUTATIONS, lambda changed: differences(changed, interface))

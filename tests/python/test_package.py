@@ -17,6 +17,7 @@ import threading
 import time
 import unittest
 import unittest.mock
+import warnings
 
 import netCDF4
 import numpy as np
@@ -199,6 +200,24 @@ class Results(Case):
         placement.rebalance()
         estimate = placement.estimate()
         self.assertAlmostEqual(estimate.nodes / placement.node_count, 1, delta=0.1)
+
+    def test_warnings(self):
+        placement = self.square().set_spacing(lambda x: np.minimum(0.02 + 2 * abs(x[:, 0] - 0.5), 0.2))
+        with self.assertWarns(pnpbs.SpacingWarning) as caught:
+            placement.initialise()
+        data = caught.warning.data
+        self.assertEqual((data.code, data.count), (pnpbs.WarningCode.GROWTH, 0))
+        self.assertAlmostEqual(data.value, 2, delta=0.1)
+        self.assertAlmostEqual(data.point[0], 0.5, delta=0.15)
+        self.assertEqual(len(data.point), 2)
+        self.assertIn(data.text, placement.warnings())
+        self.assertEqual(len(placement.warning_data()), len(placement.warnings()))
+        self.assertTrue(str(caught.filename).endswith("test_package.py"))
+        with warnings.catch_warnings(record=True) as again:  # each once
+            warnings.simplefilter("always")
+            placement.step(1)
+        self.assertEqual(again, [])
+        self.assertEqual(pnpbs.WarningCode(999), pnpbs.WarningCode.UNKNOWN)
 
 
 class Spacings(Case):

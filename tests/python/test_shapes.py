@@ -26,7 +26,7 @@ class Shapes(unittest.TestCase):
         with pnpbs.Context() as context, pnpbs.Shapes(self.path, projection="EPSG:2180", unit="km",
                                                       tag_field="name") as shapes:
             domain = shapes.add_to(pnpbs.Domain(context), corner_angle=45)
-            self.assertEqual(shapes.notes, [])
+            self.assertEqual((shapes.notes, shapes.note_data), ([], []))
             self.assertEqual(shapes.counts, (4, 1, 0, 0))
             self.assertIn("GDAL", pnpbs.geo_build_info())
             projection = shapes.projection
@@ -43,7 +43,14 @@ class Shapes(unittest.TestCase):
             self.assertLess(max(gaps), 1e-9)
             shapes.write_prj(self.folder / "nodes.vtu")
             self.assertEqual((self.folder / "nodes.prj").read_text(), projection.prj)
-            self.assertIn("[longitude", shapes.explain("at (500, 700)"))
+            self.assertEqual(shapes.explain("at (500, 700)"), "at (500, 700)")
+            domain.add_polyline([(500, 690), (500, 710)], closed=False, role="inner")
+            domain.add_polyline([(490, 700), (510, 700)], closed=False, role="inner")
+            with self.assertRaises(PNPBSError) as caught:
+                domain.check()
+            self.assertEqual(caught.exception.reason, pnpbs.ErrorReason.CROSSING)
+            np.testing.assert_allclose(caught.exception.points[0][:2], (500, 700))
+            self.assertIn("(500, 700) [longitude", shapes.explain(caught.exception))
         self.assertFalse(shapes.is_open)
         with self.assertRaises(PNPBSError):
             shapes.to_degrees(SQUARE)

@@ -88,6 +88,8 @@ def results(placement: pnpbs.Placement) -> None:
     everything: Dict[str, Any] = placement.statistics()
     warnings: List[str] = placement.warnings()
     assert everything["nodes"] == len(points) and not warnings
+    data: List[pnpbs.WarningData] = placement.warning_data()
+    assert not any(one.code == pnpbs.WarningCode.GROWTH and one.value for one in data)
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "nodes.vtu"
         assert placement.write(path, str(path.with_suffix(".csv"))) == pnpbs.Status.OK

@@ -18,9 +18,11 @@ count from 0. "Collective" functions must be called by all ranks of the context 
 and raise on all of them or on none; "local" ones need not. One thread at a time may use a context."""
 
 from ._library import library_path
+from ._warnings import (DomainWarning, ElementsWarning, PNPBSWarning, SpacingWarning, WarningCode,
+                        WarningData)
 from .context import Context
 from .domain import Domain, LeftOut, Outline, sphere_degrees, sphere_points
-from .errors import PNPBSError, Status
+from .errors import ErrorReason, PNPBSError, Status
 from .fields import Transfer
 from .mesh import DistributedMesh
 from .mesh_arrays import MeshArrays
@@ -29,19 +31,21 @@ from .placement import Estimate, Placement, PopulationChange
 from .results import (CellBands, EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering,
                       Stars)
 from .rows import CompressedRows
-from .shapes import GeoGrid, Projection, ShapeCounts, Shapes, depth_spacing, geo_build_info
+from .shapes import (GeoGrid, NoteCode, NoteData, Projection, ShapeCounts, Shapes, depth_spacing,
+                     geo_build_info)
 from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unfinished_files,
                      file_dimension, format_table, library_version, mpi_library, option_table,
                      shutdown, statistic_table)
 from .voronoi import VoronoiCells
 
 __all__ = [
-    "CellBands", "CompressedRows", "Context", "DistributedMesh", "Domain", "EdgeBands",
-    "Estimate", "ExchangePattern", "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut",
-    "MeshArrays", "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError", "Particles",
-    "Placement", "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars",
-    "StatisticRow", "Status", "Transfer", "VoronoiCells", "build_info", "depth_spacing",
-    "discard_unfinished_files", "file_dimension", "format_table", "geo_build_info",
-    "library_path", "library_version", "mpi_library", "option_table", "shutdown",
-    "sphere_degrees", "sphere_points", "statistic_table",
+    "CellBands", "CompressedRows", "Context", "DistributedMesh", "Domain", "DomainWarning",
+    "EdgeBands", "ElementsWarning", "ErrorReason", "Estimate", "ExchangePattern", "Facets",
+    "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "MeshArrays", "Nodes", "NoteCode", "NoteData",
+    "Numbering", "OptionRow", "Outline", "PNPBSError", "PNPBSWarning", "Particles", "Placement",
+    "PopulationChange", "Projection", "ShapeCounts", "Shapes", "SpacingWarning", "Stars",
+    "StatisticRow", "Status", "Transfer", "VoronoiCells", "WarningCode", "WarningData",
+    "build_info", "depth_spacing", "discard_unfinished_files", "file_dimension", "format_table",
+    "geo_build_info", "library_path", "library_version", "mpi_library", "option_table",
+    "shutdown", "sphere_degrees", "sphere_points", "statistic_table",
 ]

@@ -21,6 +21,9 @@ INNER = 1
 DECLARATIONS = """
 const char *pnpbs_status_string(pnpbs_status status);
 const char *pnpbs_last_error(pnpbs_context context);
+pnpbs_status pnpbs_last_error_data(pnpbs_context context, int32_t *reason, int32_t *points);
+pnpbs_status pnpbs_last_error_point(pnpbs_context context, int32_t index, double *point,
+    int64_t *begin, int64_t *end);
 pnpbs_status pnpbs_version(int32_t *major, int32_t *minor, int32_t *patch);
 const char *pnpbs_build_info(void);
 const char *pnpbs_mpi_library(void);
@@ -204,6 +207,8 @@ pnpbs_status pnpbs_placement_get_cell_bands(pnpbs_placement placement, const cha
 pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
 pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
     const char **text);
+pnpbs_status pnpbs_placement_get_warning_data(pnpbs_placement placement, int32_t index,
+    int32_t *code, int64_t *count, double *value, double *point);
 pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n, int32_t components,
     const double *values, pnpbs_transfer *transfer);
 pnpbs_status pnpbs_transfer_create_second_order(pnpbs_placement placement, int64_t n,

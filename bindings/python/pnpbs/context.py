@@ -11,7 +11,7 @@ from typing import Any, Callable, List, Optional, Tuple, Type, TypeVar, Union
 
 from ._interface import library
 from ._types import FortranComm, OptionValue
-from .errors import PNPBSError, Status, check_without_context, last_error
+from .errors import PNPBSError, Status, check_without_context, error_of
 
 # Open contexts on communicators of mpi4py, in the order in which they were made: the same one on all
 # ranks. mpi4py ends MPI after Python's own exit handlers.
@@ -102,7 +102,7 @@ class Context(Handle):
         handle = self._handle
         code = self._destroy(_library().pnpbs_context_destroy)
         if code < 0:
-            raise PNPBSError(Status(code), last_error(handle))
+            raise error_of(code, handle)
 
     def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
                  trace: Optional[TracebackType]) -> None:
@@ -120,7 +120,7 @@ class Context(Handle):
         if raised is not None:
             raise raised
         if code < 0:
-            raise PNPBSError(Status(code), last_error(self._handle))
+            raise error_of(code, self._handle)
         return Status(code)
 
 

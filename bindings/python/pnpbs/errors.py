@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import ctypes
 import enum
-from typing import Any, Optional
+from typing import Any, Optional, Sequence, Tuple
+
+import numpy as np
 
 from ._interface import library
 
@@ -41,17 +44,30 @@ class Status(enum.IntEnum):
         return self.name
 
 
+class ErrorReason(enum.IntEnum):
+    """What is known of an error besides its status. `CROSSING`: with `Status.ERROR_DOMAIN`,
+    segments of curves cross or overlap."""
+
+    OTHER = 0
+    CROSSING = 1
+
+
 class PNPBSError(Exception):
-    """An error of the library. `status` is a `Status` such as `Status.ERROR_SPACING`; the message
-    says what was wrong, with the value, and what to change. Functions marked "collective" raise on
+    """An error of the library. `status` is a `Status` such as `Status.ERROR_SPACING`, `reason` an
+    `ErrorReason`, and `points` are those that the message names. The message says what was wrong,
+    with the value, and what to change. Functions marked "collective" raise on
     all ranks or on none.
 
     An exception that a callback raises is raised unchanged by the call in progress, on the rank
     that raised it; the other ranks get a `PNPBSError` with `Status.ERROR_CALLBACK`."""
 
-    def __init__(self, status: Status, message: str) -> None:
+    def __init__(self, status: Status, message: str,
+                 reason: ErrorReason = ErrorReason.OTHER,
+                 points: Sequence[Tuple[float, ...]] = ()) -> None:
         super().__init__(message)
         self.status = status
+        self.reason = reason
+        self.points = tuple(points)
 
 
 def last_error(context: Any) -> str:
@@ -59,7 +75,21 @@ def last_error(context: Any) -> str:
     return str(library().pnpbs_last_error(context).decode())
 
 
+def error_of(code: int, context: Any) -> PNPBSError:
+    """Returns the exception for a status that is an error, with what the library knows of it."""
+    reason, count = ctypes.c_int32(), ctypes.c_int32()
+    library().pnpbs_last_error_data(context, ctypes.byref(reason), ctypes.byref(count))
+    known = reason.value in ErrorReason.__members__.values()
+    points = []
+    for k in range(count.value):
+        point = np.zeros(3)
+        library().pnpbs_last_error_point(context, k, point, None, None)
+        points.append(tuple(float(c) for c in point if not np.isnan(c)))
+    return PNPBSError(Status(code), last_error(context),
+                      ErrorReason(reason.value) if known else ErrorReason.OTHER, points)
+
+
 def check_without_context(code: int) -> None:
     """Checks a status without a context to hold the message, after a failed create."""
     if code < 0:
-        raise PNPBSError(Status(code), last_error(None))
+        raise error_of(code, None)

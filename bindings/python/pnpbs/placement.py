@@ -6,7 +6,8 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
-from typing import Any, Iterator, List, NamedTuple, Optional, Tuple, Union
+import warnings
+from typing import Any, Iterator, List, NamedTuple, Optional, Set, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,6 +18,7 @@ from ._interface import library
 from ._progress import ProgressBar
 from ._summaries import counted
 from ._types import ArrayFunction, Doubles, Monitor, OptionValue, Path
+from ._warnings import warning_class
 from .context import _set_option
 from .domain import Domain
 from .errors import Status
@@ -46,7 +48,10 @@ class Placement(Results, Fields, Meshes, Tessellation):
     the others are those of the context. Set a spacing (`set_spacing`), then `run`. Collective.
 
     Ctrl-C ends a computation within a second or two with a `KeyboardInterrupt`; the nodes are then
-    as if a monitor had stopped the run, which is what it returns on the other ranks."""
+    as if a monitor had stopped the run, which is what it returns on the other ranks.
+
+    `initialise`, `run` and `step` issue the library's warnings as Python's, each once: classes
+    derived from `PNPBSWarning`, such as `SpacingWarning`. On several ranks all issue them."""
 
     def __init__(self, domain: Domain, **options: OptionValue) -> None:
         super().__init__()
@@ -57,6 +62,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
             self.context._live(), domain._live(), ctypes.byref(handle)))
         self._handle = handle.value
         self.context._children.append(self)
+        self._warned: Set[str] = set()
         # Kept alive: the library holds their addresses. The nodes there are remember the spacing
         # that they were placed with, so one that is replaced is needed until the next run.
         self._spacing: Any = None
@@ -266,6 +272,8 @@ class Placement(Results, Fields, Meshes, Tessellation):
         """Checks domain and spacing and lays the nodes that the simulation starts from. `run` and
         `step` do this if necessary. Collective."""
         self._call("initialise")
+        self._warned.clear()
+        self._warn()
         return self
 
     def run(self, progress: bool = False) -> Status:
@@ -277,12 +285,22 @@ class Placement(Results, Fields, Meshes, Tessellation):
         with self._progress_shown() if progress else contextlib.nullcontext():
             outcome = self._call("run")
         self._spacings_before.clear()
+        self._warn()
         return outcome
 
     def step(self, n: int = 1) -> Status:
         """Advances the simulation by n steps. The outcome is as in `run`, `Status.OK` if the
         bubbles are at rest. Collective."""
-        return self._call("step", n)
+        outcome = self._call("step", n)
+        self._warn()
+        return outcome
+
+    def _warn(self) -> None:
+        """Issues the warnings that have not been issued since `initialise`."""
+        for data in self.warning_data():
+            if data.text not in self._warned:
+                self._warned.add(data.text)
+                warnings.warn(warning_class(data.code)(data), stacklevel=3)
 
     def adjust_population(self) -> PopulationChange:
         """Performs one population adjustment: deletes nodes where they are too dense and inserts

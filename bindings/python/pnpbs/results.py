@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from ._plots import plot_nodes
 from ._summaries import summary
 from ._types import Doubles, Ids, Int32s, Path
+from ._warnings import WarningCode, WarningData
 from .errors import Status
 from .placement_handle import PlacementHandle
 from .rows import CompressedRows
@@ -334,6 +335,23 @@ class Results(PlacementHandle):
         count = self._number("warning_count", ctypes.c_int32)
         texts = [self._number("get_warning", ctypes.c_char_p, i) for i in range(count)]
         return [text.decode() for text in texts]
+
+    def warning_data(self) -> List[WarningData]:
+        """Returns the same warnings as data, by which programs can decide: a `WarningCode`, the
+        text, how many nodes, edges, triangles or points the warning is about (0: not known), a
+        number that it is about, and the first point that it names; these are None where there is
+        none. Local."""
+        return [self._warning(i, text) for i, text in enumerate(self.warnings())]
+
+    def _warning(self, index: int, text: str) -> WarningData:
+        code, count, value = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_double()
+        point = np.zeros(3)
+        self._call("get_warning_data", index, ctypes.byref(code), ctypes.byref(count),
+                   ctypes.byref(value), point)
+        point = point[~np.isnan(point)]
+        return WarningData(WarningCode(code.value), text, count.value,
+                           None if np.isnan(value.value) else value.value,
+                           point if len(point) else None)
 
     # ------------------------------------------------------------ files ------------------------
 

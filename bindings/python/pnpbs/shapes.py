@@ -5,6 +5,7 @@ library, libpnpbs_geo, is opened at first use; it exists only where PNPBS was bu
 from __future__ import annotations
 
 import ctypes
+import enum
 import os
 import pathlib
 from typing import Any, List, NamedTuple, Optional, Tuple, Union
@@ -41,6 +42,8 @@ pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n, double *
 const char *pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char *message);
 pnpbs_status pnpbs_geo_note_count(pnpbs_geo_shapes shapes, int32_t *count);
 pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index, const char **note);
+pnpbs_status pnpbs_geo_get_note_data(pnpbs_geo_shapes shapes, int32_t index, int32_t *code,
+    int64_t *count);
 pnpbs_status pnpbs_geo_grid_read(const char *path, const char *variable, const char *projection,
     const double *low, const double *high, pnpbs_geo_grid *grid);
 pnpbs_status pnpbs_geo_grid_destroy(pnpbs_geo_grid *grid);
@@ -93,6 +96,34 @@ class ShapeCounts(NamedTuple):
     boundary: int
     inner: int
     points: int
+
+
+class NoteCode(enum.IntEnum):
+    """The codes of the header pnpbs_geo.h, which says what each means, and what is counted."""
+
+    UNKNOWN = 0
+    NO_GEOMETRY = 1
+    HEIGHTS_LEFT_OUT = 2
+    NEARLY_TOUCHING = 3
+    NO_REFERENCE_SYSTEM = 4
+    DEGREES_IN_PLANE = 5
+    SCALE = 6
+    SEGMENTS_RETAGGED = 7
+    LINES_ALONG_BOUNDARY = 8
+    SHARED_SEGMENTS_LEFT_OUT = 9
+    WHOLE_SPHERE = 10
+    LINES_LEFT_OUT = 11
+    SEGMENTS_LEFT_OUT = 12
+
+    @classmethod
+    def _missing_(cls, value: object) -> NoteCode:
+        return cls.UNKNOWN  # of a newer library
+
+
+class NoteData(NamedTuple):
+    code: NoteCode
+    text: str
+    count: int  # type: ignore[assignment]  # not what tuple.count is
 
 
 class Projection(NamedTuple):
@@ -177,6 +208,17 @@ class Shapes(Handle):
             notes.append((note.value or b"").decode())
         return notes
 
+    @property
+    def note_data(self) -> List[NoteData]:
+        """The same notes as data, each with its code and how many features, lines or segments it is
+        about, 0 if none are counted."""
+        code, count = ctypes.c_int32(), ctypes.c_int64()
+        data = []
+        for index, text in enumerate(self.notes):
+            self._call("get_note_data", index, ctypes.byref(code), ctypes.byref(count))
+            data.append(NoteData(NoteCode(code.value), text, count.value))
+        return data
+
     def write_prj(self, results: Path) -> None:
         """Writes the projection beside a file of results: "nodes.prj" for "nodes.vtu"."""
         self._call("write_prj", os.fsencode(results))
@@ -195,8 +237,8 @@ class Shapes(Handle):
         return changed
 
     def explain(self, message: object) -> str:
-        """Returns a message about a domain of these shapes, with longitude and latitude of its
-        points."""
+        """Returns the message of the last error about a domain of these shapes, with longitude and
+        latitude of its points. Any other text is returned as it is."""
         text = _library().pnpbs_geo_explain(self._live(), str(message).encode())
         return str(text.decode())
 

@@ -225,10 +225,12 @@ class Layer {
       names.push_back(tracks_[c].curve().name);
     }
     if (names.empty()) return;
-    boundary_.warnings.push_back(
+    boundary_.warnings.emplace_back(
+        WarningCode::feature_unresolved,
         "the spacing is larger than the feature: " + std::to_string(count) +
-        " boundary edges that would have cut across others were halved, on " +
-        list_text(names, kNamedWorst));
+            " boundary edges that would have cut across others were halved, on " +
+            list_text(names, kNamedWorst),
+        count);
   }
 
   void ask_spacing() {
@@ -275,12 +277,12 @@ class Layer {
       if (length < 0.5 * d) all.push_back({length / d, e, length, d, positions_[a]});
     }
     if (all.empty()) return;
-    boundary_.warnings.push_back(
+    boundary_.warnings.push_back(warning_of_worst(
+        WarningCode::feature_unresolved,
         "the spacing is larger than the feature at " + std::to_string(all.size()) +
-        " boundary edges shorter than half of it; the worst: " +
-        worst_text(all, "length", domain_.chart(),
-                   [this](std::int32_t e) { return track(e).curve().name; }) +
-        advice_on_short_edges(all.size(), ends_.size()));
+            " boundary edges shorter than half of it; the worst: ",
+        all, "length", domain_.chart(), [this](std::int32_t e) { return track(e).curve().name; },
+        advice_on_short_edges(all.size(), ends_.size())));
   }
 
   // Nodes of one curve beside another, with the domain between: at a slit or a sharp corner. Those
@@ -310,11 +312,12 @@ class Layer {
     }
     std::erase_if(nearest, [](const Worst& worst) { return worst.ratio == HUGE_VAL; });
     if (nearest.empty()) return;
-    boundary_.warnings.push_back(
+    boundary_.warnings.push_back(warning_of_worst(
+        WarningCode::feature_unresolved,
         "the spacing is larger than the feature at " + std::to_string(nearest.size()) +
-        " boundary nodes closer than a tenth of it to another edge; the worst: beside " +
-        worst_text(nearest, "distance", domain_.chart(),
-                   [this](std::int32_t e) { return track(e).curve().name; }));
+            " boundary nodes closer than a tenth of it to another edge; the worst: beside ",
+        nearest, "distance", domain_.chart(),
+        [this](std::int32_t e) { return track(e).curve().name; }));
   }
 
   // Does the domain lie on that side of the edge on which the node does?
@@ -350,12 +353,12 @@ class Layer {
       return worst.ratio == HUGE_VAL || domain_.is_in_patch(worst.at);
     });
     if (nearest.empty()) return;
-    boundary_.warnings.push_back(
+    boundary_.warnings.push_back(warning_of_worst(
+        WarningCode::fixed_nodes_close,
         std::to_string(nearest.size()) +
-        " fixed nodes are closer than 0.4 of the spacing to the boundary or to each other; the "
-        "worst: " +
-        worst_text(nearest, "distance", domain_.chart(),
-                   [&fixed](std::int32_t f) { return fixed[f].name; }));
+            " fixed nodes are closer than 0.4 of the spacing to the boundary or to each other; the "
+            "worst: ",
+        nearest, "distance", domain_.chart(), [&fixed](std::int32_t f) { return fixed[f].name; }));
   }
 
   const PlaneDomain& domain_;

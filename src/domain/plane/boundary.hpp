@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "base/warning.hpp"
 #include "domain/curve_steps.hpp"
 #include "domain/plane/plane_domain.hpp"
 #include "geometry/boundary_mesh.hpp"
@@ -17,7 +18,7 @@ namespace pnpbs {
 // between consecutive nodes of a curve.
 struct Boundary : BoundaryMesh<2> {
   std::int64_t first_fixed;  // index of the first fixed node that is on no curve
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 // Lays nodes at equal steps of the integral of ds/d between corners,

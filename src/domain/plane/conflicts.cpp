@@ -16,27 +16,35 @@ namespace pnpbs {
 
 namespace {
 
+struct Conflict {
+  MessageText text;
+  bool crosses;  // two segments cross or overlap
+};
+
 class Conflicts {
  public:
   explicit Conflicts(const SweptGraph& swept) : swept_(swept) {}
 
-  // Each place once: as the sweep came upon them, and then crossings that it has not looked for,
+  // Each point once: as the sweep came upon them, and then crossings that it has not looked for,
   // since it leaves out one of two edges that meet. No more than so many.
-  std::vector<std::string> texts(std::size_t max) const {
-    std::vector<std::string> texts;
-    const auto add = [&](std::string text) {
-      if (texts.size() < max && std::ranges::find(texts, text) == texts.end())
-        texts.push_back(std::move(text));
+  std::vector<Conflict> list(std::size_t max) const {
+    std::vector<Conflict> found;
+    const auto add = [&](Conflict conflict) {
+      const auto is_same = [&](const Conflict& other) {
+        return other.text.text() == conflict.text.text();
+      };
+      if (found.size() < max && std::ranges::none_of(found, is_same))
+        found.push_back(std::move(conflict));
     };
-    for (const SweepConflict& conflict : swept_.sweep.conflicts) add(text_of(conflict));
+    for (const SweepConflict& conflict : swept_.sweep.conflicts) add(described(conflict));
     for (const VertexPair& pair : swept_.sweep.coincident)
-      if (!is_region_point(pair[0])) add(text_of(pair));
-    if (!texts.empty() && texts.size() < max)
+      if (!is_region_point(pair[0])) add({text_of(pair), false});
+    if (!found.empty() && found.size() < max)
       for_crossings([&](std::int32_t edge, std::int32_t other) {
-        add(text_of_meeting(edge, other));
-        return texts.size() < max;
+        add(meeting(edge, other));
+        return found.size() < max;
       });
-    return texts;
+    return found;
   }
 
  private:
@@ -52,28 +60,29 @@ class Conflicts {
   bool is_region_point(std::int32_t point) const {
     return static_cast<std::size_t>(point) >= swept_.graph.vertices.size();
   }
-  std::string text_of_region_point_on(std::int32_t point, const std::string& name) const {
+  MessageText text_of_region_point_on(std::int32_t point, const std::string& name) const {
     const std::size_t k = static_cast<std::size_t>(point) - swept_.graph.vertices.size();
     return name_and_place<2>(swept_.region_points[k]) + " lies on " + name +
            ": move it into the region it stands for";
   }
 
-  std::string text_of(const SweepConflict& conflict) const {
-    if (conflict.other >= 0) return text_of_meeting(conflict.edge, conflict.other);
+  Conflict described(const SweepConflict& conflict) const {
+    if (conflict.other >= 0) return meeting(conflict.edge, conflict.other);
     if (is_region_point(conflict.vertex))
-      return text_of_region_point_on(conflict.vertex, edge_name(conflict.edge));
-    return name_of(conflict.vertex) + " " + point_text(point(conflict.vertex)) + " lies on " +
-           edge_name(conflict.edge);
+      return {text_of_region_point_on(conflict.vertex, edge_name(conflict.edge)), false};
+    return {name_of(conflict.vertex) + " " + point_text(point(conflict.vertex)) + " lies on " +
+                edge_name(conflict.edge),
+            false};
   }
 
-  std::string text_of(const VertexPair& coincident) const {
+  MessageText text_of(const VertexPair& coincident) const {
     if (is_region_point(coincident[1]))
       return text_of_region_point_on(coincident[1], name_of(coincident[0]));
     return name_of(coincident[0]) + " and " + name_of(coincident[1]) + " touch at " +
            point_text(point(coincident[0]));
   }
 
-  std::string text_of_meeting(std::int32_t first, std::int32_t second) const {
+  Conflict meeting(std::int32_t first, std::int32_t second) const {
     if (second < first) std::swap(first, second);
     const auto [a, b] = swept_.graph.ends[first];
     const auto [c, d] = swept_.graph.ends[second];
@@ -84,8 +93,8 @@ class Conflicts {
         common_end || on_a_line ? point(c) : crossing_point(point(a), point(b), point(c), point(d));
     const std::string name = edge_name(first), other = edge_name(second);
     const std::string what = common_end || on_a_line ? " overlap at " : " cross at ";
-    if (name == other) return name + " meets itself at " + point_text(where);
-    return name + " and " + other + what + point_text(where);
+    if (name == other) return {name + " meets itself at " + point_text(where), false};
+    return {name + " and " + other + what + point_text(where), true};
   }
 
   bool cross(std::int32_t edge, std::int32_t other) const {
@@ -117,12 +126,14 @@ class Conflicts {
 
 void reject_conflicts(const SweptGraph& swept) {
   constexpr std::size_t kListed = 20;
-  std::vector<std::string> texts = Conflicts(swept).texts(kListed + 1);
-  if (texts.empty()) return;
-  if (texts.size() > kListed) texts.back() = "and more";
-  std::string list = texts.front();
-  for (std::size_t k = 1; k < texts.size(); ++k) list += "; " + texts[k];
-  reject_domain(list);
+  const std::vector<Conflict> conflicts = Conflicts(swept).list(kListed + 1);
+  if (conflicts.empty()) return;
+  MessageText list = conflicts.front().text;
+  for (std::size_t k = 1; k < conflicts.size(); ++k)
+    list += "; " + (k < kListed ? conflicts[k].text : "and more");
+  const bool crosses =
+      std::ranges::any_of(conflicts, [](const Conflict& conflict) { return conflict.crosses; });
+  reject_domain(list, crosses ? ErrorReason::crossing : ErrorReason::other);
 }
 
 }  // namespace pnpbs

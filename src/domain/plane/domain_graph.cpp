@@ -124,7 +124,7 @@ class Joiner {
     const bool same_graph = first.source == second.source && first.source >= 0 &&
                             sources_[first.source].kind == Kind::graph;
     if (!both_fixed && !same_graph) return;
-    const std::string where = positions_[a] == positions_[b]
+    const MessageText where = positions_[a] == positions_[b]
                                   ? " are both at " + point_text(positions_[a])
                                   : " are too close, at " + point_text(positions_[a]) + " and " +
                                         point_text(positions_[b]);

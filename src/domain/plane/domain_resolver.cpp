@@ -97,7 +97,7 @@ class Resolver {
     return sources_[graph_.edges[edge].source].segment_name(graph_.edges[edge].segment);
   }
 
-  std::string name_and_place(std::int32_t vertex) const {
+  MessageText name_and_place(std::int32_t vertex) const {
     return vertex_name(graph_.vertices[vertex], sources_, fixed_nodes_) + " " +
            point_text(points_[vertex]);
   }
@@ -178,7 +178,9 @@ class Resolver {
       if (left_out.empty() || left_out.back() != name) left_out.push_back(name);
     }
     if (left_out.empty()) return;
-    result_.warnings.push_back("outside the domain and left out: " + list_text(left_out, 5));
+    result_.warnings.emplace_back(WarningCode::left_out_outside,
+                                  "outside the domain and left out: " + list_text(left_out, 5),
+                                  std::ssize(left_out));
   }
 
   // Fixed nodes on no curve, and vertices of graphs in no segment, which count as such.
@@ -201,11 +203,15 @@ class Resolver {
       result_.fixed_node_faces.push_back(inner_face_[face_around(v)]);
     }
     if (!unused.empty()) {
-      result_.warnings.push_back("in no segment, taken as fixed nodes: " + list_text(unused, 5));
+      result_.warnings.emplace_back(WarningCode::unused_vertices,
+                                    "in no segment, taken as fixed nodes: " + list_text(unused, 5),
+                                    std::ssize(unused));
     }
     if (!outside.empty()) {
-      result_.warnings.push_back("in no segment, outside the domain and left out: " +
-                                 list_text(outside, 5));
+      result_.warnings.emplace_back(
+          WarningCode::unused_vertices,
+          "in no segment, outside the domain and left out: " + list_text(outside, 5),
+          std::ssize(outside));
     }
   }
 

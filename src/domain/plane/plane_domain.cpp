@@ -11,7 +11,6 @@
 
 #include "base/domain_error.hpp"
 #include "base/limits.hpp"
-#include "base/places_in_text.hpp"
 #include "base/point_text.hpp"
 #include "domain/given_values.hpp"
 #include "domain/plane/domain_resolver.hpp"
@@ -43,7 +42,7 @@ void require_not_negative(const char* argument, double value) {
 // Radians; of places on a sphere.
 constexpr double kNearlyOpposite = 3.14159, kSame = 1e-7;
 
-std::string vertex_text(std::int64_t number, const Point<3>& x) {
+MessageText vertex_text(std::int64_t number, const Point<3>& x) {
   return std::to_string(number) + " " + point_text(x) + " [" + degrees_text(degrees_of(x)) + "]";
 }
 
@@ -257,9 +256,11 @@ LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const Sim
   sources_ = std::move(sources);
   region_points_ = std::move(region_points);
   if (left_out.vertices > 0)
-    given_warnings_.push_back("simplified: " + std::to_string(left_out.vertices) +
-                              " vertices were left out, of them those of " +
-                              std::to_string(left_out.curves) + " closed curves as a whole");
+    given_warnings_.emplace_back(WarningCode::simplified,
+                                 "simplified: " + std::to_string(left_out.vertices) +
+                                     " vertices were left out, of them those of " +
+                                     std::to_string(left_out.curves) + " closed curves as a whole",
+                                 left_out.vertices);
   checked_ = false;
   return left_out;
 }

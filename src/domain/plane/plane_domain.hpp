@@ -10,6 +10,7 @@
 
 #include "base/space_vectors.hpp"
 #include "base/types.hpp"
+#include "base/warning.hpp"
 #include "domain/domain_base.hpp"
 #include "domain/plane/closing_patch.hpp"
 #include "domain/plane/curve_source.hpp"
@@ -65,7 +66,7 @@ struct ResolvedDomain {
   std::vector<BoundaryCurve> curves;
   std::vector<FixedNode<2>> fixed_nodes;
   std::vector<std::int32_t> fixed_node_faces;  // that they lie in; see BoundaryCurve
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   Box<2> bounds{};
   double area = 0;
   std::shared_ptr<const RegionIndex<2>> regions;  // null if none has a tag
@@ -147,7 +148,7 @@ class PlaneDomain : public DomainBase<2> {
   const std::vector<FixedNode<2>>& fixed_nodes() const { return resolved_.fixed_nodes; }
   // Of each the face that it lies in; see BoundaryCurve.
   const std::vector<std::int32_t>& fixed_node_faces() const { return resolved_.fixed_node_faces; }
-  const std::vector<std::string>& warnings() const { return resolved_.warnings; }
+  const std::vector<Warning>& warnings() const { return resolved_.warnings; }
   // Holds all curves, true ones too.
   const Box<2>& bounds() const { return resolved_.bounds; }
   double area() const { return resolved_.area; }  // in the chart, of a domain on a sphere

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/point_text.hpp"
+#include "base/warning.hpp"
 #include "sphere/stereographic_chart.hpp"
 
 namespace pnpbs {
@@ -28,19 +29,28 @@ struct Worst {
 // name(which); in the chart of a sphere, lengths are told along the sphere, and places as well: who
 // takes coasts from files does not know which curve is which.
 template <class Name>
-std::string worst_text(std::vector<Worst>& all, const char* length, const StereographicChart* chart,
+MessageText worst_text(std::vector<Worst>& all, const char* length, const StereographicChart* chart,
                        const Name& name) {
   std::sort(all.begin(), all.end());
-  std::vector<std::string> names;
+  std::vector<MessageText> names;
   for (const Worst& worst : all) {
     if (names.size() == kNamedWorst) break;
     const double stretch = chart ? chart->stretch(worst.at) : 1;
     names.push_back(name(worst.which) + " (" + length + " " +
                     rounded_text(worst.distance / stretch) + ", spacing " +
                     rounded_text(worst.spacing / stretch) +
-                    (chart ? ", at " + point_text(worst.at) : std::string()) + ")");
+                    (chart ? ", at " + point_text(worst.at) : MessageText()) + ")");
   }
   return list_text(names, kNamedWorst);
+}
+
+// The warning `begin`, the worst of all, `end`.
+template <class Name>
+Warning warning_of_worst(WarningCode code, const std::string& begin, std::vector<Worst>& all,
+                         const char* length, const StereographicChart* chart, const Name& name,
+                         const std::string& end = "") {
+  MessageText text = begin + worst_text(all, length, chart, name) + end;
+  return {code, std::move(text), std::ssize(all), all.front().ratio};
 }
 
 // Where many of all edges of the boundary are short, no d makes a better mesh of it.

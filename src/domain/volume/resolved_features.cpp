@@ -16,9 +16,11 @@ void warn_of_short_creases(ResolvedVolume& resolved) {
   if (creases.empty()) return;
   const Point<3>& first =
       resolved.mesh.nodes[static_cast<std::size_t>(creases.front()[0])].position;
-  resolved.warnings.push_back(
+  resolved.warnings.emplace_back(
+      WarningCode::creases_ignored,
       "treated as roughness, not as features: " + std::to_string(creases.size()) +
-      " sharp edges in short creases, the first at " + point_text(first));
+          " sharp edges in short creases, the first at " + point_text(first),
+      std::ssize(creases));
 }
 
 }  // namespace
@@ -32,8 +34,10 @@ void find_features_of(const std::vector<SurfaceSource>& surfaces, ResolvedVolume
   if (angles.empty()) angles.push_back(kFeatureAngle);
   const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
   if (*smallest < *largest)
-    resolved.warnings.push_back("the smallest feature_angle, " + number_text(*smallest) +
-                                " degrees, holds for all surfaces");
+    resolved.warnings.emplace_back(WarningCode::feature_angle,
+                                   "the smallest feature_angle, " + number_text(*smallest) +
+                                       " degrees, holds for all surfaces",
+                                   0, *smallest);
   SmoothSurfaces smooth{resolved.level_sets.of, {}};
   for (const LevelSetCrease& crease : resolved.level_sets.creases)
     smooth.creases.push_back(crease.nodes);

@@ -106,7 +106,7 @@ void VolumeDomain::add_surface(SurfaceRole role, const SurfaceTriangles& surface
   for (const Point<3>& hole : surface.holes) add_hole(hole);
   for (const SurfaceRegion& region : surface.regions)
     add_region_of_file(region.point, region.tag, region.name);
-  for (const std::string& warning : surface.warnings) add_warning(warning);
+  for (const Warning& warning : surface.warnings) add_warning(warning);
   for (const auto& [tag, name] : surface.tag_names) names().add({2, tag}, name);
 }
 
@@ -189,7 +189,7 @@ SurfaceSource part_of(SurfaceSource surface, const std::function<bool(std::int32
 }  // namespace
 
 // The others, and one in the place of those that are to be repaired.
-std::vector<SurfaceSource> VolumeDomain::repaired_surfaces(std::vector<std::string>& warnings,
+std::vector<SurfaceSource> VolumeDomain::repaired_surfaces(std::vector<Warning>& warnings,
                                                            RepairDistances& distances) const {
   std::vector<SurfaceSource> broken, surfaces;
   for (const SurfaceSource& surface : surfaces_) {
@@ -209,7 +209,8 @@ std::vector<SurfaceSource> VolumeDomain::repaired_surfaces(std::vector<std::stri
   }
   if (broken.empty()) return surfaces;
   RepairedBody body = repaired_body(broken, *repair_);
-  warnings.push_back(text_of(body));
+  warnings.emplace_back(WarningCode::repaired, text_of(body), std::ssize(body.surface.triangles),
+                        body.distances.resolution);
   distances = body.distances;
   surfaces.push_back(std::move(body.surface));
   return surfaces;
@@ -234,7 +235,7 @@ void VolumeDomain::set_filled(bool filled) {
 void VolumeDomain::check() {
   if (checked_) return;
   static const std::map<std::int32_t, SurfaceRole> no_roles;  // they have them
-  std::vector<std::string> warnings = given_warnings_;
+  std::vector<Warning> warnings = given_warnings_;
   RepairDistances distances;
   const std::vector<SurfaceSource> surfaces =
       repair_ ? repaired_surfaces(warnings, distances) : surfaces_;
@@ -244,7 +245,7 @@ void VolumeDomain::check() {
         {surfaces, repair_ ? no_roles : roles_, polylines_, region_points_, given_nodes_, filled_});
   } catch (const BrokenSurface& error) {
     if (repair_ || !filled_) throw;
-    reject_domain(std::string(error.what()) +
+    reject_domain(error.message() +
                   "; pnpbs_domain_set_repair (in the command --repair) takes what such triangles "
                   "enclose");
   }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "domain/domain_base.hpp"
 #include "domain/region_index.hpp"
 #include "domain/volume/features.hpp"
@@ -66,7 +67,7 @@ struct ResolvedVolume {
   LevelSetTriangles level_sets;
   std::vector<char> approximate;  // of each triangle: see SurfaceSource
   std::vector<FixedNode<3>> fixed_nodes;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   RepairDistances repair;
   VolumeSummary summary;
   std::unique_ptr<const RegionIndex<3>> regions;  // null if none has a tag
@@ -125,7 +126,7 @@ class VolumeDomain : public DomainBase<3> {
     return facet < resolved_->approximate.size() && resolved_->approximate[facet] != 0;
   }
   const std::vector<FixedNode<3>>& fixed_nodes() const { return resolved_->fixed_nodes; }
-  const std::vector<std::string>& warnings() const { return resolved_->warnings; }
+  const std::vector<Warning>& warnings() const { return resolved_->warnings; }
   const RepairDistances& repair_distances() const { return resolved_->repair; }
   // Of the tags of regions; null if none has one.
   const RegionIndex<3>* regions() const { return resolved_->regions.get(); }
@@ -136,7 +137,7 @@ class VolumeDomain : public DomainBase<3> {
   double measure() const { return filled_ ? volume() : area(); }
 
  private:
-  std::vector<SurfaceSource> repaired_surfaces(std::vector<std::string>& warnings,
+  std::vector<SurfaceSource> repaired_surfaces(std::vector<Warning>& warnings,
                                                RepairDistances& distances) const;
   void add_source(SurfaceSource source, const char* kind, std::int64_t& given);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -42,7 +43,7 @@ class Resolver {
     surface_ = join_surfaces(surfaces_);
     give_roles(surface_, given.roles);
     for (const SurfaceSource& surface : surfaces_)
-      for (const std::string& warning : surface.warnings) result_.warnings.push_back(warning);
+      for (const Warning& warning : surface.warnings) result_.warnings.push_back(warning);
     if (!filled_)  // then they all divide nothing
       for (SurfaceTriangle& triangle : surface_.triangles) triangle.inner = true;
     measure();
@@ -120,7 +121,7 @@ class Resolver {
 
   void warn_of_near_vertices(const std::vector<std::int32_t>& joined, std::size_t vertices) {
     std::int64_t count = 0;
-    std::string first;
+    MessageText first;
     for (std::size_t v = 0; v < vertices; ++v) {
       if (surface_.vertices[v] == surface_.vertices[joined[v]]) continue;
       if (count++ == 0)
@@ -128,10 +129,12 @@ class Resolver {
                 surface_.vertex_name(joined[v]);
     }
     if (count == 0) return;
-    result_.warnings.push_back(
+    result_.warnings.emplace_back(
+        WarningCode::vertices_merged,
         std::to_string(count) + (count == 1 ? " vertex lies" : " vertices lie") + " within " +
-        rounded_text(kSameVertex * size_) + " of another and " + (count == 1 ? "is" : "are") +
-        " merged with it; the first are " + first);
+            rounded_text(kSameVertex * size_) + " of another and " + (count == 1 ? "is" : "are") +
+            " merged with it; the first are " + first,
+        count, kSameVertex * size_);
   }
 
   void require_distinct_fixed_nodes() const {
@@ -176,7 +179,9 @@ class Resolver {
         names.push_back(surface_.sources[triangle.source]);
     }
     if (names.empty()) return;
-    result_.warnings.push_back("inside out and turned around: " + list_text(names, 5));
+    result_.warnings.emplace_back(WarningCode::triangles_turned,
+                                  "inside out and turned around: " + list_text(names, 5),
+                                  std::accumulate(turned.begin(), turned.end(), std::int64_t{0}));
   }
 
   // In which the k-th region point lies.
@@ -285,7 +290,9 @@ class Resolver {
 
   void warn_of_left_out(const std::vector<std::string>& names) {
     if (names.empty()) return;
-    result_.warnings.push_back("outside the domain and left out: " + list_text(names, 5));
+    result_.warnings.emplace_back(WarningCode::left_out_outside,
+                                  "outside the domain and left out: " + list_text(names, 5),
+                                  std::ssize(names));
   }
 
   void add_segments() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/nodes.hpp"
+#include "base/warning.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/plane/boundary.hpp"
 #include "domain/plane/plane_domain.hpp"
@@ -37,7 +38,7 @@ class Ground<2> {
   const Spacing<2>& spacing() const { return *spacing_; }
   SpacingEvaluator<2> evaluator() const;  // d, checked; while this ground is there
   const Boundary& boundary() const { return boundary_; }
-  const std::vector<std::string>& warnings() const { return boundary_.warnings; }
+  const std::vector<Warning>& warnings() const { return boundary_.warnings; }
   const IncidentSectors& sectors() const { return sectors_; }
   std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
 

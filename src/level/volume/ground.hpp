@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/nodes.hpp"
+#include "base/warning.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/feature_nodes.hpp"
@@ -44,7 +45,7 @@ class Ground<3> {
   const BoundaryMesh<3>& boundary() const { return domain_->mesh(); }
   const Surface& surface() const { return surface_; }
   const FeatureNodes& features() const { return features_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<Warning>& warnings() const { return warnings_; }
 
   double bubble_at(const Nodes<3>&, std::int64_t, double d) const { return d; }
   double spacing_at(const Nodes<3>& nodes, std::int64_t i) const { return nodes.d(i); }
@@ -79,7 +80,7 @@ class Ground<3> {
   Surface surface_;
   FeatureNodes features_;
   std::vector<char> patch_bounds_;  // of each patch: is the domain on one side of it?
-  std::vector<std::string> warnings_;
+  std::vector<Warning> warnings_;
 };
 
 }  // namespace pnpbs

@@ -46,12 +46,54 @@ const PNPBS_ERROR_INTERNAL = -14
 const PNPBS_BOUNDARY = 0
 const PNPBS_INNER = 1
 
+const PNPBS_REASON_OTHER = 0
+const PNPBS_REASON_CROSSING = 1
+const PNPBS_WARNING_UNKNOWN = 0
+const PNPBS_WARNING_LEFT_OUT_OUTSIDE = 101
+const PNPBS_WARNING_UNUSED_VERTICES = 102
+const PNPBS_WARNING_REGION_POINTS = 103
+const PNPBS_WARNING_SIMPLIFIED = 104
+const PNPBS_WARNING_REPAIRED = 105
+const PNPBS_WARNING_TRIANGLES_LEFT_OUT = 106
+const PNPBS_WARNING_TRIANGLES_TURNED = 107
+const PNPBS_WARNING_VERTICES_MERGED = 108
+const PNPBS_WARNING_SURFACES_TOUCH = 109
+const PNPBS_WARNING_PIECES_LEFT_OUT = 110
+const PNPBS_WARNING_EDGES_ROUNDED = 111
+const PNPBS_WARNING_CREASES_IGNORED = 112
+const PNPBS_WARNING_FEATURE_ANGLE = 113
+const PNPBS_WARNING_CURVED_ELEMENTS = 114
+const PNPBS_WARNING_GROUPS = 115
+const PNPBS_WARNING_FEATURE_UNRESOLVED = 201
+const PNPBS_WARNING_FIXED_NODES_CLOSE = 202
+const PNPBS_WARNING_GROWTH = 203
+const PNPBS_WARNING_PARTIAL_EXTENT = 204
+const PNPBS_WARNING_SPACING_COARSE = 205
+const PNPBS_WARNING_SPACING_MISSED = 206
+const PNPBS_WARNING_SPACING_HELD = 207
+const PNPBS_WARNING_BOUNDARY_NOT_FOLLOWED = 301
+const PNPBS_WARNING_NOT_CONFORMING = 302
+const PNPBS_WARNING_SMALL_ANGLES = 303
+const PNPBS_WARNING_FEATURES_LEFT_OUT = 304
+const PNPBS_WARNING_OPTION_WITHOUT_EFFECT = 401
+const PNPBS_WARNING_OPTIONS_CHANGED = 402
+const PNPBS_WARNING_DEPENDS_ON_RANKS = 403
+
 # ---------------------------------------------------------------- status and errors ----------
 pnpbs_status_string(status) =
     @ccall $(symbol(:pnpbs_status_string))(status::pnpbs_status)::Cstring
 
 pnpbs_last_error(context) =
     @ccall $(symbol(:pnpbs_last_error))(context::pnpbs_context)::Cstring
+
+pnpbs_last_error_data(context, reason, points) =
+    @ccall $(symbol(:pnpbs_last_error_data))(
+        context::pnpbs_context, reason::Ptr{Int32}, points::Ptr{Int32})::pnpbs_status
+
+pnpbs_last_error_point(context, index, point, begin_, end_) =
+    @ccall $(symbol(:pnpbs_last_error_point))(
+        context::pnpbs_context, index::Int32, point::Ptr{Cdouble}, begin_::Ptr{Int64},
+        end_::Ptr{Int64})::pnpbs_status
 
 pnpbs_version(major, minor, patch) =
     @ccall $(symbol(:pnpbs_version))(
@@ -550,6 +592,11 @@ pnpbs_placement_warning_count(placement, count) =
 pnpbs_placement_get_warning(placement, index, text) =
     @ccall $(symbol(:pnpbs_placement_get_warning))(
         placement::pnpbs_placement, index::Int32, text::Ptr{Cstring})::pnpbs_status
+
+pnpbs_placement_get_warning_data(placement, index, code, count, value, point) =
+    @ccall $(symbol(:pnpbs_placement_get_warning_data))(
+        placement::pnpbs_placement, index::Int32, code::Ptr{Int32}, count::Ptr{Int64},
+        value::Ptr{Cdouble}, point::Ptr{Cdouble})::pnpbs_status
 
 # ---------------------------------------------------------------- transfer -------------------
 pnpbs_transfer_create(placement, n, components, values, transfer) =

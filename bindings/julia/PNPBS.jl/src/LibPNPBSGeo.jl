@@ -29,6 +29,19 @@ end
 
 symbol(name::Symbol) = dlsym(opened[] == C_NULL ? open_library() : opened[], name)
 
+const PNPBS_GEO_NOTE_NO_GEOMETRY = 1
+const PNPBS_GEO_NOTE_HEIGHTS_LEFT_OUT = 2
+const PNPBS_GEO_NOTE_NEARLY_TOUCHING = 3
+const PNPBS_GEO_NOTE_NO_REFERENCE_SYSTEM = 4
+const PNPBS_GEO_NOTE_DEGREES_IN_PLANE = 5
+const PNPBS_GEO_NOTE_SCALE = 6
+const PNPBS_GEO_NOTE_SEGMENTS_RETAGGED = 7
+const PNPBS_GEO_NOTE_LINES_ALONG_BOUNDARY = 8
+const PNPBS_GEO_NOTE_SHARED_SEGMENTS_LEFT_OUT = 9
+const PNPBS_GEO_NOTE_WHOLE_SPHERE = 10
+const PNPBS_GEO_NOTE_LINES_LEFT_OUT = 11
+const PNPBS_GEO_NOTE_SEGMENTS_LEFT_OUT = 12
+
 pnpbs_geo_last_error() =
     @ccall $(symbol(:pnpbs_geo_last_error))()::Cstring
 
@@ -85,6 +98,11 @@ pnpbs_geo_note_count(shapes, count) =
 pnpbs_geo_get_note(shapes, index, note) =
     @ccall $(symbol(:pnpbs_geo_get_note))(
         shapes::pnpbs_geo_shapes, index::Int32, note::Ptr{Cstring})::pnpbs_status
+
+pnpbs_geo_get_note_data(shapes, index, code, count) =
+    @ccall $(symbol(:pnpbs_geo_get_note_data))(
+        shapes::pnpbs_geo_shapes, index::Int32, code::Ptr{Int32},
+        count::Ptr{Int64})::pnpbs_status
 
 pnpbs_geo_grid_read(path, variable, projection, low, high, grid) =
     @ccall $(symbol(:pnpbs_geo_grid_read))(

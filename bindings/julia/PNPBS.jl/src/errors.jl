@@ -6,6 +6,10 @@ const STATUS_NAMES = Dict{Int,Symbol}(
     for name in names(LibPNPBS, all = true)
     if startswith(string(name), r"PNPBS_(OK|NOT|STOP|SPACING|ERR)"))
 
+const WARNING_NAMES = Dict{Int,Symbol}(
+    getfield(LibPNPBS, name) => Symbol(lowercase(string(name)[15:end]))
+    for name in names(LibPNPBS, all = true) if startswith(string(name), "PNPBS_WARNING_"))
+
 status_name(code) = get(STATUS_NAMES, Int(code), Symbol("status_", Int(code)))
 
 """

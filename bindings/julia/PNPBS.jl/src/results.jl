@@ -392,6 +392,27 @@ function warning(placement, i)
     return string_or_empty(text[])
 end
 
+"""
+    warning_data(placement) -> Vector{NamedTuple}
+
+Returns the same warnings as data, by which programs can decide, each with `code`, the name of the
+header's constant in lower case, such as `:feature_unresolved`; `text`; `count`, how many nodes,
+edges, triangles or points it is about (0: not known); `value`, a number that it is about, `NaN` if
+there is none; and `point`, the coordinates of the first point that it names, empty if there is
+none. Local.
+"""
+warning_data(placement::Placement) =
+    [data_of_warning(placement, i - 1, text) for (i, text) in enumerate(warnings(placement))]
+
+function data_of_warning(placement, i, text)
+    code, count, value = Ref{Int32}(0), Ref{Int64}(0), Ref(NaN)
+    point = fill(NaN, 3)
+    check(placement, LibPNPBS.pnpbs_placement_get_warning_data(live(placement), i, code, count,
+                                                               value, point))
+    return (code = get(WARNING_NAMES, Int(code[]), :unknown), text = text, count = count[],
+            value = value[], point = filter(!isnan, point))
+end
+
 # ---------------------------------------------------------------- files -------------------------
 """
     write_file(placement, path; elements = false) -> Symbol

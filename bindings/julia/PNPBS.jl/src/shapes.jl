@@ -161,8 +161,8 @@ end
 """
     explain(shapes, message) -> String
 
-Returns a message about a domain of these shapes, with longitude and latitude inserted after each
-point "(x, y)".
+Returns the message of the last error about a domain of these shapes, with longitude and latitude
+inserted after each point "(x, y)". Any other text is returned as it is.
 """
 explain(shapes::Shapes, message::AbstractString) =
     string_or_empty(LibPNPBSGeo.pnpbs_geo_explain(live(shapes), message))

@@ -92,6 +92,9 @@ end
         set_spacing!(unused, 0.2)
         initialise!(unused)
         @test length(warnings(unused)) == 1 && occursin("vertex", warnings(unused)[1])
+        data = warning_data(unused)[1]
+        @test data.code == :unused_vertices && data.count == 1 && data.text == warnings(unused)[1]
+        @test isnan(data.value) && isempty(data.point)
     end
 end
 

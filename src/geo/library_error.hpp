@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Errors of libpnpbs, with the points that their messages name.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "pnpbs/pnpbs.h"
+
+namespace pnpbs::geo {
+
+// Returns the last message on a context, or on this thread.
+inline MessageText last_message(pnpbs_context context) {
+  std::int32_t count = 0;
+  pnpbs_last_error_data(context, nullptr, &count);
+  std::vector<NamedPoint> points(static_cast<std::size_t>(count));
+  for (std::int32_t k = 0; k < count; ++k) {
+    NamedPoint& point = points[static_cast<std::size_t>(k)];
+    std::int64_t begin = 0, end = 0;
+    pnpbs_last_error_point(context, k, point.x.data(), &begin, &end);
+    point.dimension = std::isnan(point.x[2]) ? 2 : 3;
+    point.begin = static_cast<std::size_t>(begin);
+    point.end = static_cast<std::size_t>(end);
+  }
+  return {pnpbs_last_error(context), std::move(points)};
+}
+
+// Returns the text with the points that it names. They are known while the text is, or contains,
+// the last message of libpnpbs on this thread, or `last`, that of this library.
+inline MessageText with_points(const std::string& text, const MessageText& last) {
+  for (const MessageText& known : {last, last_message(nullptr)}) {
+    const std::size_t at = known.empty() ? std::string::npos : text.find(known.text());
+    if (at != std::string::npos)
+      return text.substr(0, at) + known + text.substr(at + known.text().size());
+  }
+  return text;
+}
+
+}  // namespace pnpbs::geo
