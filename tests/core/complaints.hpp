@@ -2,21 +2,29 @@
 // What the check of the results says of results that are spoilt by hand.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/point_text.hpp"
 #include "check/result_check.hpp"
 #include "check_runner.h"
 #include "placement/placement_of.hpp"
+
+template <std::size_t Dim>
+std::string place_text(const std::array<double, Dim>& point) {
+  return pnpbs::point_text(point).text();
+}
 
 // Empty where it finds nothing wrong.
 template <int Dim>
 std::string complaint_of(pnpbs::PlacementOf<Dim>& placement) {
   try {
-    return pnpbs::check_results(placement.results());
+    const auto lacking = pnpbs::check_results(placement.results());
+    return lacking ? lacking->text() : "";
   } catch (const pnpbs::Error& error) {
     ck_assert(error.kind() == pnpbs::ErrorKind::internal);
     return error.what();

@@ -4,7 +4,6 @@
 #include <functional>
 #include <string>
 
-#include "base/point_text.hpp"
 #include "complaints.hpp"
 #include "level_run.hpp"
 #include "run_kernel_suite.hpp"
@@ -84,8 +83,8 @@ START_TEST(finds_an_id_that_comes_twice) {
   expect_complaint([](Placement& p) -> std::vector<std::string> {
     const std::int64_t i = node_near(p, {0.2, 0.2}), j = node_near(p, {0.8, 0.8});
     nodes_of(p).id(i) = nodes_of(p).id(j);
-    return {"two nodes have the id", id_text(p, j), pnpbs::point_text(nodes_of(p).position(i)),
-            pnpbs::point_text(nodes_of(p).position(j))};
+    return {"two nodes have the id", id_text(p, j), place_text(nodes_of(p).position(i)),
+            place_text(nodes_of(p).position(j))};
   });
 }
 END_TEST
@@ -94,8 +93,7 @@ START_TEST(finds_two_nodes_in_one_place) {
   expect_complaint([](Placement& p) -> std::vector<std::string> {
     const std::int64_t i = node_near(p, {0.2, 0.2}), j = neighbour_of(p, i);
     nodes_of(p).set_position(i, nodes_of(p).position(j));
-    return {"in one place", id_text(p, i), id_text(p, j),
-            pnpbs::point_text(nodes_of(p).position(j))};
+    return {"in one place", id_text(p, i), id_text(p, j), place_text(nodes_of(p).position(j))};
   });
 }
 END_TEST
@@ -106,7 +104,7 @@ START_TEST(finds_nodes_that_are_not_inside) {
     expect_complaint([&](Placement& p) -> std::vector<std::string> {
       const std::int64_t i = node_near(p, {0.2, 0.2});
       nodes_of(p).set_position(i, x);
-      return {id_text(p, i) + " " + pnpbs::point_text(x), " lie"};
+      return {id_text(p, i) + " " + place_text(x), " lie"};
     });
 }
 END_TEST
@@ -140,7 +138,7 @@ START_TEST(finds_a_node_of_a_patch_missing) {
       ++i;
     nodes.boundary_node(i) = -1;
     nodes.carrier(i) = pnpbs::Carrier::free;
-    return {"the boundary's node " + pnpbs::point_text(nodes.position(i)) + " comes 0 times"};
+    return {"the boundary's node " + place_text(nodes.position(i)) + " comes 0 times"};
   });
 }
 END_TEST

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/point_text.hpp"
 #include "check/conformity.hpp"
 #include "check/element_measure.hpp"
 #include "complaints.hpp"
@@ -84,7 +83,7 @@ START_TEST(finds_an_id_that_comes_twice) {
   expect_complaint([](Placement3& p) -> std::vector<std::string> {
     const std::int64_t i = inner_node(p), j = node_near(p, Carrier::free, {0.8, 0.8, 0.8});
     nodes_of(p).id(i) = nodes_of(p).id(j);
-    return {"two nodes have the id", id_text(p, j), pnpbs::point_text(nodes_of(p).position(i))};
+    return {"two nodes have the id", id_text(p, j), place_text(nodes_of(p).position(i))};
   });
 }
 END_TEST
@@ -104,7 +103,7 @@ START_TEST(finds_nodes_that_are_not_inside) {
     expect_complaint([&](Placement3& p) -> std::vector<std::string> {
       const std::int64_t i = inner_node(p);
       nodes_of(p).set_position(i, x);
-      return {id_text(p, i) + " " + pnpbs::point_text(x), " lie"};
+      return {id_text(p, i) + " " + place_text(x), " lie"};
     });
 }
 END_TEST
@@ -196,6 +195,7 @@ START_TEST(tells_of_tetrahedra_without_a_volume) {
   ck_assert_int_eq(std::ssize(found.torn), 4);
   ck_assert(!found.holds());
   ck_assert(pnpbs::text_of(found, p->results())
+                .text()
                 .starts_with("of no volume: 1 tetrahedra, one of them at "));
 }
 END_TEST
