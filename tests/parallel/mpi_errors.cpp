@@ -180,6 +180,39 @@ bool check_failure(int dim, int bad, const std::string& kind, long at, const std
   return true;
 }
 
+// A message of an update that ends on each rank for itself cannot be sent: its sender and its
+// receiver get the error, and the next update is right.
+void check_split_update(int bad) {
+  pnpbs_placement placement = new_placement(2);
+  std::int64_t nodes = 0, ghosts = 0;
+  expect(job(placement) >= 0, "a job before updates");
+  pnpbs_placement_count(placement, &nodes);
+  pnpbs_placement_ghost_count(placement, &ghosts);
+  std::vector<double> values(static_cast<std::size_t>(nodes + ghosts), 7);
+  const auto end_update = [&] {
+    return pnpbs_placement_end_update_ghosts(placement, nodes + ghosts, 1, values.data());
+  };
+  failing = "MPI_Isend";
+  fails_at = 1;
+  made.clear();
+  armed = rank == bad;
+  expect(
+      pnpbs_placement_begin_update_ghosts(placement, nodes + ghosts, 1, values.data()) == PNPBS_OK,
+      "an update begins");
+  armed = false;
+  const int failed = end_update() == PNPBS_ERROR_MPI ? 1 : 0;
+  int all = 0;
+  PMPI_Allreduce(&failed, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  expect(all == 2, "an update that fails on two ranks");
+  expect(rank != bad || failed == 1, "an update that fails where it was not sent");
+  expect(end_update() == PNPBS_ERROR_STATE, "an update that has ended");
+  std::fill(values.begin() + nodes, values.end(), -1);
+  expect(pnpbs_placement_update_ghosts(placement, nodes + ghosts, 1, values.data()) == PNPBS_OK,
+         "the next update");
+  for (const double value : values) expect(value == 7, "a value of the next update");
+  pnpbs_placement_destroy(&placement);
+}
+
 void check_failures(int dim, int bad) {
   pnpbs_placement placement = new_placement(dim);
   made.clear();
@@ -210,6 +243,7 @@ int main(int argc, char** argv) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  check_split_update(size - 1);
   check_failures(2, 1);
   check_failures(3, 0);
   pnpbs_context_destroy(&context);
