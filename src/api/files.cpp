@@ -14,15 +14,11 @@ using namespace pnpbs::api;
 pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
                                          const char* const* paths, const char* const* formats,
                                          const int32_t* elements) {
-  return guarded(placement, [&](PlacementObject& object) {
-    const Computing computing(*object.context);
-    const Communicator& comm = object.placement->communicator();
-    agreed(comm, [&] {
-      const std::vector<io::FileWish> wishes =
-          wishes_of(n, paths, formats, elements, io::wished_of(*object.placement));
-      require_same_wishes(comm, wishes);
-      io::write_files(*object.placement, object.output_fields, wishes);
-    });
+  return collective_on_object(placement, [&](PlacementObject& object) {
+    const std::vector<io::FileWish> wishes =
+        wishes_of(n, paths, formats, elements, io::wished_of(*object.placement));
+    require_same_wishes(object.placement->communicator(), wishes);
+    io::write_files(*object.placement, object.output_fields, wishes);
     return PNPBS_OK;
   });
 }

@@ -69,19 +69,13 @@ void require_prefix(const Communicator& comm, const char* prefix) {
 }  // namespace
 
 pnpbs_status pnpbs_mesh_create(pnpbs_placement placement, int32_t ghost_layers, pnpbs_mesh* mesh) {
-  if (mesh) *mesh = nullptr;
-  return guarded(placement, [&](PlacementObject& object) {
-    const Computing computing(*object.context);
+  return collective_create(placement, mesh, "mesh", meshes(), [&](PlacementObject& object) {
     NodalResults& results = object.placement->results();
-    agreed(results.communicator(), [&] { require_pointer(mesh, "mesh"); });
-    agreed(results.communicator(), [&] {
-      require_layers(results.communicator(), ghost_layers);
-      auto made = std::make_shared<MeshObject>();
-      made->context = object.context;
-      made->mesh = make_distributed_mesh(results, ghost_layers);
-      *mesh = meshes().add(std::move(made));
-    });
-    return PNPBS_OK;
+    require_layers(results.communicator(), ghost_layers);
+    auto made = std::make_shared<MeshObject>();
+    made->context = object.context;
+    made->mesh = make_distributed_mesh(results, ghost_layers);
+    return made;
   });
 }
 

@@ -41,25 +41,19 @@ void require_body(const NodalResults& results) {
 
 pnpbs_status pnpbs_particles_create(pnpbs_placement placement, pnpbs_domain body,
                                     pnpbs_particles* particles) {
-  if (particles) *particles = nullptr;
-  return guarded(placement, [&](PlacementObject& object) {
-    const Computing computing(*object.context);
+  const auto make = [&](PlacementObject& object) {
     const NodalResults& results = object.placement->results();
     std::shared_ptr<DomainObject> within;
     agreed(results.communicator(), [&] {
-      require_pointer(particles, "particles");
       within = body_with(*object.context, results.dimension() == 2, body);
       require_body(results);
       require_no_sphere(object.placement->chart(), "placement", "particles are made");
       in_its_dimension(*within, [](auto& domain) { domain.check(); });
     });
-    agreed(results.communicator(), [&] {
-      const std::shared_ptr<PlacementObject> of = require(placement);
-      *particles = all_particles().add(within->plane ? made<2>(of, *within->plane)
-                                                     : made<3>(of, *within->volume));
-    });
-    return PNPBS_OK;
-  });
+    const std::shared_ptr<PlacementObject> of = require(placement);
+    return within->plane ? made<2>(of, *within->plane) : made<3>(of, *within->volume);
+  };
+  return collective_create(placement, particles, "particles", all_particles(), make);
 }
 
 pnpbs_status pnpbs_particles_destroy(pnpbs_particles* particles) {

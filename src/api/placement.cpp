@@ -7,7 +7,7 @@
 #include "api/sphere_points.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "base/mixed_hash.hpp"
-#include "domain/given_values.hpp"
+#include "base/point_text.hpp"
 #include "placement/statistics.hpp"
 
 using namespace pnpbs;
@@ -116,12 +116,15 @@ IncomingNodes<Dim> checked_nodes(std::int64_t n, const double* coordinates,
                                  const std::int64_t* ids) {
   require_count(n, "n");
   if (n > 0) require_pointer(coordinates, "coordinates");
-  given_values::require_points<Dim>("argument coordinates", n, coordinates);
   constexpr std::int64_t kMaxId = std::int64_t{1} << 62;  // leaves numbers for new nodes
   IncomingNodes<Dim> nodes;
   for (std::int64_t i = 0; i < n; ++i) {
     Point<Dim> x;
     std::copy_n(coordinates + Dim * i, Dim, x.begin());
+    // Points far outside the domain are dropped, as others outside are.
+    if (!std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); }))
+      throw Error(ErrorKind::argument, "argument coordinates[" + std::to_string(i) +
+                                           "] = " + point_text(x) + " must be finite");
     if (ids && (ids[i] < 0 || ids[i] > kMaxId))
       throw Error(ErrorKind::argument, "argument ids[" + std::to_string(i) + "] = " +
                                            std::to_string(ids[i]) + " must be in 0 .. 2^62");
@@ -226,7 +229,7 @@ pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* va
     const Communicator& comm = object.placement->communicator();
     agreed(comm, find);
     require_same_key(comm, key);
-    agreed(comm, get);
+    agreed_on(*object.placement, get);
     return PNPBS_OK;
   });
 }

@@ -15,15 +15,52 @@ pnpbs_status local_change(pnpbs_placement placement, const Body& body) {
   });
 }
 
-// A collective call, which may ask callbacks: what fails on one rank, a bad argument even, fails on
-// all.
+// Does collective work on a placement: what fails on one rank, a bad argument even, fails on all.
+// Where it fails, all ranks forget what they have derived from the nodes, such as lists: ranks may
+// have come to different points, and must agree on what is there when it is requested again.
+template <class Work>
+void agreed_on(Placement& placement, const Work& work) {
+  try {
+    agreed(placement.communicator(), work);
+  } catch (...) {
+    placement.results().forget_derived();
+    throw;
+  }
+}
+
+// A collective call, which may ask callbacks.
 template <class Body>
-pnpbs_status collective(pnpbs_placement placement, const Body& body) {
-  return local_change(placement, [&](Placement& p) {
+pnpbs_status collective_on_object(pnpbs_placement placement, const Body& body) {
+  return guarded(placement, [&](PlacementObject& object) {
+    const Computing computing(*object.context);
     pnpbs_status status = PNPBS_OK;
-    agreed(p.communicator(), [&] { status = body(p); });
+    agreed_on(*object.placement, [&] { status = body(object); });
     return status;
   });
+}
+template <class Body>
+pnpbs_status collective(pnpbs_placement placement, const Body& body) {
+  return collective_on_object(placement,
+                              [&](PlacementObject& object) { return body(*object.placement); });
+}
+
+// Creates an object from a placement on all ranks or on none: make(placement object) is a pointer
+// to it. `handle` is that of the new object, or NULL. Collective.
+template <class Object, class Handle, class Make>
+pnpbs_status collective_create(pnpbs_placement placement, Handle* handle, const char* argument,
+                               Registry<Object, Handle>& registry, const Make& make) {
+  if (handle) *handle = nullptr;
+  Handle made = nullptr;
+  const pnpbs_status status = collective_on_object(placement, [&](PlacementObject& object) {
+    require_pointer(handle, argument);
+    made = registry.add(make(object));
+    return PNPBS_OK;
+  });
+  if (status == PNPBS_OK)
+    *handle = made;
+  else if (made)
+    registry.remove(made);
+  return status;
 }
 
 // The same of what only asks for results.

@@ -26,7 +26,7 @@ pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
   return local_change(placement, [&](Placement& p) {
     in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
       std::shared_ptr<const Spacing<Dim>> spacing;
-      agreed(p.communicator(), [&] { spacing = make(in); });
+      agreed_on(p, [&] { spacing = make(in); });
       in.set_spacing(std::move(spacing));
     });
     return PNPBS_OK;

@@ -44,28 +44,22 @@ void require_field(NodalResults& results, std::int64_t n, std::int64_t component
 // Ranks that ask for fields of different orders would wait for each other.
 pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t n,
                     std::int32_t components, const double* values, pnpbs_transfer* transfer) {
-  if (transfer) *transfer = nullptr;
-  return guarded(placement, [&](PlacementObject& object) {
-    const Computing computing(*object.context);
-    NodalResults& results = object.placement->results();
-    agreed(results.communicator(), [&] {
-      require_pointer(transfer, "transfer");
-      require_field(results, n, components, values);
-    });
-    agreed(results.communicator(), [&] {
-      if (!results.communicator().same_on_all(static_cast<std::uint64_t>(components)))
-        throw Error(ErrorKind::argument, "argument components = " + std::to_string(components) +
-                                             " here; all ranks must give the same");
-      if (!results.communicator().same_on_all(static_cast<std::uint64_t>(order)))
-        throw Error(ErrorKind::argument, "all ranks must request a transfer of the same order");
-      auto made = std::make_shared<TransferObject>();
-      made->context = object.context;
-      made->transfer = make_field_transfer(results, order, components, values);
-      if (const StereographicChart* chart = object.placement->chart()) made->chart = *chart;
-      *transfer = transfers().add(std::move(made));
-    });
-    return PNPBS_OK;
-  });
+  return collective_create(
+      placement, transfer, "transfer", transfers(), [&](PlacementObject& object) {
+        NodalResults& results = object.placement->results();
+        const Communicator& comm = results.communicator();
+        agreed(comm, [&] { require_field(results, n, components, values); });
+        if (!comm.same_on_all(static_cast<std::uint64_t>(components)))
+          throw Error(ErrorKind::argument, "argument components = " + std::to_string(components) +
+                                               " here; all ranks must give the same");
+        if (!comm.same_on_all(static_cast<std::uint64_t>(order)))
+          throw Error(ErrorKind::argument, "all ranks must request a transfer of the same order");
+        auto made = std::make_shared<TransferObject>();
+        made->context = object.context;
+        made->transfer = make_field_transfer(results, order, components, values);
+        if (const StereographicChart* chart = object.placement->chart()) made->chart = *chart;
+        return made;
+      });
 }
 
 // Or of none, where there is none. From which point it is seen does not matter in space.

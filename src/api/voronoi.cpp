@@ -8,18 +8,11 @@ using namespace pnpbs;
 using namespace pnpbs::api;
 
 pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi* voronoi) {
-  if (voronoi) *voronoi = nullptr;
-  return guarded(placement, [&](PlacementObject& object) {
-    const Computing computing(*object.context);
-    NodalResults& results = object.placement->results();
-    agreed(results.communicator(), [&] { require_pointer(voronoi, "voronoi"); });
-    agreed(results.communicator(), [&] {
-      auto made = std::make_shared<VoronoiObject>();
-      made->context = object.context;
-      made->cells = make_voronoi_cells(results);
-      *voronoi = voronois().add(std::move(made));
-    });
-    return PNPBS_OK;
+  return collective_create(placement, voronoi, "voronoi", voronois(), [](PlacementObject& object) {
+    auto made = std::make_shared<VoronoiObject>();
+    made->context = object.context;
+    made->cells = make_voronoi_cells(object.placement->results());
+    return made;
   });
 }
 

@@ -70,6 +70,8 @@ class NodalResults {
   virtual void prepare_order() = 0;
   virtual void prepare_lists() = 0;
   virtual void prepare_stars() = 0;
+  // Forgets all that was derived from the nodes. All ranks do so at the same place. Local.
+  virtual void forget_derived() noexcept = 0;
   std::int64_t node_at(std::int64_t place) const { return by_id_[static_cast<std::size_t>(place)]; }
   std::int64_t place_of(std::int64_t node) const { return place_[static_cast<std::size_t>(node)]; }
   // In places; the same object until nodes move or lists are made. Collective.

@@ -86,24 +86,11 @@ void Results<Dim>::prepare_order() {
 }
 
 template <int Dim>
-template <class Work>
-void Results<Dim>::derive(const Work& work) {
-  try {
-    agreed(*comm_, work);
-  } catch (...) {
-    level_->forget_derived();
-    throw;
-  }
-}
-
-template <int Dim>
 void Results<Dim>::prepare_lists() {
   require_nodes();
   if (lists_stamp_ == level_->stamp()) return;
-  derive([this] {
-    pnpbs::prepare_lists(*level_);
-    agreed(*comm_, [this] { prepare_order(); });
-  });
+  pnpbs::prepare_lists(*level_);
+  agreed(*comm_, [this] { prepare_order(); });
   lists_stamp_ = level_->stamp();
 }
 
@@ -111,16 +98,14 @@ template <int Dim>
 void Results<Dim>::prepare_stars() {
   require_nodes();
   if (stars_stamp_ == level_->stamp()) return;
-  derive([this] {
-    if (restore_stars(*level_)) {
-      agreed(*comm_, [this] { prepare_order(); });
-    } else {
-      prepare_lists();
-      if (!level_->distributed()) rebuild_stars(*level_);
-    }
-    settle_elements(*level_, kThoroughRounds);
-    agreed(*comm_, [this] { close_sphere(*level_); });
-  });
+  if (restore_stars(*level_)) {
+    agreed(*comm_, [this] { prepare_order(); });
+  } else {
+    prepare_lists();
+    if (!level_->distributed()) rebuild_stars(*level_);
+  }
+  settle_elements(*level_, kThoroughRounds);
+  agreed(*comm_, [this] { close_sphere(*level_); });
   stars_stamp_ = level_->stamp();
 }
 
@@ -136,18 +121,15 @@ std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
   const std::int64_t owned = count();
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;
-  derive([&] {
-    agreed(*comm_, [&] {
-      ids.reserve(static_cast<std::size_t>(nodes.count));
-      for (std::int64_t place = 0; place < nodes.count; ++place) {
-        ids.push_back(nodes.id(node_at(place)));
-        if (place >= owned)
-          owners.push_back(level_->tree->owner_at(nodes.position(node_at(place))));
-      }
-    });
-    exchange_pattern_ =
-        std::make_shared<const ExchangePattern>(make_exchange_pattern(*comm_, owned, ids, owners));
+  agreed(*comm_, [&] {
+    ids.reserve(static_cast<std::size_t>(nodes.count));
+    for (std::int64_t place = 0; place < nodes.count; ++place) {
+      ids.push_back(nodes.id(node_at(place)));
+      if (place >= owned) owners.push_back(level_->tree->owner_at(nodes.position(node_at(place))));
+    }
   });
+  exchange_pattern_ =
+      std::make_shared<const ExchangePattern>(make_exchange_pattern(*comm_, owned, ids, owners));
   exchange_stamp_ = level_->stamp();
   return exchange_pattern_;
 }
@@ -251,19 +233,17 @@ template <int Dim>
 const ElementQuality& Results<Dim>::element_quality() {
   prepare_stars();
   if (quality_stamp_ == level_->stamp()) return quality_;
-  derive([this] {
-    quality_ = measure_elements<Dim>(
-        *comm_, {level_->nodes, chart()}, level_->stars,
-        [this](const View<double>& values) { level_->ghosts.fill(*comm_, values); });
-    quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
-    if constexpr (Dim == 3) {
-      if (!level_->ground.surfaces_alone()) {
-        const LeastAngles least = least_angles(*level_, quality_.simplex.min_angle);
-        quality_.simplex.min_angle_at_sharp_edges = least.at_sharp_edges;
-        quality_.simplex.min_angle_elsewhere = least.elsewhere;
-      }
+  quality_ = measure_elements<Dim>(
+      *comm_, {level_->nodes, chart()}, level_->stars,
+      [this](const View<double>& values) { level_->ghosts.fill(*comm_, values); });
+  quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
+  if constexpr (Dim == 3) {
+    if (!level_->ground.surfaces_alone()) {
+      const LeastAngles least = least_angles(*level_, quality_.simplex.min_angle);
+      quality_.simplex.min_angle_at_sharp_edges = least.at_sharp_edges;
+      quality_.simplex.min_angle_elsewhere = least.elsewhere;
     }
-  });
+  }
   quality_stamp_ = level_->stamp();
   return quality_;
 }

@@ -44,6 +44,9 @@ class Results : public NodalResults {
   void prepare_order() override;
   void prepare_lists() override;
   void prepare_stars() override;
+  void forget_derived() noexcept override {
+    if (level_) level_->forget_derived();
+  }
   // Calls visit(places of its corners) for every element, a triangle or a tetrahedron, once, over
   // all ranks: at the owner of its node with the least id, which comes first. After prepare_stars.
   template <class Visit>
@@ -110,11 +113,6 @@ class Results : public NodalResults {
  private:
   void require_nodes() const;
   LevelStamp stamp() const override { return level_ ? level_->stamp() : LevelStamp(); }
-
-  // Does collective work that derives something from the nodes. Where it fails, all ranks forget
-  // what they have derived, so that they agree on what there is when it is requested again.
-  template <class Work>
-  void derive(const Work& work);
 
   void put_on_sphere() const;
 

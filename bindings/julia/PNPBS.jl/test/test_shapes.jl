@@ -35,7 +35,7 @@ function test_shapes_of(folder)
         @test COAST_CORNERS[1] == 18  # what was given stays
         write_prj(shapes, joinpath(folder, "nodes.vtu"))
         @test read(joinpath(folder, "nodes.prj"), String) == told.prj
-        @test occursin("[longitude", explain(shapes, "at (500, 700)"))
+        @test explain(shapes, "at (500, 700)") == "at (500, 700)"  # no point of an error
         @test fails(() -> add_shapes!(domain, shapes; corner_angle = 200), :error_argument,
                     "corner_angle")
         @test_throws DimensionMismatch to_degrees(shapes, zeros(3, 2))
