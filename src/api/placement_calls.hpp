@@ -16,14 +16,13 @@ pnpbs_status local_change(pnpbs_placement placement, const Body& body) {
 }
 
 // Does collective work on a placement: what fails on one rank, a bad argument even, fails on all.
-// Where it fails, all ranks forget what they have derived from the nodes, such as lists: ranks may
-// have come to different points, and must agree on what is there when it is requested again.
+// Where it fails, ranks may have come to different points, and agree on what is derived by then.
 template <class Work>
 void agreed_on(Placement& placement, const Work& work) {
   try {
     agreed(placement.communicator(), work);
   } catch (...) {
-    placement.results().forget_derived();
+    placement.results().agree_on_derived();
     throw;
   }
 }

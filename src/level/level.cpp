@@ -70,6 +70,7 @@ void Level<Dim>::put_back(LevelCopy<Dim>&& earlier) noexcept {
 template <int Dim>
 void Level<Dim>::forget_derived() noexcept {
   ghosts.choose_anew();
+  tree->forget_hops();
   neighbourhood.forget(*tree, nodes, neighbourhood.figures(nodes));
   forget_stars();
   ++settings_version;

@@ -70,8 +70,9 @@ class NodalResults {
   virtual void prepare_order() = 0;
   virtual void prepare_lists() = 0;
   virtual void prepare_stars() = 0;
-  // Forgets all that was derived from the nodes. All ranks do so at the same place. Local.
-  virtual void forget_derived() noexcept = 0;
+  // After a call that has failed on all ranks: if some have derived from the nodes what others have
+  // not, such as lists, all forget it, so that they agree when it is requested again. Collective.
+  virtual void agree_on_derived() noexcept = 0;
   std::int64_t node_at(std::int64_t place) const { return by_id_[static_cast<std::size_t>(place)]; }
   std::int64_t place_of(std::int64_t node) const { return place_[static_cast<std::size_t>(node)]; }
   // In places; the same object until nodes move or lists are made. Collective.

@@ -11,6 +11,7 @@
 #include "level/lists_and_stars.hpp"
 #include "level/node_digest.hpp"
 #include "level/plane/closed_sphere.hpp"
+#include "level/reach.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "quality/measured_nodes.hpp"
 #include "results/element_angles.hpp"
@@ -107,6 +108,23 @@ void Results<Dim>::prepare_stars() {
   settle_elements(*level_, kThoroughRounds);
   agreed(*comm_, [this] { close_sphere(*level_); });
   stars_stamp_ = level_->stamp();
+}
+
+template <int Dim>
+void Results<Dim>::agree_on_derived() noexcept {
+  if (!level_ || !level_->distributed()) return;
+  std::uint64_t derived = mixed(static_cast<std::uint64_t>(level_->ghosts.hops()));
+  derived = mixed(derived ^ static_cast<std::uint64_t>(level_->tree->hops()));
+  for (const bool is_there :
+       {level_->ghosts.are_exact(level_->nodes, kStarHops), lists_stamp_ == stamp(),
+        stars_stamp_ == stamp(), exchange_stamp_ == stamp(), quality_stamp_ == stamp()})
+    derived = mixed(derived ^ std::uint64_t{is_there});
+  bool agreed = false;
+  try {
+    agreed = comm_->same_on_all(derived);
+  } catch (...) {  // ranks cannot tell each other any more
+  }
+  if (!agreed) level_->forget_derived();
 }
 
 template <int Dim>

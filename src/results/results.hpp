@@ -44,9 +44,7 @@ class Results : public NodalResults {
   void prepare_order() override;
   void prepare_lists() override;
   void prepare_stars() override;
-  void forget_derived() noexcept override {
-    if (level_) level_->forget_derived();
-  }
+  void agree_on_derived() noexcept override;
   // Calls visit(places of its corners) for every element, a triangle or a tetrahedron, once, over
   // all ranks: at the owner of its node with the least id, which comes first. After prepare_stars.
   template <class Visit>
