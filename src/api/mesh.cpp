@@ -69,7 +69,7 @@ void require_prefix(const Communicator& comm, const char* prefix) {
 }  // namespace
 
 pnpbs_status pnpbs_mesh_create(pnpbs_placement placement, int32_t ghost_layers, pnpbs_mesh* mesh) {
-  return collective_create(placement, mesh, "mesh", meshes(), [&](PlacementObject& object) {
+  return collective_create(placement, mesh, "mesh", meshes, [&](PlacementObject& object) {
     NodalResults& results = object.placement->results();
     require_layers(results.communicator(), ghost_layers);
     auto made = std::make_shared<MeshObject>();

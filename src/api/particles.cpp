@@ -53,7 +53,7 @@ pnpbs_status pnpbs_particles_create(pnpbs_placement placement, pnpbs_domain body
     const std::shared_ptr<PlacementObject> of = require(placement);
     return within->plane ? made<2>(of, *within->plane) : made<3>(of, *within->volume);
   };
-  return collective_create(placement, particles, "particles", all_particles(), make);
+  return collective_create(placement, particles, "particles", all_particles, make);
 }
 
 pnpbs_status pnpbs_particles_destroy(pnpbs_particles* particles) {

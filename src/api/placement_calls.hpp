@@ -47,18 +47,18 @@ pnpbs_status collective(pnpbs_placement placement, const Body& body) {
 // to it. `handle` is that of the new object, or NULL. Collective.
 template <class Object, class Handle, class Make>
 pnpbs_status collective_create(pnpbs_placement placement, Handle* handle, const char* argument,
-                               Registry<Object, Handle>& registry, const Make& make) {
+                               Registry<Object, Handle>& (*registry)(), const Make& make) {
   if (handle) *handle = nullptr;
   Handle made = nullptr;
   const pnpbs_status status = collective_on_object(placement, [&](PlacementObject& object) {
     require_pointer(handle, argument);
-    made = registry.add(make(object));
+    made = registry().add(make(object));
     return PNPBS_OK;
   });
   if (status == PNPBS_OK)
     *handle = made;
   else if (made)
-    registry.remove(made);
+    registry().remove(made);
   return status;
 }
 

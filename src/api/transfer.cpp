@@ -45,7 +45,7 @@ void require_field(NodalResults& results, std::int64_t n, std::int64_t component
 pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t n,
                     std::int32_t components, const double* values, pnpbs_transfer* transfer) {
   return collective_create(
-      placement, transfer, "transfer", transfers(), [&](PlacementObject& object) {
+      placement, transfer, "transfer", transfers, [&](PlacementObject& object) {
         NodalResults& results = object.placement->results();
         const Communicator& comm = results.communicator();
         agreed(comm, [&] { require_field(results, n, components, values); });

@@ -8,7 +8,7 @@ using namespace pnpbs;
 using namespace pnpbs::api;
 
 pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi* voronoi) {
-  return collective_create(placement, voronoi, "voronoi", voronois(), [](PlacementObject& object) {
+  return collective_create(placement, voronoi, "voronoi", voronois, [](PlacementObject& object) {
     auto made = std::make_shared<VoronoiObject>();
     made->context = object.context;
     made->cells = make_voronoi_cells(object.placement->results());
