@@ -34,6 +34,7 @@ struct SavedState {
   std::vector<double> finer_places;  // SizingField::finer_places(): the same of d found there
   std::vector<double> finer_slopes;  // places, growth from there, d there, 1 if surely inside
   std::vector<double> edge_bands;    // of the last finish
+  std::vector<double> steepest;      // how the spacing grows: a place, and the growth there
 };
 
 // Calls visit(name, field) for each field: a number is an int64, a double or a fingerprint.
@@ -82,6 +83,7 @@ void for_tables(State& state, const Visit& visit) {
   visit("finer_places", state.finer_places);
   visit("finer_slopes", state.finer_slopes);
   visit("edge_bands", state.edge_bands);
+  visit("steepest", state.steepest);
 }
 
 inline std::uint64_t checksum_of_tables(const SavedState& state) {

@@ -255,10 +255,12 @@ KnownValues<Dim> finer_places_of(const SavedState& saved) {
 }
 
 template <int Dim>
-Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const SizingField<Dim>& spacing,
-                    const RunState& run, const Options& options, bool at_event) {
+Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
+                    const SizingField<Dim>& spacing, const RunState& run, const Options& options,
+                    bool at_event) {
   Saved<Dim> saved;
   SavedState& s = saved.state;
+  const Held<Dim>& held = placed.held;
   saved.nodes = &level.nodes;
   saved.spacing = spacing_at_owned_nodes(level, level.ground.spacing());
   std::uint64_t checksum = 0;
@@ -306,6 +308,8 @@ Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Sizing
     for (const GrowthSource<Dim>& place : held.places) append(s.held, place);
     save_finer_places(spacing.finer_places(), s);
     save_edge_bands(run.edge_bands, s);
+    s.steepest.assign(placed.steepest.at.begin(), placed.steepest.at.end());
+    s.steepest.push_back(placed.steepest.growth);
   });
   s.domain_fingerprint = fingerprint_of(level.ground.domain());
   s.checksum = level.comm->allreduce_sum(checksum) + checksum_of_tables(s);
@@ -344,6 +348,11 @@ std::shared_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<Sav
                                         const SpacingToPlace<Dim>& to_place,
                                         const Settings& settings, PlacedSpacing<Dim>& placed) {
   placed.held = held_in<Dim>(saved);
+  for_rows(saved.steepest, Dim + 1, "the growth of the spacing", [&](const double* row) {
+    placed.steepest.at = point_in<Dim>(row);
+    placed.steepest.growth = row[Dim];
+    placed.steepest_is_known = true;
+  });
   std::shared_ptr<Level<Dim>> level = builder.level_to_place(to_place, settings, placed);
   put_saved_nodes(*level, saved, nodes);
   require_same_spacing(*level, nodes);
@@ -384,8 +393,8 @@ void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
 }
 
 template KnownValues<2> finer_places_of(const SavedState&);
-template Saved<2> saved_of(const Level<2>&, const Held<2>&, const SizingField<2>&, const RunState&,
-                           const Options&, bool);
+template Saved<2> saved_of(const Level<2>&, const PlacedSpacing<2>&, const SizingField<2>&,
+                           const RunState&, const Options&, bool);
 template void require_same_as<2>(const SavedState&, const Communicator&, Domain<2>&,
                                  const Options&);
 template std::shared_ptr<Level<2>> saved_level(const SavedState&, std::vector<SavedNode<2>>,
@@ -393,8 +402,8 @@ template std::shared_ptr<Level<2>> saved_level(const SavedState&, std::vector<Sa
                                                const Settings&, PlacedSpacing<2>&);
 template void adopt_state(const SavedState&, RunState&, Level<2>&);
 template KnownValues<3> finer_places_of(const SavedState&);
-template Saved<3> saved_of(const Level<3>&, const Held<3>&, const SizingField<3>&, const RunState&,
-                           const Options&, bool);
+template Saved<3> saved_of(const Level<3>&, const PlacedSpacing<3>&, const SizingField<3>&,
+                           const RunState&, const Options&, bool);
 template void require_same_as<3>(const SavedState&, const Communicator&, Domain<3>&,
                                  const Options&);
 template std::shared_ptr<Level<3>> saved_level(const SavedState&, std::vector<SavedNode<3>>,

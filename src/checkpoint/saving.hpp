@@ -38,8 +38,9 @@ struct Saved {
 // found to be finer; at_event: is the step one whose event has not been asked yet if the bubbles
 // rest? Collective.
 template <int Dim>
-Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const SizingField<Dim>& spacing,
-                    const RunState& run, const Options& options, bool at_event);
+Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
+                    const SizingField<Dim>& spacing, const RunState& run, const Options& options,
+                    bool at_event);
 
 // The places that runs had found to be finer.
 template <int Dim>

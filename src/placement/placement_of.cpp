@@ -400,8 +400,7 @@ Saved<Dim> PlacementOf<Dim>::saved() {
   require_kokkos();
   require_same_options();
   agreed(*comm_, [this] { require_savable(); });
-  return saved_of(*now_.level, now_.placed.held, now_.spacing, state_, options_,
-                  monitoring_.at_event());
+  return saved_of(*now_.level, now_.placed, now_.spacing, state_, options_, monitoring_.at_event());
 }
 
 template <int Dim>

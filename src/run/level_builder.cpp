@@ -69,7 +69,7 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPla
     hold_down(*comm_, placed, settings);
   });
   std::shared_ptr<Level<Dim>> next = empty_level(placed.d, settings);
-  if (!settings.user_limits_growth()) {
+  if (!settings.user_limits_growth() && !placed.steepest_is_known) {
     const PhaseTimer timer(timers_, Phase::spacing);
     placed.steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },

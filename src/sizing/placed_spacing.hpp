@@ -28,6 +28,7 @@ struct PlacedSpacing {
   SizingField<Dim> d;
   Held<Dim> held;
   SteepestGrowth<Dim> steepest;
+  bool steepest_is_known = false;  // from a checkpoint: it is not measured again
 };
 
 }  // namespace pnpbs

@@ -121,7 +121,7 @@ SetSpacing at_nodes(double d) {
 
 // ------------------------------------------------------------------ cases ----------------------
 
-enum class Kind { plane, ball, surface, sphere };
+enum class Kind { plane, body, surface, sphere };
 
 struct Case {
   std::string name;
@@ -131,8 +131,8 @@ struct Case {
 };
 
 pnpbs_placement placement_of(pnpbs_context on, const Case& c) {
-  const double corners[] = {-1, -1, 1, -1, 1, 1, -1, 1}, centre[] = {0, 0, 0},
-               outside[] = {0, 0, 1};
+  const double corners[] = {-1, -1, 1, -1, 1, 1, -1, 1}, outside[] = {0, 0, 1};
+  const double low[] = {-0.8, -0.9, -0.6}, high[] = {0.8, 0.9, 0.6};
   pnpbs_domain domain;
   pnpbs_placement placement;
   require(c.kind == Kind::sphere ? pnpbs_domain_create_sphere(on, 1, outside, &domain)
@@ -141,7 +141,7 @@ pnpbs_placement placement_of(pnpbs_context on, const Case& c) {
   if (c.kind == Kind::plane)
     pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, corners, nullptr, 0);
   if (c.kind == Kind::surface) pnpbs_domain_set_filled(domain, 0);
-  if (c.kind == Kind::ball || c.kind == Kind::surface) pnpbs_domain_add_ball(domain, centre, 1, 1);
+  if (c.kind == Kind::body || c.kind == Kind::surface) pnpbs_domain_add_box(domain, low, high, 1);
   require(pnpbs_placement_create(on, domain, &placement), "placement");
   pnpbs_domain_destroy(&domain);
   pnpbs_placement_set_int64(placement, "steps", 40);
@@ -242,11 +242,11 @@ void check(const Case& c, pnpbs_context part, int size_of_part) {
 std::vector<Case> cases(Spot& even, Spot& spot) {
   std::vector<Case> all;
   for (const auto& [kind, name] : {std::pair(Kind::plane, "plane"),
-                                   {Kind::ball, "ball"},
+                                   {Kind::body, "body"},
                                    {Kind::surface, "surface"},
                                    {Kind::sphere, "sphere"}}) {
     const std::int32_t dim = kind == Kind::plane ? 2 : 3;
-    const double d = kind == Kind::plane ? 0.15 : kind == Kind::ball ? 0.4 : 0.2;
+    const double d = kind == Kind::plane ? 0.15 : kind == Kind::body ? 0.35 : 0.25;
     const auto add = [&](const char* what, SetSpacing set, const char* limit) {
       all.push_back({std::string(name) + ", " + what, kind, std::move(set), limit});
     };
@@ -257,9 +257,9 @@ std::vector<Case> cases(Spot& even, Spot& spot) {
     if (kind != Kind::sphere) add("grid", grid(dim, d), nullptr);
     if (kind != Kind::sphere) add("mesh", mesh(dim, d), nullptr);
     add("points", points(dim, d), nullptr);
-    if (kind == Kind::plane || kind == Kind::ball) add("shape", shape(d), nullptr);
+    if (kind == Kind::plane || kind == Kind::body) add("shape", shape(d), nullptr);
     add("values at nodes", at_nodes(d), nullptr);
-    if (kind == Kind::ball) {
+    if (kind == Kind::body) {
       add("spot", callback(spot), nullptr);
       add("spot, no limit", callback(spot), "0");
       add("spot, limit", callback(spot), "0.2");
