@@ -13,9 +13,7 @@
 namespace pnpbs::tool {
 
 // libpnpbs_geo, opened when a file for GDAL is named and not before: with the hundred libraries
-// behind GDAL, every start would take a tenth of a second longer.
-
-// The functions of the library, by their names.
+// behind GDAL, every start would take a tenth of a second longer. Its functions have their names.
 struct GeoLibrary {
   GeoLibrary();  // throws Failure where it cannot be opened
 

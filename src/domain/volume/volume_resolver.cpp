@@ -10,23 +10,59 @@
 #include "base/domain_error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
 #include "domain/domain_size.hpp"
 #include "domain/region_points.hpp"
 #include "domain/volume/mesh_creases.hpp"
 #include "domain/volume/resolved_features.hpp"
-#include "geometry/volume/surface_extent.hpp"
+#include "geometry/boundary_mesh.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "geometry/volume/welding.hpp"
+#include "predicates/expansion.hpp"
 #include "surfaces/nesting.hpp"
-#include "surfaces/self_intersections.hpp"
 #include "surfaces/surface_checks.hpp"
-#include "surfaces/surface_orientation.hpp"
-#include "surfaces/surface_roles.hpp"
+#include "surfaces/surface_edges.hpp"
 #include "surfaces/thin_triangles.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+// Bounding box, volume and area of a domain.
+struct VolumeExtent {
+  Box<3> bounds;
+  double volume;
+  double area;  // of what bounds it, and of surfaces alone
+};
+
+class Sum {
+ public:
+  void add(double term) {
+    const TwoTerms next = two_sum(sum_.high, term);
+    sum_ = {next.high, sum_.low + next.low};
+  }
+  double value() const { return sum_.high + sum_.low; }
+
+ private:
+  TwoTerms sum_{0, 0};
+};
+
+// Of a mesh whose triangles know their sides; summed in their order, with the rounding's error
+// kept.
+VolumeExtent extent_of(const BoundaryMesh<3>& mesh) {
+  Box<3> box = empty_box<3>();
+  for (const BoundaryNode<3>& node : mesh.nodes) include(box, node.position);
+  const Point<3>& origin = box.low;
+  Sum volume, area;
+  for (const BoundaryTriangle& facet : mesh.facets) {
+    if (facet.front_inside && facet.back_inside) continue;
+    const auto& [a, b, c] = corners_of(mesh, facet);
+    const Point<3> normal = cross(difference(b, a), difference(c, a));
+    const double sign = int{facet.back_inside} - int{facet.front_inside};
+    volume.add(sign * dot(difference(a, origin), normal));
+    area.add(length(normal));
+  }
+  return {box, volume.value() / 6, area.value() / 2};
+}
 
 class Resolver {
  public:
