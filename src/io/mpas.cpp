@@ -16,7 +16,6 @@
 #include "base/execution.hpp"
 #include "base/leading_count.hpp"
 #include "cgrid/sphere_grid.hpp"
-#include "cgrid/tangential_weights.hpp"
 #include "comm/records.hpp"
 #include "io/formats.hpp"
 #include "io/netcdf.hpp"
