@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/index.hpp"
 #include "base/point_text.hpp"
 #include "base/warning.hpp"

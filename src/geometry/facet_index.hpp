@@ -219,9 +219,8 @@ class FacetIndex {
 extern template class FacetIndex<2>;
 extern template class FacetIndex<3>;
 
-// A background tree for the facets alone: its cells hold few of them each, whatever d is.
-
-// The mesh must outlive the index.
+// Builds an index with a background tree for the facets alone: its cells hold few of them each,
+// whatever d is. The mesh must outlive the index.
 template <int Dim>
 FacetIndex<Dim> index_facets(const BoundaryMesh<Dim>& mesh, const Box<Dim>& bounds);
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
@@ -133,8 +133,7 @@ RepairDistances distances_of_repair(const NearestTriangles& given, const Surface
   return found;
 }
 
-// Closed surfaces of several pieces, some of which are much thinner than they were looked for.
-
+// A closed piece of a surface.
 struct ClosedPiece {
   std::int32_t first = -1;  // of its vertices
   double volume = 0, area = 0;
@@ -185,8 +184,6 @@ void remove_thin_pieces(SurfaceSource& surface, double least) {
             ": a smaller resolution keeps them",
         thin, least);
 }
-
-// Triangles that need not fit together, made to know their neighbours as far as they have any.
 
 void weld(Triangulation& surface, double tolerance) {
   const std::vector<std::int32_t> joined = weld_points(surface.vertices, tolerance);

@@ -41,14 +41,12 @@ inline void write_corners(const std::vector<std::int64_t>& corners, std::size_t 
   }
 }
 
-// What models of seas and rivers read of a node: x and y in the plane, longitude and latitude in
-// degrees on a sphere; and its depth, if the caller has given one.
-
 // Name of a field with one component: how far down the bottom is.
 inline constexpr std::string_view kDepthField = "depth";
 
-// Calls write(number, x and y, depth, sink) for each node, numbered from 1. Without the field the
-// depth is 0. Collective.
+// Calls write(number, place, depth, sink) for each node, numbered from 1, with what models of seas
+// and rivers read: x and y in the plane, longitude and latitude in degrees on a sphere. Without the
+// field the depth is 0. Collective.
 template <class Write>
 void append_map_places(const NodeSource& nodes, SharedFile& file, const Write& write) {
   const Contents& all = nodes.contents();

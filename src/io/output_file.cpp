@@ -26,8 +26,7 @@
 namespace pnpbs::io {
 namespace {
 
-// What a killed process has left of a file that it was writing: it goes when the file is written
-// next.
+// Files that a killed process has left unfinished. They are removed when the file is written next.
 
 std::uint64_t hash_of(std::string_view text, std::uint64_t hash = 0) {
   for (const char letter : text) hash = mixed(hash ^ static_cast<unsigned char>(letter));

@@ -16,9 +16,8 @@
 namespace pnpbs {
 namespace {
 
-// From numbers to the local indices that a solver takes.
-
-// Fills the arrays of a mesh. Indices of nodes and elements from their numbers.
+// Fills the arrays of a mesh: from the numbers of nodes and elements it finds the local indices
+// that a solver takes.
 template <std::size_t Corners>
 class MeshArrays {
  public:
@@ -106,8 +105,6 @@ class MeshArrays {
   std::size_t node_count_ = 0, element_count_ = 0;  // added so far
 };
 
-// Layers of elements of other ranks around those of a rank.
-
 // The nodes of elements that other ranks own, each once.
 template <std::size_t Corners, class Elements>
 std::vector<std::int64_t> nodes_of_others(const RankRanges& nodes, const Elements& elements) {
@@ -119,9 +116,9 @@ std::vector<std::int64_t> nodes_of_others(const RankRanges& nodes, const Element
   return numbers;
 }
 
-// By their numbers. All elements at owned nodes are known; those at other nodes, as far as the
-// layers reach, are asked of the owners of these nodes. front: those of the elements that this rank
-// owns. Collective.
+// Layers of elements of other ranks around those of a rank, by their numbers. All elements at owned
+// nodes are known; those at other nodes, as far as the layers reach, are asked of the owners of
+// these nodes. front: those of the elements that this rank owns. Collective.
 template <std::size_t Corners>
 std::vector<MeshElement<Corners>> ghost_elements(const Communicator& comm, const RankRanges& nodes,
                                                  const RankRanges& elements,

@@ -72,9 +72,8 @@ class RankRanges {
   std::vector<std::int64_t> first_{0};
 };
 
-// Questions about numbers, which the ranks that own them answer.
-
-// answer(number, rank that asks, answers) adds the answers to `answers`, at the owner; answers that
+// Sends questions about numbers to the ranks that own them, which answer:
+// give(number, rank that asks, answers) adds the answers to `answers`, at the owner; answers that
 // one rank gets from another are sorted by key, and come once. Collective.
 template <class Answer, class Give, class Key>
 std::vector<Answer> ask_owners(const Communicator& comm, const RankRanges& ranges,

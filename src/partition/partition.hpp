@@ -35,9 +35,8 @@ std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner, std::vecto
 double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::int64_t>& work,
                  int ranks);
 
-// The graph that the partition cuts: the cells that have work, linked where they touch.
-
-// Compressed rows. METIS dislikes weights of 0 and empty graphs.
+// The graph that the partition cuts: the cells that have work, linked where they touch. Compressed
+// rows. METIS dislikes weights of 0 and empty graphs.
 struct CellGraph {
   std::vector<std::int32_t> cell;  // of each vertex
   std::vector<std::int32_t> offset{0}, neighbour, weight, cut_weight;

@@ -15,10 +15,9 @@
 
 namespace pnpbs {
 
-// How steep a spacing is on a simplex, or on a part of a surface in space.
-
-// The gradient of what is linear on a simplex: by edges that are made orthogonal, one by one, to
-// those before. What is left of the values along them are its components.
+// The slope of a spacing on a simplex, or on a part of a surface in space: the gradient of what is
+// linear there, by edges that are made orthogonal, one by one, to those before. What is left of the
+// values along them are its components.
 template <int Dim, int In>
 typename KnownValues<In>::Slope slope_of(const Patch<Dim, In>& patch,
                                          const std::array<std::int32_t, Dim + 1>& simplex) {

@@ -12,10 +12,8 @@
 
 namespace pnpbs {
 
-// What the pieces of a shape ask d to be at them: by curvature, by the width of the domain, and by
-// the lengths of the input's edges.
-
-// What is asked for; 0: not at all.
+// What the pieces of a shape ask d to be at them, by curvature, by the width of the domain, and by
+// the lengths of the input's edges; 0: not at all.
 struct ShapeDemands {
   double nodes_per_turn = 0;  // of a circle with the radius of curvature
   double nodes_across = 0;    // the width of the domain

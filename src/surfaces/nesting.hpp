@@ -58,10 +58,8 @@ class SurfaceRegions {
 // Of each region, is it inside? Each boundary triangle leads from outside in or from inside out.
 std::vector<char> inside_by_parity(const Triangulation& surface, const SurfaceRegions& regions);
 
-// Which triangles bound a body, and which lie inside.
-
-// Those with a tag that has a role get it. Throws Error(ErrorKind::domain) if no triangle has a tag
-// that has a role.
+// Gives the triangles with a tag that has a role this role. Throws Error(ErrorKind::domain) if no
+// triangle has a tag that has a role.
 void give_roles(Triangulation& surface, const std::map<std::int32_t, SurfaceRole>& roles);
 
 // A triangle whose role goes by its place bounds the body if what surrounds the surface that it

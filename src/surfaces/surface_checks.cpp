@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/point_text.hpp"
 #include "base/union_find.hpp"
 #include "geometry/volume/triangle_contacts.hpp"

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 
 namespace pnpbs {
 

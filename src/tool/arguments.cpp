@@ -17,8 +17,8 @@
 namespace pnpbs::tool {
 namespace {
 
-// The values of options, from their text. All of these throw BadInput for text that is no such
-// value.
+// Functions that take the values of options from their text. They throw BadInput for text that is
+// no such value.
 
 void take_angle(const std::string& option, const std::string& text, std::optional<double>& angle) {
   const auto numbers = numbers_between_commas(text);

@@ -14,9 +14,8 @@
 
 namespace pnpbs {
 
-// A convex piece of a line or of a plane, which planes cut.
-
-// Extent: 1 for a segment, 2 for a polygon. Memory is kept for the next piece.
+// A convex piece of a line or of a plane, which planes cut. Extent: 1 for a segment, 2 for a
+// polygon. Memory is kept for the next piece.
 template <int Dim, int Extent>
 class ConvexPiece {
  public:

@@ -21,15 +21,13 @@
 namespace pnpbs {
 namespace {
 
-// Which nodes are closest in some part of an element: its corners, and those of their neighbours
-// that are closer than the corners somewhere.
-
 // A node that is not a corner is a site if it is closer than the corners, or as close: then two
 // nodes may have a side of the element in common.
 constexpr double kAsClose = 1 + 1e-12;  // of squared distances
 constexpr double kAboveRounding = 1 + 1e-9;
 
-// Finds the sites of one element after another.
+// Finds the sites of one element after another, the nodes that are closest in some part of it: its
+// corners, and those of their neighbours that are closer than the corners somewhere.
 template <int Dim, std::size_t Corners>
 class SiteFinder {
  public:

@@ -64,9 +64,7 @@ class ElementParts {
   ChunkedRows<double> own_, arrived_;
 };
 
-// The elements of which each node is a site.
-
-// Of each owned node, and as which of their sites.
+// The elements of which each owned node is a site, and as which of their sites.
 template <int Dim>
 class ElementsOfSites {
  public:

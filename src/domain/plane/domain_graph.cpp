@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "geometry/plane/chains.hpp"

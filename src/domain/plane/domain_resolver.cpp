@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/domain_size.hpp"
@@ -23,8 +23,6 @@
 
 namespace pnpbs {
 namespace {
-
-// Where smooth curves meet others, or come close to them, their samples must know.
 
 using Kind = CurveSource::Kind;
 
@@ -59,6 +57,7 @@ void insert(CurveSource& curve, NewSamples& added) {
   curve.points = std::move(points);
 }
 
+// A point at which a smooth curve gets a sample if it lies on the curve.
 struct Attachable {
   Point<2> point;
   double same;  // distance that counts as the same place

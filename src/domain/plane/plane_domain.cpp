@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/given_values.hpp"

@@ -21,8 +21,8 @@
 namespace pnpbs {
 namespace {
 
-// Whether the largest pieces of a surface alone would have too many nodes: one vertex far away,
-// say.
+// The check that the largest pieces of a surface alone have not too many nodes, as with one vertex
+// far away.
 
 constexpr std::size_t kLargest = 64;  // pieces that are looked at, of either kind
 constexpr double kBytesOnEdge = 450;  // of a node while it is laid: samples of d about

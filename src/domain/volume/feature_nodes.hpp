@@ -43,10 +43,8 @@ FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& feat
                                const SpacingEvaluator<3>& spacing,
                                const NodeLimit& limit = (std::int64_t{1} << 31) - 2);
 
-// Nodes on the edges of level sets: where these truly run, not on the chords between the vertices
-// of their triangles, and how the surface looks on both sides.
-
-// Those between corners move onto the edges of f, but one for which none is found within reach.
+// Moves the nodes between corners of a level set to where its edges truly run, not on the chords
+// between the vertices of their triangles; a node for which no edge is found within reach stays.
 void put_on_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach);
 
 // The gradients of f beside a node on its edge, of length 1; 0 for other nodes.

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/given_values.hpp"
@@ -29,7 +29,7 @@
 namespace pnpbs {
 namespace {
 
-// How far nodes on a level set, which are put where it is 0, may be from its triangles.
+// The distance that nodes on a level set, which are put where it is 0, may have from its triangles.
 
 constexpr std::size_t kPointsAtOnce = 1 << 14;  // points that f is asked for at a time
 

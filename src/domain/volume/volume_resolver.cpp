@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
@@ -32,8 +32,6 @@
 
 namespace pnpbs {
 namespace {
-
-// The features of a domain whose surfaces have been resolved, and what is told of them.
 
 void warn_of_short_creases(ResolvedVolume& resolved) {
   const auto& creases = resolved.features.short_creases;
@@ -73,10 +71,8 @@ void find_features_of(const std::vector<SurfaceSource>& surfaces, ResolvedVolume
   warn_of_short_creases(resolved);
 }
 
-// The creases of level sets on their way from the surfaces as given to the mesh.
-
-// Those of all surfaces, whose vertices come one after the other; `joined`: of each vertex the one
-// that it is welded to.
+// The creases of all surfaces, whose vertices come one after the other; `joined`: of each vertex
+// the one that it is welded to.
 std::vector<SurfaceCrease> join_creases(const std::vector<SurfaceSource>& surfaces,
                                         const std::vector<std::int32_t>& joined) {
   std::vector<SurfaceCrease> creases;

@@ -31,8 +31,6 @@
 namespace pnpbs {
 namespace {
 
-// A hexagonal lattice in a flat patch.
-
 constexpr double kParallel = 1e-4;   // radians
 constexpr double kRounding = 1e-12;  // of places, in units of a patch
 
@@ -239,7 +237,7 @@ std::vector<SurfacePoint> flat_lattice(const Surface& surface, std::int32_t patc
   return nodes;
 }
 
-// Sums over the pieces of each patch of a surface, of which each rank has those in its cells. Each
+// Sums over the pieces of each patch of a surface, of which each rank has those in its cells: each
 // patch has a rank that sums over its cells: what a rank sends grows with the cells and patches
 // that it has pieces of, not with the pieces.
 

@@ -15,9 +15,8 @@
 
 namespace pnpbs {
 
-// The part of space in which a rank lays first nodes on surfaces.
-
-// Cells that cover the surfaces, the same on all ranks, and which of them are this rank's.
+// The part of space in which a rank lays first nodes on surfaces: cells that cover the surfaces,
+// the same on all ranks, and which of them are this rank's.
 struct RankCells {
   const BackgroundTree<3>& tree;  // its leaves are the cells
   std::function<bool(std::int32_t cell)> owns;
