@@ -176,6 +176,13 @@ std::vector<LabelledTetrahedron> ElementLabels::changed() const {
   return result;
 }
 
+// The search for elements, where no change of a label, nor two at once, helps any more, and nodes
+// still lack their disks or the boundary has another topology than the domain's: an iterated local
+// search (Lourenco, Martin, Stuetzle 2003). In each round a label is changed near what is wrong, a
+// walk over labels repairs what that has torn (WalkSAT: Selman, Kautz, Cohen, "Noise strategies for
+// improving local search", 1994), and what is no better is taken back. What is random is a function
+// of the step, so that all ranks go the same way.
+
 namespace {
 
 constexpr int kInVain = 4;             // of so many parts of the rounds one, and the search ends

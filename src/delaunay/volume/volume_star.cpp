@@ -335,6 +335,9 @@ bool VolumeStar::find_facet_exactly(const Edge& edge, Facet& facet) const {
   return found;
 }
 
+// The search for places where nodes that are no candidates yet could change a star: in the spheres
+// of tetrahedra that are not proven, and behind open faces.
+
 namespace {
 
 constexpr double kBeyond = 1 + 1e-9;  // distances are rounded
@@ -443,6 +446,8 @@ bool VolumeStar::may_matter_in(const Box<3>& box) const {
          std::any_of(open_.begin(), open_.end(),
                      [&](const Face& face) { return reaches(face.normal, 0); });
 }
+
+// The facets of a star that are elements, and the order in which they are handed out.
 
 namespace {
 

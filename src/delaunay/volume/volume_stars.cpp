@@ -313,6 +313,9 @@ void VolumeStars::copy_star(std::int64_t i, const std::vector<std::int32_t>& pla
   if (!star.wide) out.insert(out.end(), triangles, star.last);
 }
 
+// The stars of surfaces alone, written down: a header, the neighbours, then two nodes for each
+// triangle.
+
 namespace {
 
 class SurfaceStarWriter {
