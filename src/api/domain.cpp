@@ -6,7 +6,7 @@
 #include "api/domain_calls.hpp"
 #include "api/sphere_points.hpp"
 #include "domain/from_files.hpp"
-#include "domain/plane/sphere_area.hpp"
+#include "domain/plane/plane_domain.hpp"
 #include "formats/surface_triangles.hpp"
 
 using namespace pnpbs;

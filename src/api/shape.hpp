@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
-#include "shape/sphere_shape.hpp"
+#include "shape/shape.hpp"
 #include "spacing/shape_spacing.hpp"
 #include "sphere/great_circle.hpp"
 

@@ -71,4 +71,20 @@ inline constexpr const char* kForeignException =
 // with a point in every locale.
 std::string number_text(double value);
 
+inline bool is_lack_of_room(const Error& error) {
+  return error.kind() == ErrorKind::spacing || error.kind() == ErrorKind::memory;
+}
+
+// Says that a domain cannot be what was given, and where.
+[[noreturn]] inline void reject_domain(const MessageText& message,
+                                       ErrorReason reason = ErrorReason::other) {
+  throw Error(ErrorKind::domain, message, reason);
+}
+
+// Triangles that enclose a body badly, which may be repaired.
+class BrokenSurface : public Error {
+ public:
+  explicit BrokenSurface(const MessageText& message) : Error(ErrorKind::domain, message) {}
+};
+
 }  // namespace pnpbs

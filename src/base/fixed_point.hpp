@@ -5,9 +5,24 @@
 
 #include <cstdint>
 
-#include "base/int128.hpp"
-
 namespace pnpbs {
+
+// Whole numbers of 128 bits as plain words, which messages can carry: MPI has none.
+struct Int128 {
+  __extension__ using Value = __int128;
+
+  std::uint64_t low = 0, high = 0;  // two's complement
+
+  static Int128 of(Value value) {
+    return {static_cast<std::uint64_t>(value), static_cast<std::uint64_t>(value >> 64)};
+  }
+  Value value() const { return static_cast<Value>(high) << 64 | low; }
+  void add(const Int128& other) {
+    const std::uint64_t before = low;
+    low += other.low;
+    high += other.high + (low < before ? 1 : 0);
+  }
+};
 
 inline constexpr std::int64_t kFixedPointOne = std::int64_t{1} << 32;
 

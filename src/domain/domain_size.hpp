@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 

@@ -7,10 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "formats/msh_curves.hpp"
 #include "formats/msh_facets.hpp"
-#include "formats/msh_region_points.hpp"
-#include "formats/msh_triangles.hpp"
 
 namespace pnpbs {
 

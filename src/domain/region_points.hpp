@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/index.hpp"
 #include "base/point_text.hpp"
 #include "base/warning.hpp"
-#include "domain/given_points.hpp"
+#include "domain/domain_base.hpp"
 
 namespace pnpbs {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/extension.hpp"
-#include "formats/whole_file.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

@@ -1,19 +1,92 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "base/point_text.hpp"
 #include "formats/msh_fields.hpp"
 #include "formats/msh_mesh.hpp"
 #include "formats/msh_node_table.hpp"
-#include "formats/msh_region_table.hpp"
-#include "formats/msh_types.hpp"
 #include "formats/text_fields.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+// Types of elements in Gmsh's files, by the list in its manual.
+struct MshType {
+  std::int32_t number;
+  MshShape shape;
+  int nodes;  // the corners come first
+};
+
+// Up to fifth order.
+constexpr std::array kMshTypes{
+    MshType{15, MshShape::point, 1},        MshType{1, MshShape::line, 2},
+    MshType{8, MshShape::line, 3},          MshType{26, MshShape::line, 4},
+    MshType{27, MshShape::line, 5},         MshType{28, MshShape::line, 6},
+    MshType{2, MshShape::triangle, 3},      MshType{9, MshShape::triangle, 6},
+    MshType{20, MshShape::triangle, 9},     MshType{21, MshShape::triangle, 10},
+    MshType{22, MshShape::triangle, 12},    MshType{23, MshShape::triangle, 15},
+    MshType{24, MshShape::triangle, 15},    MshType{25, MshShape::triangle, 21},
+    MshType{3, MshShape::quadrangle, 4},    MshType{10, MshShape::quadrangle, 9},
+    MshType{16, MshShape::quadrangle, 8},   MshType{4, MshShape::tetrahedron, 4},
+    MshType{11, MshShape::tetrahedron, 10}, MshType{29, MshShape::tetrahedron, 20},
+    MshType{30, MshShape::tetrahedron, 35}, MshType{31, MshShape::tetrahedron, 56},
+    MshType{5, MshShape::hexahedron, 8},    MshType{12, MshShape::hexahedron, 27},
+    MshType{17, MshShape::hexahedron, 20},  MshType{92, MshShape::hexahedron, 64},
+    MshType{93, MshShape::hexahedron, 125}, MshType{6, MshShape::prism, 6},
+    MshType{13, MshShape::prism, 18},       MshType{18, MshShape::prism, 15},
+    MshType{7, MshShape::pyramid, 5},       MshType{14, MshShape::pyramid, 14},
+    MshType{19, MshShape::pyramid, 13}};
+
+// The regions of a mesh, made as elements ask for them from what a file tells of its entities.
+class MshRegionTable {
+ public:
+  // group: the first physical group that it is in, 0 if it is in none.
+  void add_entity(int dimension, std::int32_t entity, std::int32_t group) {
+    group_of_[{dimension, entity}] = group;
+    if (dimension > 0 && group != 0) any_group_[static_cast<std::size_t>(dimension)] = true;
+  }
+  // What bounds an entity of that dimension.
+  void add_bound(int dimension, std::int32_t bound, bool bounds_one_in_group) {
+    ++bounds_[{dimension - 1, bound}][bounds_one_in_group];
+  }
+
+  std::int32_t group_of(int dimension, std::int32_t entity) const {
+    const auto found = group_of_.find({dimension, entity});
+    return found == group_of_.end() ? 0 : found->second;
+  }
+
+  // Its place among all.
+  std::int32_t region_of(int dimension, std::int32_t entity, std::int32_t group) {
+    const std::array<std::int32_t, 3> key{dimension, entity, group};
+    const auto [found, is_new] =
+        region_at_.try_emplace(key, static_cast<std::int32_t>(regions_.size()));
+    if (is_new) regions_.push_back({dimension, entity, group, bounds_of(dimension, entity)});
+    return found->second;
+  }
+  std::vector<MshRegion> take() { return std::move(regions_); }
+
+ private:
+  // Where physical groups say what the domain is, entities in none are no part of it.
+  int bounds_of(int dimension, std::int32_t entity) const {
+    const auto found = bounds_.find({dimension, entity});
+    if (found == bounds_.end()) return 0;
+    const auto& [in_none, in_group] = found->second;
+    return any_group_[static_cast<std::size_t>(dimension) + 1] ? in_group : in_none + in_group;
+  }
+
+  std::vector<MshRegion> regions_;
+  std::map<std::array<std::int32_t, 3>, std::int32_t> region_at_;
+  std::map<GroupTag, std::int32_t> group_of_;  // of entities
+  // See MshRegion: by those in no physical group, and by those in one.
+  std::map<GroupTag, std::array<int, 2>> bounds_;
+  std::array<bool, 4> any_group_{};  // of entities of each dimension
+};
 
 constexpr std::array kEntityNames{"point", "curve", "surface", "volume"};
 constexpr std::int64_t kMaxNodes = std::numeric_limits<std::int32_t>::max();

@@ -6,7 +6,6 @@
 
 #include "formats/polygons.hpp"
 #include "formats/surface_formats.hpp"
-#include "formats/tag_names.hpp"
 #include "formats/text_fields.hpp"
 
 namespace pnpbs {

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "formats/text_fields.hpp"
-#include "formats/whole_file.hpp"
 
 namespace pnpbs {
 

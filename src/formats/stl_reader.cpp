@@ -2,19 +2,70 @@
 // STL: 3D Systems, "StereoLithography Interface Specification" (1988). Text may hold several
 // solids, each with a name. Binary: 80 bytes of anything, the number of triangles, 50 bytes each.
 #include <algorithm>
+#include <cstdint>
 #include <initializer_list>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/mixed_hash.hpp"
 #include "base/small_letters.hpp"
+#include "base/types.hpp"
 #include "formats/byte_fields.hpp"
 #include "formats/surface_formats.hpp"
-#include "formats/tag_names.hpp"
 #include "formats/text_fields.hpp"
-#include "formats/vertex_table.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+// Numbers points in the order of their first appearance; those with equal coordinates are one.
+class VertexTable {
+ public:
+  std::int32_t index_of(Point<3> x);
+  std::vector<Point<3>> take_points() { return std::move(points_); }
+
+ private:
+  std::size_t slot_of(const Point<3>& x) const;
+  void grow();
+
+  std::vector<Point<3>> points_;
+  std::vector<std::int32_t>
+      slots_;  // open addressing: of a point or -1; at least half of them free
+};
+
+constexpr std::int32_t kFree = -1;
+
+std::uint64_t hash_of(const Point<3>& x) {
+  std::uint64_t hash = 0;
+  for (const double coordinate : x) hash = mixed_with(hash, coordinate);
+  return hash;
+}
+
+// The slot that has the point, or the free one where it belongs.
+std::size_t VertexTable::slot_of(const Point<3>& x) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash_of(x) & mask;
+  while (slots_[slot] != kFree && points_[static_cast<std::size_t>(slots_[slot])] != x)
+    slot = (slot + 1) & mask;
+  return slot;
+}
+
+void VertexTable::grow() {
+  slots_.assign(slots_.empty() ? 64 : 4 * slots_.size(), kFree);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    slots_[slot_of(points_[i])] = static_cast<std::int32_t>(i);
+}
+
+std::int32_t VertexTable::index_of(Point<3> x) {
+  for (double& coordinate : x) coordinate += 0.0;  // -0 is 0
+  if (2 * points_.size() >= slots_.size()) grow();
+  std::int32_t& slot = slots_[slot_of(x)];
+  if (slot == kFree) {
+    slot = static_cast<std::int32_t>(points_.size());
+    points_.push_back(x);
+  }
+  return slot;
+}
 
 constexpr std::size_t kHeader = 80;
 constexpr std::size_t kBeforeTriangles = kHeader + 4;

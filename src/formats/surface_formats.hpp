@@ -8,6 +8,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "formats/poly_sections.hpp"
 #include "formats/surface_triangles.hpp"
@@ -40,5 +43,23 @@ SurfaceTriangles parse_tetgen(std::string_view text, const std::string& name, Te
 // file in messages.
 SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
                                SurfaceFormat format, const std::function<NodeFile()>& node_file);
+
+// Tags for names, from 1 in the order in which they are asked for. No name ("") is one, too.
+class TagNames {
+ public:
+  std::int32_t tag_of(const std::string& name) {
+    const auto [entry, is_new] =
+        tags_.try_emplace(name, static_cast<std::int32_t>(tags_.size() + 1));
+    if (is_new && !name.empty()) names_.emplace_back(entry->second, name);
+    return entry->second;
+  }
+
+  // Those that are not empty, by tag.
+  std::vector<std::pair<std::int32_t, std::string>> take_names() { return std::move(names_); }
+
+ private:
+  std::unordered_map<std::string, std::int32_t> tags_;
+  std::vector<std::pair<std::int32_t, std::string>> names_;
+};
 
 }  // namespace pnpbs

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "formats/surface_formats.hpp"
-#include "formats/whole_file.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

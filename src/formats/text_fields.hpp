@@ -64,4 +64,7 @@ void expect_text(std::string_view text, const std::string& name, const std::stri
 // "12 of 100" as messages about what ends too early have it.
 std::string part_of(std::int64_t part, std::int64_t whole, const std::string& what);
 
+// The bytes of a file. Throws Error(ErrorKind::file, "path: cannot be read: ...").
+std::string read_whole_file(const std::string& path);
+
 }  // namespace pnpbs

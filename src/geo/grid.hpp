@@ -58,4 +58,9 @@ class Grid {
   mutable std::mutex one_at_a_time_;
 };
 
+// How steep the values on a grid are: their change per unit of the points' coordinates, or, where
+// the radius is not 0, per length along the sphere on which points have these degrees.
+void evaluate_slopes(const Grid& grid, double radius, const std::vector<Point<2>>& points,
+                     double* slopes);
+
 }  // namespace pnpbs::geo

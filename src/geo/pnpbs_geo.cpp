@@ -15,7 +15,6 @@
 #include "api/floating_point.hpp"
 #include "base/error.hpp"
 #include "geo/grid.hpp"
-#include "geo/grid_slopes.hpp"
 #include "geo/library_error.hpp"
 #include "geo/shapes.hpp"
 #include "spacing/depth_rule.hpp"

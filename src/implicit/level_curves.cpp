@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "implicit/level_set.hpp"
 #include "implicit/level_set_lattice.hpp"
-#include "implicit/level_set_zeros.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

@@ -58,4 +58,13 @@ class LevelSet {
   double resolution_;
 };
 
+// f is negative at one end alone.
+struct CrossedSegment {
+  Point<3> begin, end;
+  double f_begin, f_end;
+};
+
+// A point of each where f = 0, or where it changes its sign.
+std::vector<Point<3>> zeros_on(const LevelSet& set, const std::vector<CrossedSegment>& segments);
+
 }  // namespace pnpbs

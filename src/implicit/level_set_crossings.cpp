@@ -10,7 +10,7 @@
 
 #include "base/index.hpp"
 #include "base/space_vectors.hpp"
-#include "implicit/level_set_zeros.hpp"
+#include "implicit/level_set.hpp"
 
 namespace pnpbs {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
+#include "implicit/level_set.hpp"
 #include "implicit/level_set_lattice.hpp"
-#include "implicit/level_set_zeros.hpp"
 
 namespace pnpbs {
 

@@ -2,28 +2,215 @@
 #include "implicit/repaired_body.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <set>
 #include <utility>
+#include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
+#include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
+#include "base/started_execution.hpp"
+#include "base/union_find.hpp"
 #include "geometry/volume/nearest_triangles.hpp"
 #include "geometry/volume/triangles.hpp"
+#include "geometry/volume/welding.hpp"
 #include "geometry/volume/winding_number.hpp"
 #include "implicit/level_set_creases.hpp"
 #include "implicit/level_set_surface.hpp"
-#include "implicit/measured_repair.hpp"
-#include "surfaces/soup.hpp"
 #include "surfaces/surface_edges.hpp"
-#include "surfaces/surface_orientation.hpp"
 #include "surfaces/surface_sides.hpp"
-#include "surfaces/thin_pieces.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+using TriangleList = std::vector<FacetCorners<3>>;
+using Nearest = NearestTriangles::Nearest;
+
+struct Sample {
+  Point<3> x, normal;  // unit, of the triangle
+  double area;         // that it stands for; 0 of corners
+};
+
+double area_of(const FacetCorners<3>& triangle) { return length(area_normal(triangle)); }
+
+// The middles of pieces no longer than `apart`, made by halving the longest edge.
+void add_middles(const FacetCorners<3>& triangle, const Point<3>& normal, double apart,
+                 std::vector<Sample>& samples) {
+  std::array<double, 3> square;  // of the edge from corner k to the next
+  for (std::size_t k = 0; k < 3; ++k)
+    square[k] = squared_distance<3>(triangle[k], triangle[(k + 1) % 3]);
+  const auto k =
+      static_cast<std::size_t>(std::max_element(square.begin(), square.end()) - square.begin());
+  if (!(square[k] > apart * apart)) {
+    samples.push_back({centroid(triangle), normal, area_of(triangle)});
+    return;
+  }
+  const Point<3>&a = triangle[k], &b = triangle[(k + 1) % 3], &c = triangle[(k + 2) % 3];
+  const Point<3> half = shifted(a, 0.5, difference(b, a));
+  add_middles({a, half, c}, normal, apart, samples);
+  add_middles({half, b, c}, normal, apart, samples);
+}
+
+std::vector<Sample> samples_on(const TriangleList& triangles, double apart) {
+  std::vector<Sample> samples;
+  for (const FacetCorners<3>& triangle : triangles) {
+    const Point<3> normal = unit_vector(area_normal(triangle));
+    for (const Point<3>& corner : triangle) samples.push_back({corner, normal, 0});
+    add_middles(triangle, normal, apart, samples);
+  }
+  return samples;
+}
+
+std::vector<Nearest> nearest_to(const std::vector<Sample>& samples,
+                                const NearestTriangles& triangles) {
+  std::vector<Nearest> nearest(samples.size());
+  for_each_if_started("pnpbs::distances_of_repair", std::ssize(samples), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    nearest[k] = triangles.nearest(samples[k].x);
+  });
+  return nearest;
+}
+
+TriangleList triangles_of(const SurfaceSource& surface) {
+  TriangleList triangles;
+  for (const auto& [a, b, c] : surface.triangles)
+    triangles.push_back(
+        {surface.vertices[index(a)], surface.vertices[index(b)], surface.vertices[index(c)]});
+  return triangles;
+}
+
+// Does the way to the nearest point run along the surface rather than off it? So it does where a
+// hole is closed: what is nearest lies beside.
+bool closes_a_hole(const Sample& sample, const Nearest& nearest, double resolution) {
+  constexpr double kNoWay = 1e-3;  // resolutions: rounding has no direction
+  if (nearest.square < kNoWay * kNoWay * resolution * resolution) return false;
+  const Point<3> way = difference(nearest.point.x, sample.x);
+  const double off = dot(way, sample.normal);
+  return 2 * off * off < nearest.square;
+}
+
+void measure_new(const std::vector<Sample>& samples, const std::vector<Nearest>& nearest,
+                 RepairDistances& found) {
+  double area = 0, sum = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double away = std::sqrt(nearest[k].square);
+    double& largest =
+        closes_a_hole(samples[k], nearest[k], found.resolution) ? found.over_holes : found.to_given;
+    largest = std::max(largest, away);
+    sum += samples[k].area * away;
+    area += samples[k].area;
+  }
+  found.mean_to_given = area > 0 ? sum / area : 0;
+}
+
+void measure_given(const std::vector<Sample>& samples, const std::vector<Nearest>& nearest,
+                   RepairDistances& found) {
+  double all = 0, lost = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double away = std::sqrt(nearest[k].square);
+    found.to_new = std::max(found.to_new, away);
+    all += samples[k].area;
+    if (away > found.resolution) lost += samples[k].area;
+  }
+  found.lost = all > 0 ? lost / all : 0;
+}
+
+// Measures the distances between a repaired body and the triangles it was made from.
+RepairDistances distances_of_repair(const NearestTriangles& given, const SurfaceSource& made,
+                                    double resolution) {
+  RepairDistances found{.resolution = resolution};
+  const NearestTriangles made_ones(triangles_of(made));
+  const std::vector<Sample> on_new = samples_on(made_ones.triangles(), resolution),
+                            on_given = samples_on(given.triangles(), resolution);
+  measure_new(on_new, nearest_to(on_new, given), found);
+  measure_given(on_given, nearest_to(on_given, made_ones), found);
+  return found;
+}
+
+// A closed piece of a surface.
+struct ClosedPiece {
+  std::int32_t first = -1;  // of its vertices
+  double volume = 0, area = 0;
+
+  double thickness() const { return 2 * std::fabs(volume) / area; }
+};
+
+// Takes out the pieces, bodies and cavities, that are thinner than `least` in the mean, by twice
+// their volume over their area; with a warning. The lattice of a level set finds such ones here and
+// not there: they are crumbs of sheets that enclose nothing.
+void remove_thin_pieces(SurfaceSource& surface, double least) {
+  UnionFind<std::int32_t> joined(surface.vertices.size());
+  for (const auto& [a, b, c] : surface.triangles) {
+    joined.join(a, b);
+    joined.join(b, c);
+  }
+  // Seen from a vertex of its own: far from the origin volumes would round away.
+  std::vector<ClosedPiece> pieces(surface.vertices.size());
+  for (const auto& [a, b, c] : surface.triangles) {
+    ClosedPiece& piece = pieces[index(joined.root(a))];
+    if (piece.first < 0) piece.first = a;
+    const FacetCorners<3> corners{surface.vertices[index(a)], surface.vertices[index(b)],
+                                  surface.vertices[index(c)]};
+    const Point<3> normal = area_normal(corners);
+    const Point<3> way = difference(corners[0], surface.vertices[index(piece.first)]);
+    piece.area += length(normal);
+    piece.volume += dot(normal, way) / 3;
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const ClosedPiece& piece = pieces[index(joined.root(surface.triangles[t][0]))];
+    if (piece.thickness() < least) continue;
+    surface.triangles[kept] = surface.triangles[t];
+    surface.tags[kept++] = surface.tags[t];
+  }
+  surface.triangles.resize(kept);
+  surface.tags.resize(kept);
+  std::int64_t thin = 0;
+  std::int32_t first = -1;
+  for (const ClosedPiece& piece : pieces)
+    if (piece.first >= 0 && piece.thickness() < least && thin++ == 0) first = piece.first;
+  if (thin > 0)
+    surface.warnings.emplace_back(
+        WarningCode::pieces_left_out,
+        std::to_string(thin) + (thin == 1 ? " piece" : " pieces") + " of the body, thinner than " +
+            rounded_text(least) + " in the mean, " + (thin == 1 ? "is" : "are") +
+            " left out, one of them at " + rounded_point_text<3>(surface.vertices[index(first)]) +
+            ": a smaller resolution keeps them",
+        thin, least);
+}
+
+void weld(Triangulation& surface, double tolerance) {
+  const std::vector<std::int32_t> joined = weld_points(surface.vertices, tolerance);
+  for (SurfaceTriangle& triangle : surface.triangles)
+    for (std::int32_t& v : triangle.vertices) v = joined[index(v)];
+}
+
+bool is_none(const SurfaceTriangle& triangle) {
+  const auto& [a, b, c] = triangle.vertices;
+  return a == b || b == c || c == a;
+}
+
+// The triangles over common vertices: those within the tolerance of each other are one. What
+// thereby has no area left is gone, and of triangles with the same corners, whichever way they
+// turn, the first stays: a second one would hide at its edges who is next to whom, and one that
+// turns the other way would cancel the first.
+Triangulation joined_soup(const std::vector<SurfaceSource>& given, double tolerance) {
+  Triangulation surface = join_surfaces(given);
+  weld(surface, tolerance);
+  std::set<std::array<std::int32_t, 3>> there;
+  std::erase_if(surface.triangles, [&](const SurfaceTriangle& triangle) {
+    std::array<std::int32_t, 3> corners = triangle.vertices;
+    std::sort(corners.begin(), corners.end());
+    return is_none(triangle) || !there.insert(corners).second;
+  });
+  return surface;
+}
 
 // In units of the resolution: nearer than that to triangles, their sides tell what is inside.
 constexpr double kNear = 2;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Comma-separated values with one line of names.
-#include "io/field_columns.hpp"
 #include "io/formats.hpp"
+#include "io/particle_fields.hpp"
 
 namespace pnpbs::io {
 

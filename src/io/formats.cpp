@@ -7,7 +7,6 @@
 
 #include "base/extension.hpp"
 #include "base/small_letters.hpp"
-#include "io/mpas.hpp"
 #include "io/particle_fields.hpp"
 
 namespace pnpbs::io {

@@ -68,4 +68,12 @@ void write_gadget(const NodeSource& nodes, SharedFile& file);
 // The file that names the pieces. Collective. like: what any of them holds.
 void write_pvtu(const std::vector<std::string>& pieces, const Contents& like, SharedFile& file);
 
+// Grids of the Model for Prediction Across Scales, the Voronoi cells of nodes on a sphere: in
+// NetCDF's 64-bit data format, with all that MPAS reads (MPAS mesh specification 1.0,
+// mpas-dev.github.io, and mesh quality as its converter writes it). Collective.
+void write_mpas(const SphereGrid& grid, SharedFile& file);
+
+// The graph of the cells, for gpmetis: graph.info. Collective.
+void write_cell_graph(const SphereGrid& grid, SharedFile& file);
+
 }  // namespace pnpbs::io

@@ -5,7 +5,7 @@
 // from 1. Counter-clockwise around the domain, clockwise around islands.
 #include "base/small_letters.hpp"
 #include "io/boundary_loops.hpp"
-#include "io/map_places.hpp"
+#include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {
 

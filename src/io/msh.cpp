@@ -10,7 +10,6 @@
 #include "io/msh_data.hpp"
 #include "io/msh_groups.hpp"
 #include "io/numbered_rows.hpp"
-#include "io/rows_by_tag.hpp"
 
 namespace pnpbs::io {
 namespace {

@@ -6,8 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "io/rows_by_tag.hpp"
-
 namespace pnpbs::io {
 
 namespace {

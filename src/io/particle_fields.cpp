@@ -5,9 +5,16 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "io/field_columns.hpp"
 
 namespace pnpbs::io {
+
+FieldColumns field_columns(const NodeSource& nodes, std::size_t field) {
+  FieldColumns columns{static_cast<std::size_t>((*nodes.contents().fields)[field].components), {}};
+  nodes.for_field(field, [&](const FieldRows& rows) {
+    columns.values.insert(columns.values.end(), rows.values.begin(), rows.values.end());
+  });
+  return columns;
+}
 
 std::size_t particle_field(const std::vector<OutputField>& fields, std::string_view name) {
   const auto found = std::ranges::find_if(fields, [&](const OutputField& field) {

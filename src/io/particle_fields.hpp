@@ -2,6 +2,7 @@
 // What files of particles need of the caller's fields, and what they say of them all.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,6 +13,16 @@
 #include "io/shared_file.hpp"
 
 namespace pnpbs::io {
+
+// One of the caller's fields at the nodes in this rank's parts of all windows. So no window of
+// nodes waits for one of a field.
+struct FieldColumns {
+  std::size_t components;
+  std::vector<double> values;  // [nodes][components]
+};
+
+// Collective.
+FieldColumns field_columns(const NodeSource& nodes, std::size_t field);
 
 // Names of fields with one component: the volume of a particle, an area in the plane, and the
 // density of its matter.

@@ -4,7 +4,7 @@
 // strings "NS node node ... -node number", of the boundary, each of one tag. Numbers from 1.
 #include "base/error.hpp"
 #include "io/boundary_loops.hpp"
-#include "io/map_places.hpp"
+#include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {
 

@@ -7,7 +7,6 @@
 #include "io/formats.hpp"
 #include "io/grid_arrays.hpp"
 #include "io/hdf5_grid.hpp"
-#include "io/hdf5_layout.hpp"
 
 namespace pnpbs::io {
 

@@ -8,14 +8,173 @@
 
 #include "base/error.hpp"
 #include "io/hdf5.hpp"
+#include "io/node_source.hpp"
 #include "io/nodes_by_id.hpp"
-#include "io/own_piece.hpp"
 #include "io/particle_fields.hpp"
 #include "io/rows.hpp"
+#include "results/element_regions.hpp"
+#include "results/results.hpp"
 
 namespace pnpbs::io {
-
 namespace {
+
+// One rank's own nodes, elements and facets, with the ghosts that these need; numbered by itself.
+template <int Dim>
+class OwnPiece : public NodeSource {
+ public:
+  // Local, after rows.hpp's prepare. fields: with values at ghosts.
+  OwnPiece(const Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
+
+  // Local.
+  void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
+  void for_field(std::size_t field,
+                 const std::function<void(const FieldRows&)>& visit) const override;
+  void for_elements(const std::function<void(const ElementRows&)>& visit) const override;
+  void for_facets(const std::function<void(const FacetRows&)>& visit) const override;
+
+ private:
+  void know(std::int64_t place);
+  std::int64_t number(std::int64_t place) const {
+    return place < owned_ ? place : number_[static_cast<std::size_t>(place - owned_)];
+  }
+  std::int64_t place_of_number(std::int64_t number) const {
+    return number < owned_ ? number : ghosts_[static_cast<std::size_t>(number - owned_)];
+  }
+  // Calls visit(begin, end) for windows of the own nodes.
+  template <class Visit>
+  void for_windows(const Visit& visit) const;
+
+  const Results<Dim>& results_;
+  std::int64_t owned_;
+  // Ghosts in the order in which elements and facets ask for them.
+  std::vector<std::int64_t> ghosts_;  // places
+  std::vector<std::int64_t> number_;  // of each ghost, by its place among them; -1: not needed
+};
+
+template <int Dim>
+OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
+                        const std::vector<OutputField>& fields)
+    : results_(results),
+      owned_(results.count()),
+      number_(static_cast<std::size_t>(results.level().nodes.count - owned_), -1) {
+  contents_.dimension = Dim;
+  contents_.coordinates = results.coordinates();
+  contents_.is_piece = true;
+  contents_.fields = &fields;
+  contents_.with_elements = elements;
+  contents_.cells = cells_of(results, elements);
+  contents_.with_regions =
+      contents_.cells == Cells::elements && results.level().ground.domain().regions();
+  if (elements) {
+    results.for_elements([&](const auto& places) {
+      ++contents_.elements;
+      for (const std::int64_t place : places) know(place);
+    });
+    const auto add = [&](const auto& places, auto...) {
+      ++contents_.facets;
+      for (const std::int64_t place : places) know(place);
+    };
+    if constexpr (Dim == 3) {
+      results.for_open_facets(add);
+      results.for_inner_facets(add);
+    } else {
+      results.for_boundary_facets(add);
+    }
+  }
+  contents_.nodes = owned_ + static_cast<std::int64_t>(ghosts_.size());
+}
+
+template <int Dim>
+void OwnPiece<Dim>::know(std::int64_t place) {
+  if (place < owned_) return;
+  std::int64_t& number = number_[static_cast<std::size_t>(place - owned_)];
+  if (number >= 0) return;
+  number = owned_ + static_cast<std::int64_t>(ghosts_.size());
+  ghosts_.push_back(place);
+}
+
+template <int Dim>
+void OwnPiece<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
+  const Nodes<Dim>& nodes = results_.level().nodes;
+  for (std::int64_t begin = 0; begin < contents_.nodes; begin += kWindow) {
+    NodeRows rows;
+    rows.first = begin;
+    for (std::int64_t k = begin; k < std::min(begin + kWindow, contents_.nodes); ++k) {
+      const std::int64_t i = results_.node_at(place_of_number(k));
+      const Point<3> x = results_.place_in_space(i);
+      rows.x.insert(rows.x.end(), x.begin(), x.begin() + contents_.coordinates);
+      rows.ids.push_back(nodes.id(i));
+      rows.tags.push_back(nodes.tag(i));
+      rows.spacing.push_back(results_.spacing_at(i));
+      rows.ghosts.push_back(k >= owned_);
+    }
+    visit(rows);
+  }
+}
+
+template <int Dim>
+void OwnPiece<Dim>::for_field(std::size_t field,
+                              const std::function<void(const FieldRows&)>& visit) const {
+  const OutputField& of = (*contents_.fields)[field];
+  for (std::int64_t begin = 0; begin < contents_.nodes; begin += kWindow) {
+    FieldRows rows;
+    rows.first = begin;
+    for (std::int64_t k = begin; k < std::min(begin + kWindow, contents_.nodes); ++k) {
+      const auto values =
+          of.values.begin() + place_of_number(k) * static_cast<std::ptrdiff_t>(of.components);
+      rows.values.insert(rows.values.end(), values, values + of.components);
+    }
+    visit(rows);
+  }
+}
+
+template <int Dim>
+template <class Visit>
+void OwnPiece<Dim>::for_windows(const Visit& visit) const {
+  for (std::int64_t begin = 0; begin < owned_; begin += kWindow)
+    visit(begin, std::min(begin + kWindow, owned_));
+}
+
+template <int Dim>
+void OwnPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& visit) const {
+  std::int64_t before = 0;
+  ElementRegions<Dim> region_of(results_);
+  for_windows([&](std::int64_t begin, std::int64_t end) {
+    ElementRows rows;
+    rows.first = before;
+    results_.for_elements(begin, end, [&](const auto& places) {
+      for (const std::int64_t place : places) rows.corners.push_back(number(place));
+      rows.quality.push_back(element_quality(results_, places));
+      if (contents_.with_regions) rows.regions.push_back(region_of(places));
+    });
+    before += static_cast<std::int64_t>(rows.quality.size());
+    visit(rows);
+  });
+}
+
+template <int Dim>
+void OwnPiece<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
+  FacetRows rows;
+  const auto add = [&](const auto& places, std::int32_t tag) {
+    for (const std::int64_t place : places) rows.corners.push_back(number(place));
+    rows.tags.push_back(tag);
+    rows.quality.push_back(facet_quality(results_, places));
+  };
+  if constexpr (Dim == 2) {
+    results_.for_boundary_facets(add);
+    visit(rows);
+  } else {
+    std::int64_t before = 0;
+    for_windows([&](std::int64_t begin, std::int64_t end) {
+      rows = FacetRows();
+      rows.first = before;
+      results_.for_boundary_facets(begin, end, add);
+      results_.for_inner_facets(begin, end, add);
+      before += static_cast<std::int64_t>(rows.tags.size());
+      visit(rows);
+    });
+  }
+}
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::argument, what); }
 

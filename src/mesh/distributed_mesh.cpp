@@ -2,17 +2,148 @@
 #include "mesh/distributed_mesh.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
 
 #include "base/rank_limit.hpp"
-#include "mesh/ghost_layers.hpp"
-#include "mesh/mesh_arrays.hpp"
+#include "mesh/elements_at_nodes.hpp"
 #include "mesh/mesh_facets.hpp"
+#include "mesh/mesh_records.hpp"
 #include "mesh/node_sharing.hpp"
 #include "mesh/owned_elements.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+// Fills the arrays of a mesh: from the numbers of nodes and elements it finds the local indices
+// that a solver takes.
+template <std::size_t Corners>
+class MeshArrays {
+ public:
+  MeshArrays(DistributedMesh& mesh, const RankRanges& nodes, const RankRanges& elements)
+      : mesh_(mesh), nodes_(nodes), elements_(elements) {
+    mesh.corners = static_cast<int>(Corners);
+    mesh.owned_nodes = nodes.count();
+    mesh.first_node = nodes.first();
+    mesh.all_nodes = nodes.total();
+    mesh.owned_elements = elements.count();
+    mesh.first_element = elements.first();
+    mesh.all_elements = elements.total();
+  }
+
+  // To so many nodes and elements, owned ones included, that are then added.
+  void resize(std::size_t nodes, std::size_t elements) {
+    mesh_.x.resize(nodes * static_cast<std::size_t>(mesh_.dimension));
+    for (auto* array : {&mesh_.numbers, &mesh_.ids}) array->resize(nodes);
+    for (auto* array : {&mesh_.owners, &mesh_.tags}) array->resize(nodes);
+    mesh_.element_corners.resize(elements * Corners);
+    mesh_.element_numbers.resize(elements);
+    for (auto* array : {&mesh_.element_owners, &mesh_.element_tags}) array->resize(elements);
+  }
+
+  // Owned ones first, then the others by number.
+  void add(const MeshNode& node) {
+    const std::size_t n = node_count_++, dim = static_cast<std::size_t>(mesh_.dimension);
+    std::copy_n(node.x.begin(), dim, mesh_.x.begin() + static_cast<std::ptrdiff_t>(dim * n));
+    mesh_.numbers[n] = node.number;
+    mesh_.ids[n] = node.id;
+    mesh_.owners[n] = nodes_.owner(node.number);
+    mesh_.tags[n] = node.tag;
+  }
+  // Likewise, after the nodes.
+  void add(const MeshElement<Corners>& element) {
+    const std::size_t e = element_count_++;
+    for (std::size_t k = 0; k < Corners; ++k)
+      mesh_.element_corners[Corners * e + k] = node_index(element.corners[k]);
+    mesh_.element_numbers[e] = element.number;
+    mesh_.element_owners[e] = elements_.owner(element.number);
+    mesh_.element_tags[e] = element.tag;
+  }
+  // After the elements.
+  void add(const MeshFacet<Corners>& facet) {
+    const std::size_t here = element_index(facet.elements[0]) >= 0 ? 0 : 1;
+    for (const std::int64_t corner : facet.corners)
+      mesh_.facet_corners.push_back(node_index(corner));
+    mesh_.facet_elements.push_back(element_index(facet.elements[here]));
+    mesh_.facet_elements.push_back(here == 0 ? element_index(facet.elements[1]) : -1);
+    mesh_.facet_opposite.push_back(facet.opposite[here]);
+    mesh_.facet_tags.push_back(facet.tag);
+    mesh_.facet_owners.push_back(elements_.owner(facet.elements[0]));
+    mesh_.facet_inner.push_back(facet.elements[1] != kNoElement);
+  }
+  void add(const NodeShare& share) {
+    const std::int32_t node = node_index(share.node);
+    if (mesh_.shared_nodes.empty() || mesh_.shared_nodes.back() != node) {
+      mesh_.shared_nodes.push_back(node);
+      mesh_.sharing_offsets.push_back(mesh_.sharing_offsets.back());
+    }
+    mesh_.sharing_ranks.push_back(share.rank);
+    ++mesh_.sharing_offsets.back();
+  }
+
+ private:
+  // -1: not here.
+  static std::int32_t index(const RankRanges& ranges, const std::vector<std::int64_t>& numbers,
+                            std::int64_t number) {
+    if (ranges.has(number)) return static_cast<std::int32_t>(number - ranges.first());
+    const auto others = numbers.begin() + ranges.count();
+    const auto found = std::lower_bound(others, numbers.end(), number);
+    if (found == numbers.end() || *found != number) return -1;
+    return static_cast<std::int32_t>(found - numbers.begin());
+  }
+  std::int32_t node_index(std::int64_t number) const {
+    return index(nodes_, mesh_.numbers, number);
+  }
+  std::int32_t element_index(std::int64_t number) const {
+    return index(elements_, mesh_.element_numbers, number);
+  }
+
+  DistributedMesh& mesh_;
+  const RankRanges& nodes_;
+  const RankRanges& elements_;
+  std::size_t node_count_ = 0, element_count_ = 0;  // added so far
+};
+
+// The nodes of elements that other ranks own, each once.
+template <std::size_t Corners, class Elements>
+std::vector<std::int64_t> nodes_of_others(const RankRanges& nodes, const Elements& elements) {
+  std::vector<std::int64_t> numbers;
+  for (const MeshElement<Corners>& element : elements)
+    for (const std::int64_t corner : element.corners)
+      if (!nodes.has(corner)) numbers.push_back(corner);
+  sort_and_keep_one(numbers);
+  return numbers;
+}
+
+// Layers of elements of other ranks around those of a rank, by their numbers. All elements at owned
+// nodes are known; those at other nodes, as far as the layers reach, are asked of the owners of
+// these nodes. front: those of the elements that this rank owns. Collective.
+template <std::size_t Corners>
+std::vector<MeshElement<Corners>> ghost_elements(const Communicator& comm, const RankRanges& nodes,
+                                                 const RankRanges& elements,
+                                                 const ElementsAtNodes<Corners>& at_nodes,
+                                                 std::vector<std::int64_t> front, int layers) {
+  using Element = MeshElement<Corners>;
+  const auto number = [](const Element& element) { return element.number; };
+  const auto give = [&](std::int64_t node, int rank, std::vector<Element>& answers) {
+    at_nodes.at(node, [&](const Element& element) {
+      if (elements.owner(element.number) != rank) answers.push_back(element);
+    });
+  };
+  if (layers == 0) return {};
+  std::vector<Element> ghosts(at_nodes.of_others().begin(), at_nodes.of_others().end());
+  std::unordered_set<std::int64_t> asked;
+  for (int layer = 1;; ++layer) {
+    for (const Element& element : ask_owners<Element>(comm, nodes, front, give, number))
+      ghosts.push_back(element);
+    sort_and_keep_one(ghosts, number);
+    if (layer == layers) return ghosts;
+    asked.insert(front.begin(), front.end());
+    front = nodes_of_others<Corners>(nodes, ghosts);
+    std::erase_if(front, [&](std::int64_t node) { return asked.contains(node); });
+  }
+}
 
 // The facets of the rank's elements, and those of its ghost elements, which their owners have.
 template <std::size_t Corners>

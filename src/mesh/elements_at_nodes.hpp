@@ -10,7 +10,6 @@
 
 #include "base/rank_limit.hpp"
 #include "mesh/mesh_records.hpp"
-#include "mesh/rank_ranges.hpp"
 
 namespace pnpbs {
 

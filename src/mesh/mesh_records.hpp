@@ -8,6 +8,8 @@
 #include <functional>
 #include <vector>
 
+#include "comm/records.hpp"
+
 namespace pnpbs {
 
 constexpr std::int64_t kNoElement = -1;
@@ -43,6 +45,52 @@ void sort_and_keep_one(std::vector<Record>& records, const Key& key = {}) {
   std::ranges::sort(records, {}, key);
   const auto same = [&](const Record& a, const Record& b) { return key(a) == key(b); };
   records.erase(std::unique(records.begin(), records.end(), same), records.end());
+}
+
+// Numbers that are contiguous by rank: a rank has those from first() to end().
+class RankRanges {
+ public:
+  // Of this many on this rank. Collective.
+  RankRanges(const Communicator& comm, std::int64_t count)
+      : rank_(static_cast<std::size_t>(comm.rank())) {
+    for (const std::int64_t n : of_all_ranks(comm, std::vector<std::int64_t>{count}))
+      first_.push_back(first_.back() + n);
+  }
+
+  std::int64_t first() const { return first_[rank_]; }
+  std::int64_t end() const { return first_[rank_ + 1]; }
+  std::int64_t count() const { return end() - first(); }
+  std::int64_t total() const { return first_.back(); }
+  bool has(std::int64_t number) const { return first() <= number && number < end(); }
+  int owner(std::int64_t number) const {
+    if (has(number)) return static_cast<int>(rank_);  // mostly
+    return static_cast<int>(std::ranges::upper_bound(first_, number) - first_.begin()) - 1;
+  }
+
+ private:
+  std::size_t rank_;
+  std::vector<std::int64_t> first_{0};
+};
+
+// Sends questions about numbers to the ranks that own them, which answer:
+// give(number, rank that asks, answers) adds the answers to `answers`, at the owner; answers that
+// one rank gets from another are sorted by key, and come once. Collective.
+template <class Answer, class Give, class Key>
+std::vector<Answer> ask_owners(const Communicator& comm, const RankRanges& ranges,
+                               const std::vector<std::int64_t>& numbers, const Give& give,
+                               const Key& key) {
+  Outbox questions;
+  for (const std::int64_t number : numbers) pack(questions.to(ranges.owner(number)), number);
+  Outbox answers;
+  for (const Message& message : comm.sparse_all_to_all(questions.messages())) {
+    std::vector<Answer> to_it;
+    for_records<std::int64_t>({message.bytes},
+                              [&](std::int64_t number) { give(number, message.rank, to_it); });
+    sort_and_keep_one(to_it, key);
+    Bytes& bytes = answers.to(message.rank);
+    for (const Answer& one : to_it) pack(bytes, one);
+  }
+  return deliver<Answer>(comm, answers);
 }
 
 }  // namespace pnpbs

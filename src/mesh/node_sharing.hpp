@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/rank_ranges.hpp"
+#include "mesh/mesh_records.hpp"
 
 namespace pnpbs {
 

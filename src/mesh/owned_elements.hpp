@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mesh/mesh_records.hpp"
-#include "mesh/rank_ranges.hpp"
 #include "results/results.hpp"
 
 namespace pnpbs {

@@ -35,4 +35,16 @@ std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner, std::vecto
 double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::int64_t>& work,
                  int ranks);
 
+// The graph that the partition cuts: the cells that have work, linked where they touch. Compressed
+// rows. METIS dislikes weights of 0 and empty graphs.
+struct CellGraph {
+  std::vector<std::int32_t> cell;  // of each vertex
+  std::vector<std::int32_t> offset{0}, neighbour, weight, cut_weight;
+};
+
+// In the plane, cells that touch in a corner are linked as well, by the least weight. In a volume,
+// where 20 of 26 neighbours would be of that kind, only cells with a common face are.
+template <int Dim>
+CellGraph cell_graph(const PartitionCells<Dim>& cells);
+
 }  // namespace pnpbs

@@ -1,23 +1,228 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A body cut open, or surfaces alone: faces painted from the farthest to the nearest.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
+#include <string>
 #include <tuple>
+#include <vector>
 
-#include "picture/body_view.hpp"
+#include "base/space_vectors.hpp"
+#include "picture/body.hpp"
 #include "picture/cairo_surface.hpp"
-#include "picture/colour_bar.hpp"
-#include "picture/face_edge.hpp"
+#include "picture/cut_plane.hpp"
+#include "picture/element_colour.hpp"
 #include "picture/legend.hpp"
 #include "picture/lettering.hpp"
+#include "picture/palette.hpp"
 #include "picture/picture.hpp"
-#include "picture/tetrahedron_values.hpp"
-#include "picture/visible_faces.hpp"
+#include "quality/volume/tetrahedron_quality.hpp"
 
 namespace pnpbs::picture {
 namespace {
+
+class TetrahedronValues {
+ public:
+  // body must outlive this; by: not none.
+  TetrahedronValues(const Body& body, ElementColour by);
+
+  double at(std::size_t tetrahedron) const;
+  const ColourScale& scale() const { return scale_.colours; }
+  std::string title() const;  // what the numbers are, and from where to where they go in the body
+
+ private:
+  const Body& body_;
+  ElementColour by_;
+  ValueScale scale_;
+};
+
+using Spacing = std::array<double, 4>;
+
+double edge_over_spacing(const TetrahedronCorners& corners, const Spacing& d) {
+  double sum = 0;
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      sum += distance<3>(corners[a], corners[b]) / (0.5 * (d[a] + d[b]));
+  return sum / 6;
+}
+
+TetrahedronValues::TetrahedronValues(const Body& body, ElementColour by) : body_(body), by_(by) {
+  scale_ = scale_for(by, {body.tetrahedra.size(), [this](std::size_t t) { return at(t); }});
+}
+
+double TetrahedronValues::at(std::size_t tetrahedron) const {
+  const TetrahedronCorners corners = body_.corners(tetrahedron);
+  Spacing d;
+  for (std::size_t k = 0; k < 4; ++k)
+    d[k] = body_.spacing[static_cast<std::size_t>(body_.tetrahedra[tetrahedron][k])];
+  switch (by_) {
+    case ElementColour::quality:
+      return std::clamp(tetrahedron_quality(corners), 0.0, 1.0);
+    case ElementColour::edge:
+      return edge_over_spacing(corners, d);
+    case ElementColour::spacing:
+      return (d[0] + d[1] + d[2] + d[3]) / 4;
+    case ElementColour::none:
+      break;
+  }
+  return 0;
+}
+
+std::string TetrahedronValues::title() const {
+  return title_of(by_, "quality 3 r_in / R", "tetrahedra", scale_, body_.tetrahedra.size());
+}
+
+struct VisibleFace {
+  std::array<std::int64_t, 3> corners;  // in no particular order
+  std::size_t tetrahedron;  // whose face it is: one behind the plane; 0 if there is none
+  bool cut;                 // its other side has been taken away; else the boundary
+};
+
+using Corners = std::array<std::int64_t, 3>;
+using Marks = std::vector<bool>;  // of nodes
+
+bool is_kept(const TetrahedronCorners& x, const CutPlane& plane) {
+  double sum = 0;
+  for (const Point<3>& corner : x) sum += plane.height(corner);
+  return sum <= 0;
+}
+
+// Ascending, so that a face is the same from both sides.
+Corners face_of(const std::array<std::int64_t, 4>& tetrahedron, std::size_t opposite) {
+  Corners face{tetrahedron[(opposite + 1) % 4], tetrahedron[(opposite + 2) % 4],
+               tetrahedron[(opposite + 3) % 4]};
+  std::ranges::sort(face);
+  return face;
+}
+
+bool all_marked(const Marks& marks, const Corners& face) {
+  return std::ranges::all_of(
+      face, [&](std::int64_t node) { return marks[static_cast<std::size_t>(node)]; });
+}
+
+void mark(Marks& marks, const auto& corners) {
+  for (const std::int64_t node : corners) marks[static_cast<std::size_t>(node)] = true;
+}
+
+// Sorting all faces would take far more time and memory than the few that can be seen: their
+// corners are on the boundary, or in a tetrahedron that is taken away.
+class Shell {
+ public:
+  Shell(const Body& body, const CutPlane& plane)
+      : body_(body), kept_(body.tetrahedra.size()), outside_(body.size()), inside_(body.size()) {
+    for (std::size_t t = 0; t < kept_.size(); ++t) {
+      kept_[t] = is_kept(body.corners(t), plane);
+      mark(kept_[t] ? inside_ : outside_, body.tetrahedra[t]);
+    }
+    Marks beside = outside_;
+    for (const Corners& triangle : body.boundary) mark(beside, triangle);
+    for (std::size_t t = 0; t < kept_.size(); ++t)
+      if (kept_[t]) for_faces(t, beside, [&](const Corners& face) { faces_.push_back({face, t}); });
+    std::ranges::sort(faces_, {}, &Face::corners);
+  }
+
+  std::vector<VisibleFace> visible() const {
+    std::vector<VisibleFace> found;
+    for (Corners triangle : body_.boundary) {
+      std::ranges::sort(triangle);
+      add_if_kept(triangle, false, found);
+    }
+    for (std::size_t t = 0; t < kept_.size(); ++t)
+      if (!kept_[t])
+        for_faces(t, inside_, [&](const Corners& face) { add_if_kept(face, true, found); });
+    return found;
+  }
+
+ private:
+  struct Face {
+    Corners corners;
+    std::size_t tetrahedron;
+  };
+
+  template <class Work>
+  void for_faces(std::size_t t, const Marks& marks, const Work& work) const {
+    for (std::size_t opposite = 0; opposite < 4; ++opposite) {
+      const Corners face = face_of(body_.tetrahedra[t], opposite);
+      if (all_marked(marks, face)) work(face);
+    }
+  }
+
+  void add_if_kept(const Corners& face, bool cut, std::vector<VisibleFace>& found) const {
+    const auto place = std::ranges::lower_bound(faces_, face, {}, &Face::corners);
+    if (place != faces_.end() && place->corners == face)
+      found.push_back({face, place->tetrahedron, cut});
+  }
+
+  const Body& body_;
+  Marks kept_;              // of tetrahedra
+  Marks outside_, inside_;  // nodes of tetrahedra that are taken away, and of those that are kept
+  std::vector<Face> faces_;
+};
+
+// The faces between the tetrahedra whose centroids lie behind the plane and all that does not: the
+// cut, and what is left of the boundary. All triangles of surfaces alone, which are not cut.
+std::vector<VisibleFace> visible_faces(const Body& body, const CutPlane& plane) {
+  if (body.surfaces_alone()) {
+    std::vector<VisibleFace> all;
+    for (const Corners& triangle : body.boundary) all.push_back({triangle, 0, false});
+    return all;
+  }
+  return Shell(body, plane).visible();
+}
+
+class BodyView {
+ public:
+  explicit BodyView(const CutPlane& plane);
+
+  Point<2> project(const Point<3>& x) const { return {dot(x, right_), dot(x, up_)}; }
+  double nearness(const Point<3>& x) const { return dot(x, toward_); }
+  bool shows(const Point<3>& normal) const { return dot(normal, toward_) > 0; }
+
+  // How bright a surface is, 0 to 1; its normal has length 1.
+  double light(const Point<3>& normal) const;
+  double light_on_plane() const { return on_plane_; }
+
+ private:
+  Point<3> right_, up_, toward_;  // toward us
+  double on_plane_ = 1;
+};
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double turned = 26 * degree;  // to the right
+constexpr double raised = 22 * degree;
+constexpr Point<3> lamp{-0.46, 0.56, 0.69};  // right, up, toward us
+constexpr double flat_lying = 0.8;           // z of a plane that is rather a floor than a wall
+
+// Of length 1; that of 0 is 0.
+Point<3> unit_vector(const Point<3>& v) {
+  const double length = std::sqrt(dot(v, v));
+  return length > 0 ? Point<3>{v[0] / length, v[1] / length, v[2] / length} : Point<3>{};
+}
+
+BodyView::BodyView(const CutPlane& plane) {
+  const Point<3> normal = unit_vector(plane.normal);
+  const bool floor = std::fabs(normal[2]) > flat_lying;
+  // z is up on a wall. On a floor y is, and we stand before it.
+  const Point<3> right = unit_vector(cross(floor ? Point<3>{0, 1, 0} : Point<3>{0, 0, 1}, normal));
+  const Point<3> up = cross(normal, right);
+  const double rise = floor ? -raised : raised;
+  for (std::size_t k = 0; k < 3; ++k)
+    toward_[k] = std::cos(rise) * (std::cos(turned) * normal[k] + std::sin(turned) * right[k]) +
+                 std::sin(rise) * up[k];
+  right_ = unit_vector(cross(up, toward_));
+  up_ = cross(toward_, right_);
+  on_plane_ = light(normal);
+}
+
+double BodyView::light(const Point<3>& normal) const {
+  const Point<3> seen{dot(normal, right_), dot(normal, up_), dot(normal, toward_)};
+  return 0.5 + 0.5 * dot(seen, lamp);
+}
 
 constexpr PictureSize body_picture_size{18, 1400, 2400};
 

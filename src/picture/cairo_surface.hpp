@@ -11,7 +11,7 @@
 #include <string>
 
 #include "io/sink.hpp"
-#include "picture/drawing.hpp"
+#include "picture/formats.hpp"
 #include "picture/lettering.hpp"
 
 namespace pnpbs::picture {

@@ -2,6 +2,7 @@
 // What pictures may colour triangles and tetrahedra by, and the scale that suits their values.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -40,5 +41,13 @@ ValueScale scale_for(ElementColour by, const ElementValues& values);
 // What the numbers are, and from where to where they go.
 std::string title_of(ElementColour by, const std::string& quality, const std::string& elements,
                      const ValueScale& scale, std::size_t count);
+
+struct TriangleShape {
+  std::array<double, 3> edge;     // edge k is from corner k to the next
+  std::array<double, 3> spacing;  // at the corners
+};
+
+// by: not none.
+double value_of(ElementColour by, const TriangleShape& triangle);
 
 }  // namespace pnpbs::picture

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of picture formats and one writer for each.
+// The formats that pictures can be written in.
 #pragma once
 
+#include <cairo.h>
+
+#include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "io/sink.hpp"
-#include "picture/drawing.hpp"
 
 namespace pnpbs::picture {
+
+// A picture that can be drawn on any cairo surface.
+struct Drawing {
+  double width, height;     // pixels
+  std::string description;  // in words, for those who search; may be empty
+  std::function<void(cairo_t*)> draw;
+};
 
 struct Format {
   std::string_view name;  // also the extension, without its dot
@@ -18,8 +28,5 @@ struct Format {
 };
 
 std::span<const Format> formats();
-
-void write_svg(const Drawing& drawing, io::Sink& sink);
-void write_png(const Drawing& drawing, io::Sink& sink);
 
 }  // namespace pnpbs::picture

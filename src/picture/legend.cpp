@@ -58,4 +58,80 @@ void draw_node_count(cairo_t* cairo, const PictureFrame& frame, double base, std
   draw_text(cairo, frame.width - frame.margin, base, grouped(nodes) + " nodes", 1);
 }
 
+namespace {
+
+// Heights above the base, and lengths, in font sizes.
+constexpr double bar_bottom = 1.05;
+constexpr double bar_top = 1.6;
+constexpr double title_base = 2.0;
+constexpr double tick_length = 0.18;
+constexpr double tip_length = 0.6;
+
+void draw_colours(cairo_t* cairo, const ColourScale& scale, const ColourBarPlace& place) {
+  const double top = place.base - bar_top * place.font_size;
+  const double height = (bar_top - bar_bottom) * place.font_size;
+  cairo_pattern_t* gradient =
+      cairo_pattern_create_linear(place.left, 0, place.left + place.width, 0);
+  for (int c = 0; c < colour_classes; ++c) {
+    // All of one colour if all values are one.
+    const Colour colour = scale.colour(scale.uniform() ? colour_classes / 2 : c);
+    cairo_pattern_add_color_stop_rgb(gradient, (c + 0.5) / colour_classes, colour.red, colour.green,
+                                     colour.blue);
+  }
+  cairo_rectangle(cairo, place.left, top, place.width, height);
+  cairo_set_source(cairo, gradient);
+  cairo_fill(cairo);
+  cairo_pattern_destroy(gradient);
+}
+
+// Values beyond an end have its colour: a tip there says so. direction: -1 left, 1 right.
+void draw_tip(cairo_t* cairo, double x, double direction, const Colour& colour,
+              const ColourBarPlace& place) {
+  const double top = place.base - bar_top * place.font_size;
+  const double bottom = place.base - bar_bottom * place.font_size;
+  cairo_move_to(cairo, x, top);
+  cairo_line_to(cairo, x + direction * tip_length * place.font_size, 0.5 * (top + bottom));
+  cairo_line_to(cairo, x, bottom);
+  cairo_close_path(cairo);
+  set_colour(cairo, colour);
+  cairo_fill(cairo);
+}
+
+void draw_ticks(cairo_t* cairo, const ColourScale& scale, const ColourBarPlace& place) {
+  const double bottom = place.base - bar_bottom * place.font_size;
+  for (const double tick : scale.ticks()) {
+    const double x = place.left + scale.fraction(tick) * place.width;
+    cairo_move_to(cairo, x, bottom);
+    cairo_line_to(cairo, x, bottom + tick_length * place.font_size);
+    set_colour(cairo, ink);
+    cairo_set_line_width(cairo, 0.06 * place.font_size);
+    cairo_stroke(cairo);
+    draw_text(cairo, x, place.base, short_number(tick), 0.5);
+  }
+}
+
+}  // namespace
+
+void draw_colour_bar(cairo_t* cairo, const ColourScale& scale, const std::string& title,
+                     const ColourBarPlace& place) {
+  // In narrow pictures the words are wider than the bar.
+  const double fit = std::min(1.0, place.width / text_width(cairo, title));
+  cairo_set_font_size(cairo, fit * place.font_size);
+  draw_text(cairo, place.left + 0.5 * place.width, place.base - title_base * place.font_size, title,
+            0.5);
+  draw_ticks(cairo, scale, place);
+  cairo_set_font_size(cairo, place.font_size);
+  draw_colours(cairo, scale, place);
+  if (scale.below) draw_tip(cairo, place.left, -1, scale.colour(0), place);
+  if (scale.above)
+    draw_tip(cairo, place.left + place.width, 1, scale.colour(colour_classes - 1), place);
+}
+
+std::string words_of(const ColourScale& scale, const std::string& title) {
+  std::string numbers;
+  for (const double tick : scale.ticks())
+    numbers += (numbers.empty() ? "" : ", ") + short_number(tick);
+  return title + " (" + numbers + ")";
+}
+
 }  // namespace pnpbs::picture

@@ -47,4 +47,12 @@ inline constexpr std::array edge_palette{colour(0x2166ac), colour(0x67a9cf), col
 
 inline Colour spacing_colour(double fraction) { return mixed(spacing_palette, fraction); }
 
+// Darkest where triangles are large, so that small ones do not become a dark mist. longest: of the
+// triangle's sides, in pixels.
+inline Colour edge_colour(const Colour& face, double longest) {
+  constexpr double strength = 0.72, full_edge = 14, no_edge = 2.5;
+  const Colour both[2] = {face, ink};
+  return mixed(both, strength * std::clamp((longest - no_edge) / (full_edge - no_edge), 0.0, 1.0));
+}
+
 }  // namespace pnpbs::picture

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <string>
 
-#include "picture/colour_bar.hpp"
 #include "picture/legend.hpp"
 #include "picture/lettering.hpp"
 #include "picture/palette.hpp"

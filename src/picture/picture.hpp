@@ -2,14 +2,21 @@
 // The pictures there are.
 #pragma once
 
+#include "base/types.hpp"
 #include "picture/body.hpp"
 #include "picture/cut_plane.hpp"
-#include "picture/drawing.hpp"
 #include "picture/element_colour.hpp"
+#include "picture/formats.hpp"
 #include "picture/node_set.hpp"
-#include "picture/sphere_view.hpp"
 
 namespace pnpbs::picture {
+
+// How a sphere about the origin is looked at: from far away, or all of it at once as a map.
+struct SphereView {
+  double radius = 1;
+  bool as_map = false;  // plate carrée: longitude to the right, latitude upwards
+  Point<2> from{};      // otherwise orthographic, seen from above this longitude and latitude
+};
 
 struct PictureStyle {
   bool bubbles = false;                        // draw every node's bubble, a circle of diameter d

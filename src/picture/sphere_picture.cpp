@@ -9,12 +9,11 @@
 
 #include "base/space_vectors.hpp"
 #include "picture/cairo_surface.hpp"
-#include "picture/colour_bar.hpp"
-#include "picture/face_edge.hpp"
+#include "picture/element_colour.hpp"
 #include "picture/legend.hpp"
 #include "picture/lettering.hpp"
+#include "picture/palette.hpp"
 #include "picture/picture.hpp"
-#include "picture/triangle_shape.hpp"
 #include "sphere/degrees.hpp"
 
 namespace pnpbs::picture {

@@ -11,7 +11,7 @@
 #include "checkpoint/option_changes.hpp"
 #include "comm/communicator.hpp"
 #include "estimate/node_estimate.hpp"
-#include "implicit/repair_distances.hpp"
+#include "implicit/repaired_body.hpp"
 #include "level/population_events.hpp"
 #include "results/nodal_results.hpp"
 #include "run/monitoring.hpp"

@@ -5,8 +5,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
-#include "base/lack_of_room.hpp"
 #include "checkpoint/domain_fingerprint.hpp"
 #include "checkpoint/option_changes.hpp"
 #include "level/exchange.hpp"

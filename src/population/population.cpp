@@ -9,7 +9,7 @@
 
 #include "method/constants.hpp"
 #include "neighbors/rings.hpp"
-#include "population/overlap_ratio.hpp"
+#include "population/population_thresholds.hpp"
 
 namespace pnpbs {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "method/constants.hpp"
-#include "population/overlap_ratio.hpp"
 #include "spacing/spacing_range.hpp"
 
 namespace pnpbs {

@@ -10,7 +10,6 @@
 #include "base/lattice.hpp"
 #include "quality/triangle_quality.hpp"
 #include "quality/volume/tetrahedron_quality.hpp"
-#include "spacing/spacing_bands.hpp"
 #include "spacing/spacing_range.hpp"
 
 namespace pnpbs {

@@ -5,7 +5,7 @@
 
 #include "base/index.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/volume/crease_nodes.hpp"
+#include "domain/volume/feature_nodes.hpp"
 
 namespace pnpbs {
 

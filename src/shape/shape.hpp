@@ -39,4 +39,7 @@ using Shape = std::vector<ShapePiece<Dim>>;
 Shape<2> shape_of(const PlaneDomain& domain);
 Shape<3> shape_of(const VolumeDomain& domain);
 
+// Of a checked domain. Radii of curvature and lengths of edges are those along the sphere.
+Shape<3> shape_on_sphere(const PlaneDomain& domain);
+
 }  // namespace pnpbs

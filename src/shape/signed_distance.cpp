@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/limits.hpp"
-#include "geometry/facet_tree.hpp"
+#include "geometry/facet_index.hpp"
 
 namespace pnpbs {
 

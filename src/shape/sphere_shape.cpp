@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shape/sphere_shape.hpp"
+#include "shape/shape.hpp"
 
 namespace pnpbs {
-
 namespace {
 
 ShapePiece<3> piece_on_sphere(const ShapePiece<2>& piece, const StereographicChart& chart) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/lack_of_room.hpp"
+#include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "level/finer_region.hpp"

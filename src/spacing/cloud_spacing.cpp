@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <span>
 
@@ -17,7 +18,6 @@
 #include "sphere/great_circle.hpp"
 
 namespace pnpbs {
-
 namespace {
 
 // What counts at a place, from there.
@@ -219,5 +219,25 @@ std::optional<GivenExtent<Dim>> CloudSpacing<Dim, Across>::extent() const {
 template class CloudSpacing<2>;
 template class CloudSpacing<3>;
 template class CloudSpacing<3, 2>;
+
+SphereCloudSpacing::SphereCloudSpacing(const SphereField& field, double radius)
+    : CloudSpacing<3, 2>(field), radius_(radius), middle_{}, angle_(std::numbers::pi) {
+  for (const Point<3>& x : field.points) middle_ = shifted(middle_, 1 / radius, x);
+  constexpr double kOnePlace = 1e-9;
+  double widest = 0;
+  for (const Point<3>& x : field.points) widest = std::max(widest, angle_between(middle_, x));
+  if (widest > kOnePlace)
+    angle_ = widest + 2 * widest / std::sqrt(static_cast<double>(field.points.size()));
+}
+
+std::optional<GivenExtent<3>> SphereCloudSpacing::extent() const {
+  return GivenExtent<3>{"cloud of points", "d is near that of the nearest points", {}};
+}
+
+void SphereCloudSpacing::distance_to_extent(std::int64_t n, const Point<3>* x,
+                                            double* distances) const {
+  for (std::int64_t i = 0; i < n; ++i)
+    distances[i] = radius_ * std::max(0.0, angle_between(middle_, x[i]) - angle_);
+}
 
 }  // namespace pnpbs

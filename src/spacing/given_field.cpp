@@ -16,8 +16,6 @@
 #include "spacing/beside_domain.hpp"
 #include "spacing/cloud_spacing.hpp"
 #include "spacing/mesh_spacing.hpp"
-#include "spacing/sphere_cloud_spacing.hpp"
-#include "spacing/sphere_mesh_spacing.hpp"
 #include "spacing/sphere_spacing.hpp"
 
 namespace pnpbs {

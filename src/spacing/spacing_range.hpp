@@ -2,6 +2,10 @@
 // The least and the largest d of the nodes of all ranks.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
 
@@ -28,5 +32,35 @@ template <int Dim>
 SpacingRange spacing_range(const Communicator& comm, const Nodes<Dim>& nodes) {
   return spacing_range<Dim>(comm, nodes, [&](std::int64_t i) { return nodes.d(i); });
 }
+
+// Bands of d, by which it is told how well the nodes follow it: equal in log d between the least
+// and the largest d, one where d is nearly constant.
+class SpacingBands {
+ public:
+  static constexpr int kMaxBands = 8;
+  // Where d varies by less, bands would tell of noise only.
+  static constexpr double kNearlyConstant = 1.1;
+
+  SpacingBands(double min, double max) : count_(max > kNearlyConstant * min ? kMaxBands : 1) {
+    for (int band = 0; band <= count_; ++band)
+      limits_[static_cast<std::size_t>(band)] = min * std::pow(max / min, 1.0 * band / count_);
+    limits_[static_cast<std::size_t>(count_)] = max;
+  }
+
+  int count() const { return count_; }
+  double from(int band) const { return limits_[static_cast<std::size_t>(band)]; }
+  double to(int band) const { return limits_[static_cast<std::size_t>(band) + 1]; }
+
+  // By comparisons: a logarithm would take longer than the edge whose band is asked.
+  int band_of(double d) const {
+    int band = 0;
+    for (int k = 1; k < count_; ++k) band += d >= limits_[static_cast<std::size_t>(k)];
+    return band;
+  }
+
+ private:
+  int count_;
+  std::array<double, kMaxBands + 1> limits_{};
+};
 
 }  // namespace pnpbs

@@ -2,8 +2,10 @@
 #include "surfaces/nesting.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/space_vectors.hpp"
@@ -11,9 +13,9 @@
 #include "geometry/even_odd.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "predicates/expansion.hpp"
+#include "surfaces/surface_checks.hpp"
 
 namespace pnpbs {
-
 namespace {
 
 // The triangles at an edge in the order in which one meets them going round it, counter-clockwise
@@ -209,6 +211,45 @@ std::vector<char> inside_by_parity(const Triangulation& surface, const SurfaceRe
     if (front != back) contacts.push_back({front, back, !surface.triangles[t].inner});
   }
   return inside_by_parity(index(regions.count()), contacts);
+}
+
+void give_roles(Triangulation& surface, const std::map<std::int32_t, SurfaceRole>& roles) {
+  if (roles.empty()) return;
+  std::set<std::int32_t> met;
+  for (SurfaceTriangle& triangle : surface.triangles) {
+    const auto role = roles.find(triangle.tag);
+    if (role == roles.end()) continue;
+    met.insert(triangle.tag);
+    triangle.inner = role->second == SurfaceRole::inner;
+    triangle.by_place = role->second == SurfaceRole::by_place;
+  }
+  for (const auto& [tag, role] : roles)
+    if (!met.contains(tag))
+      throw Error(ErrorKind::domain, "no triangle of the surfaces has the tag " +
+                                         std::to_string(tag) + ", which was given a role");
+}
+
+void find_roles_by_place(Triangulation& surface) {
+  if (std::ranges::none_of(surface.triangles, &SurfaceTriangle::by_place)) return;
+  const SurfaceEdges edges(surface);
+  const BoxTree<3> tree = tree_of(surface);
+  reject_crossings(surface, tree);
+  const SurfaceRegions regions(surface, edges, tree);
+  const auto count = static_cast<std::int32_t>(surface.triangles.size());
+  for (std::int32_t t = 0; t < count; ++t) {
+    SurfaceTriangle& triangle = surface.triangles[static_cast<std::size_t>(t)];
+    if (!triangle.by_place) continue;
+    const std::int32_t around = regions.outside(regions.component(t));
+    triangle.inner = (regions.front(t) == around) == (regions.back(t) == around);
+  }
+  const std::vector<char> inside = inside_by_parity(surface, regions);
+  for (std::int32_t t = 0; t < count; ++t) {
+    SurfaceTriangle& triangle = surface.triangles[static_cast<std::size_t>(t)];
+    if (triangle.by_place && triangle.inner &&
+        !inside[static_cast<std::size_t>(regions.front(t))] &&
+        !inside[static_cast<std::size_t>(regions.back(t))])
+      triangle.inner = false;
+  }
 }
 
 }  // namespace pnpbs

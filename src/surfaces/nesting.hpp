@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "surfaces/surface_edges.hpp"
+#include "surfaces/triangulation.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {
@@ -55,5 +57,16 @@ class SurfaceRegions {
 
 // Of each region, is it inside? Each boundary triangle leads from outside in or from inside out.
 std::vector<char> inside_by_parity(const Triangulation& surface, const SurfaceRegions& regions);
+
+// Gives the triangles with a tag that has a role this role. Throws Error(ErrorKind::domain) if no
+// triangle has a tag that has a role.
+void give_roles(Triangulation& surface, const std::map<std::int32_t, SurfaceRole>& roles);
+
+// A triangle whose role goes by its place bounds the body if what surrounds the surface that it
+// belongs to is on one side of it: then closed surfaces within each other bound cavities, and
+// sheets and what divides a body are inner. An open surface that nothing encloses stays a boundary,
+// for the check of that to tell where it is open. Throws Error(ErrorKind::domain) if triangles
+// cross.
+void find_roles_by_place(Triangulation& surface);
 
 }  // namespace pnpbs

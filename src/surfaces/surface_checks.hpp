@@ -7,6 +7,8 @@
 
 #include "base/warning.hpp"
 #include "surfaces/surface_edges.hpp"
+#include "surfaces/triangulation.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
@@ -18,5 +20,14 @@ void require_closed_boundary(const Triangulation& surface, const SurfaceEdges& e
 // by edges.
 void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges& edges,
                                std::vector<Warning>& warnings);
+
+// Surfaces meet in common vertices and edges only.
+
+// The boxes of all triangles.
+BoxTree<3> tree_of(const Triangulation& surface);
+
+// Throws Error(ErrorKind::domain) naming the first two triangles that meet elsewhere, the place,
+// and how many such pairs there are. In n log n time as long as triangles have few neighbours.
+void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree);
 
 }  // namespace pnpbs

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/error.hpp"
+
 namespace pnpbs {
 
 SurfaceEdges::SurfaceEdges(const Triangulation& surface) {
@@ -34,6 +36,94 @@ SurfaceEdges::SurfaceEdges(const Triangulation& surface) {
     if (!surface.triangles[side.triangle].inner) first_inner_.back() = sides_.size();
   }
   first_.push_back(sides_.size());
+}
+
+namespace {
+
+// Across each edge of each triangle the one that is there, if it is only one, and whether the two
+// turn the same way.
+struct Neighbour {
+  std::int32_t triangle = -1;
+  bool agrees = false;
+};
+using Neighbours = std::vector<std::array<Neighbour, 3>>;
+
+Neighbours find_neighbours(const Triangulation& surface, const SurfaceEdges& edges) {
+  Neighbours neighbours(surface.triangles.size());
+  const auto join = [&](std::span<const EdgeSide> sides) {
+    if (sides.size() != 2) return;
+    const bool agrees = sides[0].forward != sides[1].forward;
+    neighbours[sides[0].triangle][sides[0].k] = {sides[1].triangle, agrees};
+    neighbours[sides[1].triangle][sides[1].k] = {sides[0].triangle, agrees};
+  };
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    join(edges.boundary_sides(e));
+    join(edges.inner_sides(e));
+  }
+  return neighbours;
+}
+
+[[noreturn]] void reject_one_sided(const Triangulation& surface, std::int32_t t, std::int32_t k,
+                                   std::int32_t other) {
+  throw BrokenSurface("the surface has but one side, as a Moebius strip has: going round on it, " +
+                      surface.triangle_name(t) + " and " + surface.triangle_name(other) +
+                      " are found turned against each other at " +
+                      surface.vertex_name(surface.triangles[t].vertices[k]));
+}
+
+// The triangles connected with the first one, and whether each must be turned to agree with it.
+std::vector<std::int32_t> connected_with(std::int32_t first, const Triangulation& surface,
+                                         const Neighbours& neighbours, OneSided one_sided,
+                                         std::vector<signed char>& turned) {
+  std::vector<std::int32_t> reached{first};
+  turned[first] = 0;
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    const std::int32_t t = reached[next];
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const Neighbour& neighbour = neighbours[t][k];
+      if (neighbour.triangle < 0) continue;
+      const auto wanted = static_cast<signed char>(neighbour.agrees ? turned[t] : 1 - turned[t]);
+      signed char& there = turned[neighbour.triangle];
+      if (there < 0) {
+        there = wanted;
+        reached.push_back(neighbour.triangle);
+      } else if (there != wanted && one_sided == OneSided::rejected) {
+        reject_one_sided(surface, t, k, neighbour.triangle);
+      }
+    }
+  }
+  return reached;
+}
+
+}  // namespace
+
+void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_sided,
+                     std::vector<Warning>& warnings) {
+  const Neighbours neighbours = find_neighbours(surface, edges);
+  const auto count = static_cast<std::int32_t>(surface.triangles.size());
+  std::vector<signed char> turned(count, -1);  // not known yet
+  for (std::int32_t first = 0; first < count; ++first) {
+    if (turned[first] >= 0) continue;
+    const std::vector<std::int32_t> connected =
+        connected_with(first, surface, neighbours, one_sided, turned);
+    std::size_t turns = 0;
+    for (const std::int32_t t : connected) turns += turned[t] == 1 ? 1 : 0;
+    if (2 * turns <= connected.size()) continue;
+    for (const std::int32_t t : connected) turned[t] = static_cast<signed char>(1 - turned[t]);
+  }
+  std::int64_t turns = 0;
+  std::string name;
+  for (std::int32_t t = 0; t < count; ++t) {
+    if (turned[t] == 0) continue;
+    if (turns++ == 0) name = surface.triangle_name(t);
+    surface.triangles[t].turn_around();
+  }
+  if (turns == 0) return;
+  edges = SurfaceEdges(surface);
+  warnings.emplace_back(WarningCode::triangles_turned,
+                        std::to_string(turns) + (turns == 1 ? " triangle was" : " triangles were") +
+                            " turned around to agree with the neighbours; the first is " + name,
+                        turns);
 }
 
 }  // namespace pnpbs

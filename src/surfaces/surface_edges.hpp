@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "base/warning.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
@@ -42,5 +44,13 @@ class SurfaceEdges {
   std::vector<std::size_t> first_, first_inner_;
   std::vector<EdgeSide> sides_;
 };
+
+enum class OneSided { rejected, ignored };
+
+// Turns triangles so that they agree with their neighbours, the fewer ones of each connected
+// surface, and warns if there are any. `edges` are changed accordingly. Where a surface has but one
+// side, it throws Error(ErrorKind::domain), or some neighbours do not agree.
+void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_sided,
+                     std::vector<Warning>& warnings);
 
 }  // namespace pnpbs

@@ -6,7 +6,7 @@
 
 #include "base/space_vectors.hpp"
 #include "geometry/volume/triangle_contacts.hpp"
-#include "surfaces/self_intersections.hpp"
+#include "surfaces/surface_checks.hpp"
 
 namespace pnpbs {
 

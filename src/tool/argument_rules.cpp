@@ -7,7 +7,7 @@
 #include "tool/cut.hpp"
 #include "tool/exit.hpp"
 #include "tool/file_format.hpp"
-#include "tool/spacing_file.hpp"
+#include "tool/spacing.hpp"
 
 namespace pnpbs::tool {
 

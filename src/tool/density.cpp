@@ -6,7 +6,6 @@
 
 #include "base/exact_sum.hpp"
 #include "tool/numbers.hpp"
-#include "tool/place_text.hpp"
 
 namespace pnpbs::tool {
 namespace {

@@ -3,17 +3,113 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <utility>
 
 #include "base/extension.hpp"
 #include "tool/exit.hpp"
 #include "tool/names.hpp"
+#include "tool/numbers.hpp"
 
 namespace pnpbs::tool {
+namespace {
+
+struct Shape {
+  const char* name;
+  std::size_t numbers;
+  const char* usage;
+};
+
+constexpr std::array shapes{
+    Shape{"box", 6, "box(x0,y0,z0, x1,y1,z1), two opposite corners"},
+    Shape{"ball", 4, "ball(x,y,z, r), centre and radius"},
+    Shape{"cylinder", 7, "cylinder(x0,y0,z0, x1,y1,z1, r), the ends of its axis and the radius"}};
+
+const Shape& shape_called(const std::string& name) {
+  std::vector<std::string> names{"levelset"};
+  for (const Shape& shape : shapes) {
+    if (shape.name == name) return shape;
+    names.emplace_back(shape.name);
+  }
+  throw BadInput("--domain: there is no file and no body '" + name + "'" +
+                 did_you_mean(name, names) + " (known: box, ball, cylinder, levelset)");
+}
+
+}  // namespace
+
+std::optional<Primitive> primitive_in(const std::string& text) {
+  const std::size_t open = text.find('(');
+  if (open == 0 || open == std::string::npos || !text.ends_with(')')) return std::nullopt;
+  if (text.find('/') != std::string::npos) return std::nullopt;
+  std::error_code error;
+  if (std::filesystem::exists(text, error)) return std::nullopt;
+  Primitive primitive{text.substr(0, open), {}};
+  const Shape& shape = shape_called(primitive.shape);
+  const auto numbers = numbers_between_commas(text.substr(open + 1, text.size() - open - 2));
+  if (!numbers || numbers->size() != shape.numbers)
+    throw BadInput("--domain: '" + text + "' is not " + shape.usage);
+  primitive.numbers = *numbers;
+  return primitive;
+}
+
+void add(const Primitive& primitive, pnpbs_domain domain, pnpbs_context context) {
+  constexpr std::int32_t tag = 1;
+  const double* x = primitive.numbers.data();
+  if (primitive.shape == "box") check(pnpbs_domain_add_box(domain, x, x + 3, tag), context);
+  if (primitive.shape == "ball") check(pnpbs_domain_add_ball(domain, x, x[3], tag), context);
+  if (primitive.shape == "cylinder")
+    check(pnpbs_domain_add_cylinder(domain, x, x + 3, x[6], tag), context);
+}
+
+namespace {
+
+constexpr std::size_t numbers_before_formula = 7;
+
+// Behind so many commas; npos if there are fewer.
+std::size_t behind_commas(const std::string& text, std::size_t commas) {
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < commas; ++k) {
+    const std::size_t comma = text.find(',', at);
+    if (comma == std::string::npos) return comma;
+    at = comma + 1;
+  }
+  return at;
+}
+
+}  // namespace
+
+std::unique_ptr<LevelSet> LevelSet::in(const std::string& text) {
+  const std::string name = "levelset(";
+  std::error_code error;
+  if (!text.starts_with(name) || std::filesystem::exists(text, error)) return nullptr;
+  const bool whole = text.ends_with(')');
+  const std::string inner = text.substr(name.size(), text.size() - name.size() - (whole ? 1 : 0));
+  const std::size_t formula = behind_commas(inner, numbers_before_formula);
+  const auto numbers =
+      numbers_between_commas(formula == std::string::npos ? inner : inner.substr(0, formula - 1));
+  if (!whole || formula == std::string::npos || !numbers)
+    throw BadInput(
+        "--domain: '" + text +
+        "' is not levelset(x0,y0,z0, x1,y1,z1, h, f), two opposite corners of a box, the "
+        "resolution, and a formula in x, y and z that is negative inside the body");
+  return std::unique_ptr<LevelSet>(new LevelSet(*numbers, inner.substr(formula)));
+}
+
+LevelSet::LevelSet(std::vector<double> numbers, const std::string& formula)
+    : numbers_(std::move(numbers)), f_(formula, 3, "--domain") {}
+
+void LevelSet::add_to(pnpbs_domain domain, pnpbs_context context) const {
+  constexpr std::int32_t tag = 1;
+  const double* x = numbers_.data();
+  check(pnpbs_domain_add_level_set(domain, call_expression, f_.as_user(), x, x + 3, x[6], tag),
+        context);
+}
+
 namespace {
 
 constexpr std::size_t max_bytes = std::size_t{1} << 30;  // an endless stream is an error

@@ -10,13 +10,39 @@
 #include <vector>
 
 #include "tool/arguments.hpp"
+#include "tool/expression.hpp"
 #include "tool/geo_file.hpp"
-#include "tool/level_set.hpp"
 #include "tool/library.hpp"
-#include "tool/primitive.hpp"
 #include "tool/ranks.hpp"
 
 namespace pnpbs::tool {
+
+// Simple bodies in words: "ball(0,0,0, 1)".
+struct Primitive {
+  std::string shape;
+  std::vector<double> numbers;
+};
+
+// Nothing if the text names a file. Throws BadInput if it is no body that we know.
+std::optional<Primitive> primitive_in(const std::string& text);
+
+void add(const Primitive& primitive, pnpbs_domain domain, pnpbs_context context);
+
+// A body as the command is given it by a formula: "levelset(-2,-2,-2, 2,2,2, 0.1, x^2+y^2+z^2-1)".
+class LevelSet {
+ public:
+  // Nothing if the text does not begin as one, or names a file. Throws BadInput.
+  static std::unique_ptr<LevelSet> in(const std::string& text);
+
+  // This object must outlive the domain, and placements in it.
+  void add_to(pnpbs_domain domain, pnpbs_context context) const;
+
+ private:
+  LevelSet(std::vector<double> numbers, const std::string& formula);
+
+  std::vector<double> numbers_;  // two corners of the box, and the resolution
+  Expression f_;
+};
 
 class DomainSource {
  public:

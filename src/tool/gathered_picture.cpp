@@ -1,11 +1,130 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/gathered_picture.hpp"
 
+#include <algorithm>
+#include <array>
+
+#include "picture/body.hpp"
+#include "picture/node_set.hpp"
 #include "tool/cut.hpp"
-#include "tool/gathered_nodes.hpp"
+#include "tool/library.hpp"
+#include "tool/own_elements.hpp"
+#include "tool/ranks.hpp"
 
 namespace pnpbs::tool {
 namespace {
+
+template <int Dim>
+struct Node {
+  std::int64_t id;
+  Point<Dim> position;
+  double spacing;
+  std::int64_t tag;
+};
+
+template <int Dim>
+std::vector<Node<Dim>> own_nodes(pnpbs_placement placement, pnpbs_context context) {
+  std::int64_t count = 0;
+  check(pnpbs_placement_count(placement, &count), context);
+  const auto size = static_cast<std::size_t>(count);
+  std::vector<Point<Dim>> positions(size);
+  std::vector<double> spacing(size);
+  std::vector<std::int64_t> ids(size);
+  std::vector<std::int32_t> tags(size);
+  check(
+      pnpbs_placement_get_nodes(placement, count, positions.empty() ? nullptr : positions[0].data(),
+                                ids.data(), tags.data(), spacing.data()),
+      context);
+  std::vector<Node<Dim>> nodes(size);
+  for (std::size_t i = 0; i < size; ++i) nodes[i] = {ids[i], positions[i], spacing[i], tags[i]};
+  return nodes;
+}
+
+// All ranks' nodes in the order of their ids, whoever had them. `own` are this rank's.
+template <int Dim>
+std::vector<Node<Dim>> all_nodes(std::vector<Node<Dim>> own, const Ranks& ranks) {
+  std::vector<Node<Dim>> nodes = ranks.gather(std::move(own));
+  std::ranges::sort(nodes, {}, &Node<Dim>::id);
+  return nodes;
+}
+
+// Puts ids for the local indices of corners.
+template <int Dim, std::size_t Size>
+void name_corners(std::vector<Corners<Size>>& elements, const std::vector<Node<Dim>>& nodes,
+                  const std::vector<std::int64_t>& ghosts) {
+  for (Corners<Size>& corners : elements)
+    for (std::int64_t& corner : corners) {
+      const auto i = static_cast<std::size_t>(corner);
+      corner = i < nodes.size() ? nodes[i].id : ghosts[i - nodes.size()];
+    }
+}
+
+// All ranks' elements, in the order of the ids of their corners, by the places of these ids.
+template <std::size_t Size>
+std::vector<Corners<Size>> all_elements(std::vector<Corners<Size>> own,
+                                        const std::vector<std::int64_t>& ids, const Ranks& ranks) {
+  std::vector<Corners<Size>> elements = ranks.gather(std::move(own));
+  std::ranges::sort(elements);
+  for (Corners<Size>& corners : elements)
+    for (std::int64_t& corner : corners)
+      corner = std::ranges::lower_bound(ids, corner) - ids.begin();
+  return elements;
+}
+
+void take(const std::vector<Node<2>>& nodes, picture::NodeSet& set) {
+  set.xy.reserve(2 * nodes.size());
+  set.ids.reserve(nodes.size());
+  set.tags.reserve(nodes.size());
+  set.spacing.reserve(nodes.size());
+  for (const Node<2>& node : nodes) {
+    set.xy.insert(set.xy.end(), node.position.begin(), node.position.end());
+    set.ids.push_back(node.id);
+    set.tags.push_back(static_cast<std::int32_t>(node.tag));
+    set.spacing.push_back(node.spacing);
+  }
+}
+
+// Returns their ids.
+std::vector<std::int64_t> take(const std::vector<Node<3>>& nodes, picture::Body& body) {
+  std::vector<std::int64_t> ids;
+  ids.reserve(nodes.size());
+  body.positions.reserve(nodes.size());
+  body.spacing.reserve(nodes.size());
+  for (const Node<3>& node : nodes) {
+    ids.push_back(node.id);
+    body.positions.push_back(node.position);
+    body.spacing.push_back(node.spacing);
+  }
+  return ids;
+}
+
+// Nodes by id, elements by the ids of their corners. Empty on the other ranks. Collective.
+picture::NodeSet gathered_nodes(pnpbs_placement placement, pnpbs_context context,
+                                const Ranks& ranks) {
+  std::vector<Node<2>> own;
+  ranks.agreed([&] { own = own_nodes<2>(placement, context); });
+  std::vector<Corners<3>> triangles = own_triangles(placement, context);
+  name_corners(triangles, own, ghost_ids(placement, context));
+  picture::NodeSet set;
+  take(all_nodes(std::move(own), ranks), set);
+  set.triangles = all_elements(std::move(triangles), set.ids, ranks);
+  return set;
+}
+
+picture::Body gathered_body(pnpbs_placement placement, pnpbs_context context, const Ranks& ranks) {
+  std::vector<Node<3>> own;
+  ranks.agreed([&] { own = own_nodes<3>(placement, context); });
+  const std::vector<std::int64_t> ghosts = ghost_ids(placement, context);
+  std::vector<Corners<4>> tetrahedra = own_tetrahedra(placement, context);
+  std::vector<Corners<3>> boundary = own_boundary(placement, context);
+  name_corners(tetrahedra, own, ghosts);
+  name_corners(boundary, own, ghosts);
+  picture::Body body;
+  const std::vector<std::int64_t> ids = take(all_nodes(std::move(own), ranks), body);
+  body.tetrahedra = all_elements(std::move(tetrahedra), ids, ranks);
+  body.boundary = all_elements(std::move(boundary), ids, ranks);
+  return body;
+}
 
 std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
   std::int64_t count = 0;

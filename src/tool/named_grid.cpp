@@ -4,20 +4,272 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
+#include <charconv>
 #include <cmath>
+#include <cstring>
+#include <deque>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/extension.hpp"
+#include "base/small_letters.hpp"
 #include "spacing/beside_domain.hpp"
 #include "sphere/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/library.hpp"
 
 namespace pnpbs::tool {
+namespace {
+
+constexpr double max_points = 1e9;
+
+// Words of a text file and the line each is on.
+class Words {
+ public:
+  explicit Words(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    if (!file_) throw BadInput("cannot read '" + path + "': " + std::strerror(errno));
+    std::error_code error;  // a folder opens as a file does
+    if (std::filesystem::is_directory(path, error))
+      throw BadInput("cannot read '" + path + "': it is a folder");
+  }
+
+  bool next(std::string& word) {
+    word.clear();
+    for (int c = file_.get(); c != std::char_traits<char>::eof(); c = file_.get()) {
+      if (std::isspace(c)) {
+        if (!word.empty()) {
+          file_.unget();
+          return true;
+        }
+        line_ += c == '\n';
+      } else {
+        if (word.size() >= 64) fail("a number", word + "...");
+        word.push_back(static_cast<char>(c));
+      }
+    }
+    return !word.empty();
+  }
+
+  double number(const std::string& word, const char* expected) const {
+    double value = 0;
+    const char* end = word.data() + word.size();
+    const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
+    const auto result = std::from_chars(begin, end, value);
+    if (result.ec != std::errc() || result.ptr != end) fail(expected, "'" + word + "'");
+    return value;
+  }
+
+  [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
+    throw BadInput(path_ + ":" + std::to_string(line_) + ": expected " + expected + ", found " +
+                   found);
+  }
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  std::int64_t line_ = 1;
+};
+
+bool begins_with_letter(const std::string& word) {
+  return std::isalpha(static_cast<unsigned char>(word[0])) != 0;
+}
+
+using Header = std::map<std::string, double>;
+
+// Reads name and value pairs; leaves the first word of the values in `word`.
+Header read_header(Words& words, std::string& word) {
+  constexpr std::array<std::string_view, 14> known{
+      "ncols",     "nrows",     "nlayers",  "xllcorner", "yllcorner", "zllcorner", "xllcenter",
+      "yllcenter", "zllcenter", "cellsize", "dx",        "dy",        "dz",        "nodata_value"};
+  Header header;
+  while (words.next(word) && begins_with_letter(word)) {
+    const std::string name = in_small_letters(word);
+    if (name == "nan" || name == "inf") break;
+    if (std::ranges::find(known, name) == known.end()) {
+      words.fail(
+          "ncols, nrows, nlayers, xllcorner or xllcenter (y, z as well), cellsize or dx and dy "
+          "(and "
+          "dz), nodata_value",
+          "'" + word + "'");
+    }
+    std::string value;
+    if (!words.next(value)) words.fail("a value of " + word, "the end of the file");
+    header[name] = words.number(value, "a number");
+  }
+  return header;
+}
+
+double value_of(const Header& header, const Words& words, const std::string& name) {
+  const auto found = header.find(name);
+  if (found == header.end()) words.fail(name + " in the header", "none");
+  return found->second;
+}
+
+std::int64_t count_of(const Header& header, const Words& words, const std::string& name) {
+  const double value = value_of(header, words, name);
+  if (!(value >= 1 && value <= max_points && value == std::floor(value))) {
+    words.fail(name + " to be a whole number from 1 to 1e9", std::to_string(value));
+  }
+  return static_cast<std::int64_t>(value);
+}
+
+double origin_of(const Header& header, const Words& words, char axis, double step) {
+  const std::string letter(1, axis);
+  const auto centre = header.find(letter + "llcenter");
+  if (centre != header.end()) return centre->second;
+  return value_of(header, words, letter + "llcorner") + 0.5 * step;
+}
+
+// The names of the steps, for messages.
+std::string steps_called(int dimension) { return dimension == 3 ? "dx, dy and dz" : "dx and dy"; }
+
+// One size for all directions, or, as GDAL writes cells that are no squares, one for each.
+void read_steps(const Header& header, const Words& words, int dimension, Grid& grid) {
+  const bool squares = header.contains("cellsize");
+  const bool each = header.contains("dx") || header.contains("dy") || header.contains("dz");
+  if (squares && each) words.fail("cellsize, or " + steps_called(dimension), "both in the header");
+  if (!squares && !each)
+    words.fail("cellsize, or " + steps_called(dimension) + ", in the header", "none");
+  for (int k = 0; k < dimension; ++k) {
+    const std::string name = squares ? "cellsize" : std::string("d") + "xyz"[k];
+    grid.step[k] = value_of(header, words, name);
+    if (!(grid.step[k] > 0 && std::isfinite(grid.step[k])))
+      words.fail(name + " to be positive", std::to_string(grid.step[k]));
+  }
+}
+
+// Three dimensions if there are layers, else two.
+void read_shape(const Header& header, const Words& words, Grid& grid) {
+  constexpr const char* counts[] = {"ncols", "nrows", "nlayers"};
+  const int dimension = header.contains("nlayers") ? 3 : 2;
+  double points = 1;
+  for (int k = 0; k < dimension; ++k) {
+    grid.size[k] = count_of(header, words, counts[k]);
+    points *= static_cast<double>(grid.size[k]);
+  }
+  if (points > max_points) words.fail("at most 1e9 grid points", "more");
+  read_steps(header, words, dimension, grid);
+  for (int k = 0; k < dimension; ++k)
+    grid.origin[k] = origin_of(header, words, "xyz"[k], grid.step[k]);
+}
+
+// Grows with what the file really holds: a header may promise anything.
+std::vector<double> read_values(Words& words, std::string word, std::int64_t count) {
+  std::vector<double> values;
+  for (bool more = !word.empty(); more; more = words.next(word)) {
+    if (static_cast<std::int64_t>(values.size()) == count) words.fail("no more values", word);
+    values.push_back(words.number(word, "a spacing"));
+  }
+  if (static_cast<std::int64_t>(values.size()) < count) {
+    words.fail(std::to_string(count) + " values", "only " + std::to_string(values.size()));
+  }
+  return values;
+}
+
+// The northern row of every layer comes first in the file, and last in the grid.
+void turn_layers_upside_down(Grid& grid) {
+  const std::int64_t columns = grid.size[0], rows = grid.size[1];
+  for (auto layer = grid.values.begin(); layer != grid.values.end(); layer += columns * rows)
+    for (std::int64_t row = 0; row < rows / 2; ++row)
+      std::swap_ranges(layer + row * columns, layer + (row + 1) * columns,
+                       layer + (rows - 1 - row) * columns);
+}
+
+// Spreads values from the cells that have one, step by step.
+void fill_gaps(Grid& grid, double no_data, const Words& words) {
+  std::deque<std::int64_t> front;
+  std::vector<bool> known(grid.values.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    known[i] = grid.values[i] != no_data && !(std::isnan(no_data) && std::isnan(grid.values[i]));
+    if (known[i]) front.push_back(static_cast<std::int64_t>(i));
+  }
+  if (front.empty()) words.fail("data", "no cell that has any");
+  if (front.size() == known.size()) return;
+  grid.has_data = known;
+  for (; !front.empty(); front.pop_front()) {
+    const std::int64_t layer_size = grid.size[0] * grid.size[1];
+    const std::int64_t column = front[0] % grid.size[0];
+    const std::int64_t row = front[0] % layer_size / grid.size[0], layer = front[0] / layer_size;
+    const auto visit = [&](bool exists, std::int64_t offset) {
+      const auto to = static_cast<std::size_t>(front[0] + offset);
+      if (!exists || known[to]) return;
+      known[to] = true;
+      grid.values[to] = grid.values[static_cast<std::size_t>(front[0])];
+      front.push_back(front[0] + offset);
+    };
+    visit(column > 0, -1);
+    visit(column + 1 < grid.size[0], 1);
+    visit(row > 0, -grid.size[0]);
+    visit(row + 1 < grid.size[1], grid.size[0]);
+    visit(layer > 0, -layer_size);
+    visit(layer + 1 < grid.size[2], layer_size);
+  }
+}
+
+// The grid points around a place, and its part of the way from one to the next.
+struct Around {
+  std::array<std::int64_t, 3> cell{}, next{};
+  std::array<double, 3> fraction{};
+  Around(const Grid& grid, const double* place, int dimension) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+      const double last = static_cast<double>(grid.size[k] - 1);
+      const double at = std::clamp((place[k] - grid.origin[k]) / grid.step[k], 0.0, last);
+      cell[k] = static_cast<std::int64_t>(at);
+      next[k] = std::min(cell[k] + 1, grid.size[k] - 1);
+      fraction[k] = at - static_cast<double>(cell[k]);
+    }
+  }
+};
+
+}  // namespace
+
+Grid read_grid(const std::string& path, int dimension) {
+  Words words(path);
+  std::string word;
+  const Header header = read_header(words, word);
+  if (dimension == 2 && header.contains("nlayers"))
+    throw BadInput(path +
+                   ": a grid with layers (nlayers) is for bodies; this domain is in the plane");
+  Grid grid;
+  read_shape(header, words, grid);
+  grid.values = read_values(words, word, grid.size[0] * grid.size[1] * grid.size[2]);
+  turn_layers_upside_down(grid);
+  const auto no_data = header.find("nodata_value");
+  fill_gaps(grid, no_data == header.end() ? -9999.0 : no_data->second, words);
+  return grid;
+}
+
+double value_at(const Grid& grid, const double* place, int dimension) {
+  const Around at(grid, place, dimension);
+  const auto in_row = [&](std::int64_t j, std::int64_t layer) {
+    const double* row = grid.values.data() + grid.size[0] * (j + grid.size[1] * layer);
+    return std::lerp(row[at.cell[0]], row[at.next[0]], at.fraction[0]);
+  };
+  const auto in_layer = [&](std::int64_t layer) {
+    return std::lerp(in_row(at.cell[1], layer), in_row(at.next[1], layer), at.fraction[1]);
+  };
+  const double low = in_layer(at.cell[2]);
+  return at.fraction[2] == 0 ? low : std::lerp(low, in_layer(at.next[2]), at.fraction[2]);
+}
+
+bool has_data_around(const Grid& grid, const double* place, int dimension) {
+  if (grid.has_data.empty()) return true;
+  const Around around(grid, place, dimension);
+  for (const std::int64_t layer : {around.cell[2], around.next[2]})
+    for (const std::int64_t row : {around.cell[1], around.next[1]})
+      for (const std::int64_t column : {around.cell[0], around.next[0]})
+        if (grid.has_data[static_cast<std::size_t>(column +
+                                                   grid.size[0] * (row + grid.size[1] * layer))])
+          return true;
+  return false;
+}
+
 namespace {
 
 constexpr std::array<std::string_view, 13> gdal_endings{

@@ -2,14 +2,148 @@
 #include "tool/named_grids.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
 
+#include "base/types.hpp"
 #include "spacing/beside_domain.hpp"
+#include "sphere/slopes.hpp"
+#include "tool/density.hpp"
 #include "tool/formula_text.hpp"
-#include "tool/grid_coverage.hpp"
-#include "tool/grid_slope.hpp"
+#include "tool/library.hpp"
+#include "tool/named_grid.hpp"
+#include "tool/numbers.hpp"
+#include "tool/ranks.hpp"
 
 namespace pnpbs::tool {
 namespace {
+
+// How steep the values on a grid are: NAME_slope in formulas.
+std::string slope_name(const std::string& grid) { return grid + "_slope"; }
+
+// The change of the values per length, along x and y, or along a sphere; in space along z, too.
+// Between the middles of cells it is that of the values there, which are linear in each direction.
+void evaluate_slope(const NamedGrid& grid, int dimension, bool on_sphere, std::int64_t n,
+                    const double* coordinates, double* slopes) {
+  const auto values = [&](std::int64_t count, const double* places, double* there) {
+    grid.evaluate(count, places, there, nullptr);
+  };
+  slopes_of(values, dimension, on_sphere, longest_finite_side(grid.extent()), n, coordinates,
+            slopes);
+}
+
+// At how many nodes a grid in a formula, or one that is d, has values of its own.
+class GridCoverage {
+ public:
+  // Of the nodes there are, whose places are in degrees in messages if they are on a sphere. Counts
+  // on the first rank alone. Collective. Throws Failure.
+  GridCoverage(const NamedGrid& grid, pnpbs_placement placement, int dimension, bool on_sphere,
+               pnpbs_context context, const Ranks& ranks);
+
+  bool is_nowhere() const { return nodes_ > 0 && beyond_.count + without_data_.count == nodes_; }
+  std::string words_for_nowhere() const;
+  // How many lie beyond the grid's edge, and how many where it has no data; "" if none do.
+  std::string words_for_beyond() const;
+  std::string words_for_without_data() const;
+
+ private:
+  struct Nodes {
+    std::int64_t count;
+    Point<3> first;  // the least of their places
+  };
+  void count(Nodes& nodes, const Point<3>& place) const;
+  void add_up(const Ranks& ranks);
+  std::string grid_in_words() const;
+  std::string text_of(const Nodes& nodes, const std::string& what) const;
+
+  std::string name_, path_;
+  int dimension_;
+  bool on_sphere_;
+  std::int64_t nodes_ = 0;
+  Nodes beyond_, without_data_;
+};
+
+constexpr double none_yet = std::numeric_limits<double>::infinity();
+
+GridCoverage::GridCoverage(const NamedGrid& grid, pnpbs_placement placement, int dimension,
+                           bool on_sphere, pnpbs_context context, const Ranks& ranks)
+    : name_(grid.name()),
+      path_(grid.path()),
+      dimension_(dimension),
+      on_sphere_(on_sphere),
+      beyond_{0, {none_yet, none_yet, none_yet}},
+      without_data_(beyond_) {
+  ranks.agreed([&] {
+    const std::vector<double> x = coordinates_of(placement, dimension, context);
+    nodes_ = std::ssize(x) / dimension;
+    std::vector<double> values(static_cast<std::size_t>(nodes_));
+    std::vector<std::int32_t> inside(values.size());
+    grid.evaluate(nodes_, x.data(), values.data(), inside.data());
+    for (std::int64_t i = 0; i < nodes_; ++i) {
+      const std::int32_t kind = inside[static_cast<std::size_t>(i)];
+      Point<3> place{};
+      std::copy_n(x.data() + dimension * i, dimension, place.begin());
+      if (kind == NamedGrid::beyond_edge) count(beyond_, place);
+      if (kind == NamedGrid::without_data) count(without_data_, place);
+    }
+  });
+  add_up(ranks);
+}
+
+void GridCoverage::count(Nodes& nodes, const Point<3>& place) const {
+  ++nodes.count;
+  nodes.first = std::min(nodes.first, place);
+}
+
+void GridCoverage::add_up(const Ranks& ranks) {
+  struct Counts {
+    std::int64_t nodes;
+    Nodes beyond, without_data;
+  };
+  const Counts own{nodes_, beyond_, without_data_};
+  nodes_ = beyond_.count = without_data_.count = 0;
+  for (const Counts& its : ranks.gather(std::vector<Counts>{own})) {
+    nodes_ += its.nodes;
+    for (const auto& [all, some] :
+         {std::pair{&beyond_, &its.beyond}, std::pair{&without_data_, &its.without_data}}) {
+      all->count += some->count;
+      all->first = std::min(all->first, some->first);
+    }
+  }
+}
+
+std::string GridCoverage::grid_in_words() const {
+  return "the grid '" + name_ + "' (" + path_ + ")";
+}
+
+std::string GridCoverage::text_of(const Nodes& nodes, const std::string& what) const {
+  return "of " + std::to_string(nodes_) + " nodes, " + std::to_string(nodes.count) + " lie " +
+         what + ", one of them at " + place_text(nodes.first.data(), dimension_, on_sphere_);
+}
+
+std::string GridCoverage::words_for_nowhere() const {
+  std::string words = grid_in_words() + " has no value anywhere in the domain: ";
+  if (beyond_.count > 0) words += text_of(beyond_, "beyond its edge");
+  if (beyond_.count > 0 && without_data_.count > 0) words += "; ";
+  if (without_data_.count > 0) words += text_of(without_data_, "where it has no data");
+  return words;
+}
+
+std::string GridCoverage::words_for_beyond() const {
+  if (beyond_.count == 0) return "";
+  return grid_in_words() +
+         " covers only a part of the domain: " + text_of(beyond_, "beyond its edge") +
+         "; there its values are those at the edge";
+}
+
+std::string GridCoverage::words_for_without_data() const {
+  if (without_data_.count == 0) return "";
+  return grid_in_words() +
+         " has gaps in the domain: " + text_of(without_data_, "where it has no data") +
+         "; there its values are those of the nearest cells that have some";
+}
 
 constexpr Box<3> all_degrees{{-180, -90, 0}, {180, 90, 0}};
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "tool/numbers.hpp"
-#include "tool/place_text.hpp"
 
 namespace pnpbs::tool {
 namespace {

@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/point_text.hpp"
+#include "sphere/degrees.hpp"
+
 namespace pnpbs::tool {
 
 std::string grouped(std::int64_t count);                 // 103 214
@@ -17,5 +20,12 @@ std::string duration(double seconds);                    // 0.94 s, 12 s, 3 min 
 
 // "1, 2.5,-3e4". Nothing if one of them is no finite number.
 std::optional<std::vector<double>> numbers_between_commas(const std::string& text);
+
+// In all digits, so that it can be looked up; in degrees if it is on a sphere.
+inline std::string place_text(const double* x, int dimension, bool on_sphere = false) {
+  if (dimension == 2) return point_text(Point<2>{x[0], x[1]}).text();
+  const Point<3> place{x[0], x[1], x[2]};
+  return on_sphere ? "(" + degrees_text(degrees_of(place)) + ")" : point_text(place).text();
+}
 
 }  // namespace pnpbs::tool

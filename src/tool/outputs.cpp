@@ -12,7 +12,7 @@
 #include "tool/interrupt.hpp"
 #include "tool/named_grid.hpp"
 #include "tool/names.hpp"
-#include "tool/spacing_file.hpp"
+#include "tool/spacing.hpp"
 
 namespace pnpbs::tool {
 namespace {

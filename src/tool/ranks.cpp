@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/ranks.hpp"
 
+#include <algorithm>
 #include <climits>
 #include <cstdlib>
 #include <new>
+#include <string_view>
 
 #include "base/build_config.hpp"
 #include "tool/exit.hpp"
-#include "tool/launcher.hpp"
 #include "tool/library.hpp"
 
 #if PNPBS_HAVE_MPI
@@ -16,6 +17,33 @@
 
 namespace pnpbs::tool {
 namespace {
+
+// How this process was started, told without MPI: initialising that costs a third of a second,
+// which nobody wants who runs one process.
+struct Launch {
+  bool by_mpi = false;
+  int processes = 0;  // 0: not told
+};
+
+// Open MPI's mpirun; the MPICH family's, Slurm's and others' PMI; MVAPICH's mpirun_rsh.
+constexpr const char* tell_number[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"};
+
+// PMIx, as srun --mpi=pmix and prterun do; old and other PMI.
+constexpr const char* tell_rank[] = {"PMIX_RANK", "PMI_RANK", "PALS_RANKID"};
+
+// From the variables that launchers set for their processes. PNPBS_MPI=0 or 1 overrides them.
+Launch launch_of_this_process() {
+  Launch launch;
+  for (const char* variable : tell_number) {
+    const char* value = std::getenv(variable);
+    if (value) launch = {true, std::max(launch.processes, std::atoi(value))};
+  }
+  for (const char* variable : tell_rank) launch.by_mpi |= std::getenv(variable) != nullptr;
+  const char* wish = std::getenv("PNPBS_MPI");
+  if (wish && std::string_view(wish) == "0") return {};
+  if (wish && std::string_view(wish) == "1") launch.by_mpi = true;
+  return launch;
+}
 
 Failure described(std::exception_ptr failure) {
   try {

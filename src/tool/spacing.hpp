@@ -12,9 +12,17 @@
 #include "tool/library.hpp"
 #include "tool/named_grids.hpp"
 #include "tool/ranks.hpp"
-#include "tool/spacing_file.hpp"
 
 namespace pnpbs::tool {
+
+// Which file --spacing names, if it is no formula: FILE or FILE:FIELD.
+struct SpacingFile {
+  std::string path;
+  std::string field;  // empty: the only one
+};
+
+// By the ending of FILE: .vtu, .msh or .csv, in capitals or not. No formula has such.
+std::optional<SpacingFile> spacing_file(const std::string& text);
 
 class Spacing {
  public:

@@ -7,11 +7,27 @@
 #include <string>
 #include <vector>
 
-#include "tool/body_figures.hpp"
+#include "base/types.hpp"
+#include "tool/library.hpp"
 #include "tool/particles.hpp"
+#include "tool/ranks.hpp"
 #include "tool/statistics.hpp"
 
 namespace pnpbs::tool {
+
+// How large a body is.
+struct BodyFigures {
+  Point<3> extent;
+  double volume;  // 0 of surfaces alone
+  // Of its boundary's triangles, when there are nodes; of a sphere, along it.
+  std::optional<double> area;
+};
+
+// Local. Throws Failure.
+BodyFigures body_figures(pnpbs_domain domain, bool filled, pnpbs_context context);
+
+// On the first rank; 0 on the others. Collective.
+double boundary_area(pnpbs_placement placement, pnpbs_context context, const Ranks& ranks);
 
 struct RunEstimate {
   std::int64_t nodes, bytes;  // memory of each process

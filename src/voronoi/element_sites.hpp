@@ -38,7 +38,7 @@ struct ElementSites {
 
 // All elements of which a node of this rank is a site. mesh: with a layer of ghost elements. The
 // candidates of an element are the corners of all elements that touch it. parts: gets the rows
-// (part_rows.hpp) of those that this rank owns, which come first. sphere_radius: of the sphere that
+// (append_parts) of those that this rank owns, which come first. sphere_radius: of the sphere that
 // they are on, or 0. Collective.
 template <std::size_t Corners, int Dim>
 ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh,

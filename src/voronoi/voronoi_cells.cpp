@@ -4,17 +4,106 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "base/chunked_rows.hpp"
+#include "base/counting_sort.hpp"
 #include "results/results.hpp"
-#include "voronoi/element_parts.hpp"
-#include "voronoi/elements_of_sites.hpp"
+#include "voronoi/element_sites.hpp"
 #include "voronoi/few_nodes.hpp"
+#include "voronoi/sphere_parts.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+// What each element gives to the cells of its sites: a volume to each, and a part of the face
+// between any two.
+template <int Dim, std::size_t Corners>
+class ElementParts {
+ public:
+  // own: rows of the first elements, which were made with their sites.
+  ElementParts(const ElementSites<Dim>& all, ChunkedRows<double> own, std::int64_t owned)
+      : owned_(owned), own_(std::move(own)) {
+    arrived_.build("pnpbs::voronoi::parts", std::ssize(all.elements) - owned,
+                   [&] { return Writer(all, owned); });
+  }
+
+  // See place_of_pair.
+  std::span<const double> of(std::int32_t element) const {
+    return element < owned_ ? own_.row(element) : arrived_.row(element - owned_);
+  }
+
+ private:
+  class Writer {
+   public:
+    Writer(const ElementSites<Dim>& all, std::int64_t first)
+        : all_(all), first_(first), rows_(all.sphere_radius) {}
+
+    void operator()(std::int64_t row, std::vector<double>& out) {
+      x_.clear();
+      for (const std::int32_t s : all_.of(all_.elements[static_cast<std::size_t>(first_ + row)]))
+        x_.push_back(all_.x[static_cast<std::size_t>(s)]);
+      divided_.set(x_);
+      divided_.divide_among_corners();
+      rows_.append(divided_, out);
+    }
+
+   private:
+    const ElementSites<Dim>& all_;
+    std::int64_t first_;
+    PartRows<Dim, Corners> rows_;
+    DividedElement<Dim, Corners> divided_;
+    std::vector<Point<Dim>> x_;  // of the sites
+  };
+
+  std::int64_t owned_;
+  ChunkedRows<double> own_, arrived_;
+};
+
+// The elements of which each owned node is a site, and as which of their sites.
+template <int Dim>
+class ElementsOfSites {
+ public:
+  struct Entry {
+    std::int32_t element, site;
+  };
+
+  ElementsOfSites(const ElementSites<Dim>& all, std::int64_t owned_nodes)
+      : by_node_(static_cast<std::int64_t>(all.sites.size()),
+                 static_cast<std::int32_t>(owned_nodes), key(all, owned_nodes)),
+        entries_(static_cast<std::size_t>(by_node_.start().back())) {
+    std::vector<Entry> entries(all.sites.size());
+    for (std::size_t e = 0; e < all.elements.size(); ++e)
+      for (std::int32_t s = 0; s < all.elements[e].sites; ++s)
+        entries[static_cast<std::size_t>(all.elements[e].first_site + s)] = {
+            static_cast<std::int32_t>(e), s};
+    by_node_.for_places(key(all, owned_nodes), [&](std::int64_t s, std::int32_t place) {
+      entries_[static_cast<std::size_t>(place)] = entries[static_cast<std::size_t>(s)];
+    });
+  }
+
+  std::span<const Entry> at(std::int64_t node) const {
+    const std::size_t n = static_cast<std::size_t>(node);
+    const std::int32_t begin = by_node_.start()[n], end = by_node_.start()[n + 1];
+    return std::span(entries_).subspan(static_cast<std::size_t>(begin),
+                                       static_cast<std::size_t>(end - begin));
+  }
+
+ private:
+  static auto key(const ElementSites<Dim>& all, std::int64_t owned_nodes) {
+    return [&all, owned_nodes](std::int64_t s) {
+      const std::int32_t node = all.sites[static_cast<std::size_t>(s)];
+      return node < owned_nodes ? node : -1;
+    };
+  }
+
+  CountingSort by_node_;
+  std::vector<Entry> entries_;
+};
 
 // Faces that are smaller than this times what is usual, d^(dim - 1) or so, are rounding.
 constexpr double kNoFace = 1e-12;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "quick_assert.hpp"
-#include "surfaces/surfaces.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace surfaces {
 

@@ -9,7 +9,7 @@
 #include "bubbles.hpp"
 #include "dynamics/bubble_force.hpp"
 #include "dynamics/pair_laws.hpp"
-#include "population/overlap_ratio.hpp"
+#include "population/population_thresholds.hpp"
 #include "run_kernel_suite.hpp"
 
 using pnpbs::BlockVector;

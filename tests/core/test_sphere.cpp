@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
-#include "domain/plane/sphere_area.hpp"
+#include "domain/plane/plane_domain.hpp"
 #include "quick_assert.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"

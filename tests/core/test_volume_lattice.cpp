@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/bubble_force.hpp"
-#include "population/overlap_ratio.hpp"
+#include "population/population_thresholds.hpp"
 #include "run_kernel_suite.hpp"
 #include "volume_box.hpp"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "geometry/facet_blocks.hpp"
+#include "geometry/facet_index.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 #include "surfaces.hpp"

@@ -14,7 +14,7 @@
 #include "core/surfaces.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "geometry/boundary_mesh.hpp"
-#include "surfaces/surfaces.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace space_shapes {
 

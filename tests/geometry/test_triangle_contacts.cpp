@@ -10,7 +10,7 @@
 #include "geometry/volume/triangles.hpp"
 #include "run_suite.hpp"
 #include "surfaces/nesting.hpp"
-#include "surfaces/self_intersections.hpp"
+#include "surfaces/surface_checks.hpp"
 
 using surfaces::Place;
 using surfaces::Surface;

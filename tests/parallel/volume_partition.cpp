@@ -13,7 +13,7 @@
 
 #include "base/mixed_hash.hpp"
 #include "octree_on_ranks.hpp"
-#include "partition/cell_graph.hpp"
+#include "partition/partition.hpp"
 #include "rank_checks.hpp"
 
 namespace {

@@ -43,7 +43,7 @@ class ElementLabels {
 
   // Changes labels as long as one, or two around a node, help.
   void settle();
-  // And then goes on by chance (label_search.cpp) until all nodes have their disks and Euler's
+  // And then goes on by chance until all nodes have their disks and Euler's
   // characteristic of the boundary, and the number of its pieces, are larger by so much than they
   // were with the labels given, or that
   // has been tried for so many rounds. Nothing, if that is so

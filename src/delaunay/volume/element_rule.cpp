@@ -29,9 +29,11 @@ Vector from_to(const Point<3>& p, const Point<3>& q) {
   return {two_sum(q[0], -p[0]), two_sum(q[1], -p[1]), two_sum(q[2], -p[2])};
 }
 
-TwoTerms dot(const Vector& p, const Vector& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+TwoTerms accurate_dot(const Vector& p, const Vector& q) {
+  return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+}
 
-Vector cross(const Vector& p, const Vector& q) {
+Vector accurate_cross(const Vector& p, const Vector& q) {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
 
@@ -61,10 +63,10 @@ Point<3> centroid(const Tetrahedron& ordered) {
 bool is_element(const Tetrahedron& ordered) {
   const auto& [a, b, c, d] = ordered;
   const Vector u = from_to(a.x, b.x), v = from_to(a.x, c.x), w = from_to(a.x, d.x);
-  const Vector vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
-  const TwoTerms uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  const Vector vw = accurate_cross(v, w), wu = accurate_cross(w, u), uv = accurate_cross(u, v);
+  const TwoTerms uu = accurate_dot(u, u), vv = accurate_dot(v, v), ww = accurate_dot(w, w);
   double square = 0;  // of the vector to the centre, times
-  const double twelve_volumes = 2 * dot(u, vw).high;
+  const double twelve_volumes = 2 * accurate_dot(u, vw).high;
   for (std::size_t k = 0; k < 3; ++k) {
     const double along = (uu * vw[k] + vv * wu[k] + ww * uv[k]).high;
     square += along * along;

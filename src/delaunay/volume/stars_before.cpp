@@ -2,16 +2,149 @@
 #include "delaunay/volume/stars_before.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
-#include "delaunay/volume/kept_star.hpp"
+#include "base/space_vectors.hpp"
+#include "base/types.hpp"
+#include "delaunay/volume/domain_rule.hpp"
+#include "delaunay/volume/element_rule.hpp"
+#include "delaunay/volume/volume_stars.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+// Is the star of a node that was right before nodes moved right still? See stars_before.hpp.
+class KeptStar {
+ public:
+  KeptStar(const VolumeStarInput& input, const VolumeStars& stars) : in_(input), stars_(stars) {}
+
+  // Calls fails(j) for the nodes whose stars may be others by now, as far as tetrahedra and faces
+  // show it of which node i is the first of all corners.
+  template <class Fails>
+  void check(std::int64_t i, const Fails& fails) {
+    if (!gather(i)) return fails(static_cast<std::int32_t>(i));
+    for (const Corners& triangle : triangles_) {
+      const Sphere sphere = sphere_of(triangle);
+      if (is_first(i, triangle) && !is_tetrahedron(i, triangle, sphere))
+        fail_at(i, triangle, fails);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t p = triangle[k], q = triangle[(k + 1) % 3];
+        if (node(p) < i || node(q) < node(p)) continue;  // one of the two tetrahedra at the face
+        const std::int32_t apex = beyond(p, q);
+        if (apex >= 0 && surely_outside(sphere, apex)) continue;
+        fail_at(i, triangle, fails);
+        if (apex >= 0) fails(node(apex));
+      }
+    }
+  }
+
+ private:
+  using Corners = VolumeStars::Corners;  // places among the neighbours
+  // Of the points y around the node, those with volume * y * y < normal * y are inside.
+  struct Sphere {
+    Point<3> normal;
+    double volume;
+  };
+
+  // More are rare, and such stars are found anew.
+  static constexpr std::int32_t kMaxNeighbours = 64;
+
+  static std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
+  std::int32_t node(std::int32_t place) const { return nodes_[index(place)]; }
+  // The third corner of the triangle on the other side of the edge from p to q.
+  std::int32_t beyond(std::int32_t p, std::int32_t q) const {
+    return third_[index(q * kMaxNeighbours + p)];
+  }
+  bool is_first(std::int64_t i, const Corners& triangle) const {
+    return node(triangle[0]) > i && node(triangle[1]) > i && node(triangle[2]) > i;
+  }
+  template <class Fails>
+  void fail_at(std::int64_t i, const Corners& triangle, const Fails& fails) const {
+    fails(static_cast<std::int32_t>(i));
+    for (const std::int32_t place : triangle) fails(node(place));
+  }
+
+  bool gather(std::int64_t i);
+  Sphere sphere_of(const Corners& triangle) const;
+  bool surely_outside(const Sphere& sphere, std::int32_t place) const;
+  bool is_tetrahedron(std::int64_t i, const Corners& triangle, const Sphere& sphere) const;
+
+  const VolumeStarInput& in_;
+  const VolumeStars& stars_;
+  std::vector<std::int32_t> nodes_;
+  std::vector<Point<3>> to_;  // from node i
+  std::vector<double> squares_;
+  std::vector<Corners> triangles_;
+  std::array<std::int8_t, kMaxNeighbours * kMaxNeighbours> third_;
+  double volume_error_ = 0, sphere_error_ = 0;
+};
+
+// Of a difference of positions each component is right up to half an ulp. With edges no longer than
+// 1, a volume (six times that of the tetrahedron) is then wrong by less than 60 half ulps, and what
+// tells on which side of a sphere a point is, by less than 300.
+constexpr double kRounding = 0x1p-44;
+
+// Positions, triangles and what is beyond their edges. Is the star fit to be looked at?
+bool KeptStar::gather(std::int64_t i) {
+  nodes_.clear();
+  to_.clear();
+  squares_.clear();
+  triangles_.clear();
+  const std::int32_t n = stars_.size(i);
+  if (n > kMaxNeighbours || !stars_.closed(i)) return false;
+  const Point<3> x = in_.nodes.position(i);
+  double longest = 0;
+  stars_.for_neighbours(i, [&](std::int64_t j) {
+    nodes_.push_back(static_cast<std::int32_t>(j));
+    to_.push_back(difference(in_.nodes.position(j), x));
+    squares_.push_back(dot(to_.back(), to_.back()));
+    longest = std::max(longest, squares_.back());
+  });
+  const double length = std::sqrt(longest);
+  volume_error_ = kRounding * longest * length;
+  sphere_error_ = volume_error_ * longest;
+  for (std::int32_t p = 0; p < n; ++p)
+    std::fill_n(third_.begin() + p * kMaxNeighbours, n, std::int8_t{-1});
+  stars_.for_triangles_of_places(i, [&](const Corners& triangle) {
+    triangles_.push_back(triangle);
+    for (std::size_t k = 0; k < 3; ++k)
+      third_[index(triangle[k] * kMaxNeighbours + triangle[(k + 1) % 3])] =
+          static_cast<std::int8_t>(triangle[(k + 2) % 3]);
+  });
+  return true;
+}
+
+KeptStar::Sphere KeptStar::sphere_of(const Corners& triangle) const {
+  const std::size_t a = index(triangle[0]), b = index(triangle[1]), c = index(triangle[2]);
+  const Point<3> bc = cross(to_[b], to_[c]), ca = cross(to_[c], to_[a]), ab = cross(to_[a], to_[b]);
+  Sphere sphere{{}, dot(to_[a], bc)};
+  for (std::size_t k = 0; k < 3; ++k)
+    sphere.normal[k] = squares_[a] * bc[k] + squares_[b] * ca[k] + squares_[c] * ab[k];
+  return sphere;
+}
+
+bool KeptStar::surely_outside(const Sphere& sphere, std::int32_t place) const {
+  const std::size_t k = index(place);
+  return sphere.volume * squares_[k] - dot(sphere.normal, to_[k]) > sphere_error_;
+}
+
+// One of the domain, surely of positive orientation, and surely small enough.
+bool KeptStar::is_tetrahedron(std::int64_t i, const Corners& triangle, const Sphere& sphere) const {
+  constexpr double kSurely = 0.999;
+  if (!(sphere.volume > volume_error_)) return false;
+  double d = in_.nodes.d(i);
+  for (const std::int32_t place : triangle) d = std::min(d, in_.nodes.d(node(place)));
+  const double limit = kSurely * 2 * kMaxRadius * d * sphere.volume;
+  return dot(sphere.normal, sphere.normal) < limit * limit &&
+         in_domain(in_, {i, node(triangle[0]), node(triangle[1]), node(triangle[2])});
+}
 
 constexpr std::int64_t kChunk = VolumeStars::kChunk;
 

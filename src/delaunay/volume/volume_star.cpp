@@ -6,11 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "delaunay/volume/word_of_bits.hpp"
 #include "predicates/space.hpp"
 
 namespace pnpbs {
-
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -335,6 +333,202 @@ bool VolumeStar::find_facet_exactly(const Edge& edge, Facet& facet) const {
     found = true;
   }
   return found;
+}
+
+// The search for places where nodes that are no candidates yet could change a star: in the spheres
+// of tetrahedra that are not proven, and behind open faces.
+
+namespace {
+
+constexpr double kBeyond = 1 + 1e-9;  // distances are rounded
+
+}  // namespace
+
+// A place in the plane of the centre and two neighbours, between these and not as far out as they
+// are after inversion, is nothing that a sphere of an element can reach which holds neither.
+bool VolumeStar::is_shielded(const Point<3>& y) const {
+  constexpr double kThin = 1e-3, kSlack = 1e-9, kMargin = 1e-6;
+  if (unit_ < 0.01 * max_reach()) return false;
+  return std::any_of(shields_.begin(), shields_.end(), [&](const Face& face) {
+    const Point<3>& normal = face.normal;
+    const double square = dot(normal, normal);
+    if (square < kThin * kThin || std::fabs(dot(normal, y)) > kRounding) return false;
+    const double of_a = dot(cross(y, inverse(face.edge.to)), normal) / square;
+    const double of_b = dot(cross(inverse(face.edge.from), y), normal) / square;
+    return of_a > -kSlack && of_b > -kSlack && of_a + of_b < 1 - kMargin;
+  });
+}
+
+// Decided exactly: is x, which inversion takes to y, on the open side of the face?
+bool VolumeStar::in_front(const Face& face, const Point<3>& x, const Point<3>& y) const {
+  if (face.common >= 0) {
+    const auto k = static_cast<std::size_t>(face.common);
+    return face.normal[k] * (x[k] - centre_.x[k]) > 0;
+  }
+  const double out = dot(face.normal, y);
+  if (std::fabs(out) > kRounding) return out > 0;
+  return orientation(centre_.x, candidates_[index(face.edge.from)].x,
+                     candidates_[index(face.edge.to)].x, x) > 0;
+}
+
+bool VolumeStar::may_matter(const Point<3>& x) const {
+  const Point<3> away = difference(x, centre_.x);
+  const double square = dot(away, away), farthest = search_reach_ * kBeyond;
+  if (square == 0 || square > farthest * farthest) return false;
+  if (nothing_found_) return true;
+  const double scale = unit_ / square;
+  const Point<3> y{scale * away[0], scale * away[1], scale * away[2]};
+  const bool beyond =
+      std::any_of(unproven_.begin(), unproven_.end(),
+                  [&](const Plane& plane) { return dot(plane.normal, y) > plane.offset; }) ||
+      std::any_of(open_.begin(), open_.end(),
+                  [&](const Face& face) { return in_front(face, x, y); });
+  return beyond && !is_shielded(y);
+}
+
+std::uint64_t VolumeStar::may_matter_bits(const std::array<const double*, 3>& x,
+                                          std::size_t n) const {
+  const double *x0 = x[0], *x1 = x[1], *x2 = x[2];
+  const double c0 = centre_.x[0], c1 = centre_.x[1], c2 = centre_.x[2];
+  const double farthest = search_reach_ * kBeyond, unit = unit_;
+  const std::uint64_t near = bits_where(n, [=](std::size_t k) {
+    const double dx = x0[k] - c0, dy = x1[k] - c1, dz = x2[k] - c2;
+    return dx * dx + dy * dy + dz * dz <= farthest * farthest;
+  });
+  if (nothing_found_ || near == 0) return near;
+  std::uint64_t beyond = 0;
+  const auto add_beyond = [&](const Point<3>& normal, double offset) {
+    const double nx = normal[0], ny = normal[1], nz = normal[2];
+    beyond |= bits_where(n, [=](std::size_t k) {
+      const double dx = x0[k] - c0, dy = x1[k] - c1, dz = x2[k] - c2;
+      return (nx * dx + ny * dy + nz * dz) * unit > offset * (dx * dx + dy * dy + dz * dz);
+    });
+  };
+  for (const Plane& plane : unproven_) add_beyond(plane.normal, plane.offset - kRounding);
+  for (const Face& face : open_) {
+    if (face.common < 0) {
+      add_beyond(face.normal, -2 * kRounding);
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(face.common);
+    const double* const along = x[k];
+    const double c = centre_.x[k], sign = std::copysign(1.0, face.normal[k]);
+    beyond |= bits_where(n, [=](std::size_t j) { return sign * (along[j] - c) > 0; });
+  }
+  return near & beyond;
+}
+
+bool VolumeStar::may_matter_in(const Box<3>& box) const {
+  const Point<3> low = difference(box.low, centre_.x), high = difference(box.high, centre_.x);
+  double nearest = 0, farthest = 0;  // squares
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double gap = std::max({low[k], -high[k], 0.0});
+    nearest += gap * gap;
+    farthest += std::max(low[k] * low[k], high[k] * high[k]);
+  }
+  if (nearest > search_reach_ * search_reach_ * kBeyond) return false;
+  if (nothing_found_) return true;
+  // Is normal * x > offset * |x|^2, in their unit of length, for the best x in the box?
+  const double slack = 1e-9 * farthest / unit_;
+  const auto reaches = [&](const Point<3>& normal, double offset) {
+    const double bend = std::max(offset, 0.0) / unit_;
+    double sum = slack;
+    for (std::size_t k = 0; k < 3; ++k) {
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
+      const double peak = bend > 0 ? 0.5 * normal[k] / bend : std::copysign(kInfinity, normal[k]);
+      const double x = std::clamp(peak, low[k], high[k]);
+      sum += normal[k] * x - bend * x * x;
+    }
+    return sum > 0;
+  };
+  return std::any_of(unproven_.begin(), unproven_.end(),
+                     [&](const Plane& plane) { return reaches(plane.normal, plane.offset); }) ||
+         std::any_of(open_.begin(), open_.end(),
+                     [&](const Face& face) { return reaches(face.normal, 0); });
+}
+
+// The facets of a star that are elements, and the order in which they are handed out.
+
+namespace {
+
+// Sorts by key(value), no two of which are the same. Of a few, it is counted how many are less than
+// each, for all side by side: no branch can be guessed wrong.
+template <class Value, class Key>
+void sort_by(std::vector<Value>& values, const Key& key) {
+  const std::size_t n = values.size(), padded = (n + kGroup - 1) & ~(kGroup - 1);
+  if (n > kWord) {
+    std::sort(values.begin(), values.end(),
+              [&](const Value& a, const Value& b) { return key(a) < key(b); });
+    return;
+  }
+  std::array<std::int64_t, kWord> keys{}, less{};
+  std::array<Value, kWord> unsorted;
+  for (std::size_t k = 0; k < n; ++k) {
+    unsorted[k] = values[k];
+    keys[k] = key(values[k]);
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::int64_t own = keys[k];
+#pragma omp simd
+    for (std::size_t l = 0; l < padded; ++l) less[l] += own < keys[l];
+  }
+  for (std::size_t k = 0; k < n; ++k) values[static_cast<std::size_t>(less[k])] = unsorted[k];
+}
+
+}  // namespace
+
+bool VolumeStar::is_element(const Facet& facet) const {
+  const auto& [a, b, c] = facet.corners;
+  const VolumeNode &p = candidates_[index(a)], &q = candidates_[index(b)],
+                   &r = candidates_[index(c)];
+  // What is far from the limit, and not flat, needs no common order of the corners.
+  constexpr double kSurelyNotFlat = 1e-4, kMargin = 1e-3;
+  const Plane& plane = facet.plane;
+  if (plane.offset > kSurelyNotFlat) {
+    const double limit = 2 * kMaxRadius * std::min({centre_.d, p.d, q.d, r.d}) * plane.offset;
+    const double diameter = unit_ * std::sqrt(dot(plane.normal, plane.normal));
+    if (diameter < (1 - kMargin) * limit) return true;
+    if (diameter > (1 + kMargin) * limit) return false;
+  }
+  return pnpbs::is_element(ordered_by_id({centre_, p, q, r}));
+}
+
+void VolumeStar::find_neighbours() {
+  used_.assign((candidates_.size() + kWord - 1) / kWord, 0);
+  for (const Corners& triangle : triangles_)
+    for (const std::int32_t k : triangle)
+      used_[index(k) / kWord] |= std::uint64_t{1} << (index(k) % kWord);
+  neighbours_.clear();
+  for (std::size_t w = 0; w < used_.size(); ++w)
+    for (std::uint64_t left = used_[w]; left != 0; left &= left - 1)
+      neighbours_.push_back(static_cast<std::int32_t>(w * kWord) + std::countr_zero(left));
+  sort_by(neighbours_, [this](std::int32_t k) { return candidates_[index(k)].id; });
+}
+
+// Three places are sorted as one number; of those that begin with either of them, the smallest
+// begins with the least.
+void VolumeStar::number_corners() {
+  find_neighbours();
+  place_.resize(candidates_.size());
+  for (std::size_t n = 0; n < neighbours_.size(); ++n)
+    place_[index(neighbours_[n])] = static_cast<std::int32_t>(n);
+  constexpr int kBits = 21;
+  const auto pack = [](std::int64_t a, std::int64_t b, std::int64_t c) {
+    return a << 2 * kBits | b << kBits | c;
+  };
+  packed_.clear();
+  for (const Corners& triangle : triangles_) {
+    const std::int32_t a = place_[index(triangle[0])], b = place_[index(triangle[1])],
+                       c = place_[index(triangle[2])];
+    packed_.push_back(std::min({pack(a, b, c), pack(b, c, a), pack(c, a, b)}));
+  }
+  sort_by(packed_, [](std::int64_t packed) { return packed; });
+  const auto place = [](std::int64_t packed, int from_last) {
+    constexpr std::int64_t kMask = (std::int64_t{1} << kBits) - 1;
+    return static_cast<std::int32_t>(packed >> from_last * kBits & kMask);
+  };
+  for (std::size_t t = 0; t < packed_.size(); ++t)
+    triangles_[t] = {place(packed_[t], 2), place(packed_[t], 1), place(packed_[t], 0)};
 }
 
 }  // namespace pnpbs

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/point_text.hpp"
 #include "domain/region_points.hpp"
 #include "geometry/plane/segments.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "domain/plane/curve_source.hpp"
 #include "domain/plane/plane_domain.hpp"
 #include "geometry/plane/plane_sweep.hpp"
 
@@ -45,5 +46,14 @@ DomainGraph join_sources(const std::vector<CurveSource>& sources,
 
 std::string vertex_name(const GraphVertex& vertex, const std::vector<CurveSource>& sources,
                         const std::vector<FixedNode<2>>& fixed_nodes);
+
+// By how much the way turns at a point between two others, in degrees.
+double turn_in_degrees(const Point<2>& before, const Point<2>& at, const Point<2>& after);
+
+// Finds the corners of a graph that stands for smooth curves between them: where the direction
+// turns by more than corner_angle (degrees), where not two segments end or segments of different
+// tags do, and vertices with a tag of their own; and puts its segments in order, chain by chain
+// from corner to corner. 0: every vertex is a corner.
+void find_corners(CurveSource& graph, double corner_angle);
 
 }  // namespace pnpbs

@@ -2,26 +2,195 @@
 #include "domain/plane/domain_resolver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
+#include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/domain_size.hpp"
 #include "domain/plane/conflicts.hpp"
-#include "domain/plane/domain_extent.hpp"
 #include "domain/plane/domain_graph.hpp"
+#include "domain/plane/plane_domain.hpp"
 #include "domain/plane/sampling.hpp"
-#include "domain/plane/smooth_contacts.hpp"
 #include "domain/region_points.hpp"
 #include "geometry/even_odd.hpp"
 #include "geometry/plane/faces.hpp"
 #include "geometry/plane/plane_sweep.hpp"
+#include "geometry/plane/point_tree.hpp"
+#include "predicates/expansion.hpp"
 
 namespace pnpbs {
-
 namespace {
 
 using Kind = CurveSource::Kind;
+
+struct Sample {
+  double parameter;
+  Point<2> point;
+};
+
+// New samples of one curve, each after the old one with this index.
+using NewSamples = std::vector<std::pair<std::int64_t, Sample>>;
+
+void insert(CurveSource& curve, NewSamples& added) {
+  const bool rising = curve.parameters.front() < curve.parameters.back();
+  std::stable_sort(added.begin(), added.end(), [rising](const auto& a, const auto& b) {
+    if (a.first != b.first) return a.first < b.first;
+    const double ta = a.second.parameter, tb = b.second.parameter;
+    return rising ? ta < tb : ta > tb;
+  });
+  std::vector<double> parameters;
+  std::vector<Point<2>> points;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    parameters.push_back(curve.parameters[i]);
+    points.push_back(curve.points[i]);
+    for (; next < added.size() && added[next].first == static_cast<std::int64_t>(i); ++next) {
+      if (added[next].second.parameter == parameters.back()) continue;
+      parameters.push_back(added[next].second.parameter);
+      points.push_back(added[next].second.point);
+    }
+  }
+  curve.parameters = std::move(parameters);
+  curve.points = std::move(points);
+}
+
+// A point at which a smooth curve gets a sample if it lies on the curve.
+struct Attachable {
+  Point<2> point;
+  double same;  // distance that counts as the same place
+};
+
+std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
+                                    const std::vector<FixedNode<2>>& fixed_nodes, double size) {
+  std::vector<Attachable> result;
+  for (const CurveSource& source : sources) {
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(source.points.size()); ++i) {
+      const bool end = source.ends_at(i);
+      if (source.kind == Kind::smooth && !end) continue;
+      result.push_back({source.points[i], (end ? kSameCurveEnd : kSamePlace) * size});
+    }
+  }
+  for (const FixedNode<2>& node : fixed_nodes) result.push_back({node.position, kSamePlace * size});
+  return result;
+}
+
+// A chord keeps closer to its curve than this, in units of its length (but at kinks, where chords
+// are tiny).
+constexpr double kMaxSag = 0.02;
+
+void attach(CurveSource& curve, const std::vector<Attachable>& all, const PointTree& tree) {
+  NewSamples added;
+  for (std::int64_t i = 0; i + 1 < static_cast<std::int64_t>(curve.points.size()); ++i) {
+    const Point<2>&a = curve.points[i], &b = curve.points[i + 1];
+    tree.for_each_near(a, b, kMaxSag * distance<2>(a, b), [&](std::int32_t which, double) {
+      const auto& [point, same] = all[which];
+      if (distance<2>(point, a) <= same || distance<2>(point, b) <= same) return;
+      const double t =
+          parameter_beside(curve.evaluate, curve.parameters[i], curve.parameters[i + 1], point);
+      Point<2> there;
+      curve.evaluate(1, &t, &there);
+      if (distance<2>(point, there) <= same) added.push_back({i, {t, point}});
+    });
+  }
+  if (!added.empty()) insert(curve, added);
+}
+
+// A vertex, curve end or fixed node that lies on a smooth curve becomes a sample of it.
+void attach_to_smooth_curves(std::vector<CurveSource>& sources,
+                             const std::vector<FixedNode<2>>& fixed_nodes, double size) {
+  const bool any = std::any_of(sources.begin(), sources.end(), [](const CurveSource& source) {
+    return source.kind == Kind::smooth;
+  });
+  if (!any) return;
+  const std::vector<Attachable> all = attachables(sources, fixed_nodes, size);
+  std::vector<Point<2>> points;
+  for (const Attachable& attachable : all) points.push_back(attachable.point);
+  const PointTree tree(std::move(points));
+  for (CurveSource& source : sources) {
+    if (source.kind == Kind::smooth) attach(source, all, tree);
+  }
+}
+
+// Halves the chords of smooth curves that are in conflict, which the curves themselves may not
+// be. False if there are none.
+bool refine_conflicting_chords(std::vector<CurveSource>& sources, const DomainGraph& graph,
+                               const std::vector<SweepConflict>& conflicts) {
+  std::vector<NewSamples> added(sources.size());
+  const auto halve = [&](std::int32_t e) {
+    const GraphEdge& edge = graph.edges[e];
+    const CurveSource& curve = sources[edge.source];
+    if (curve.kind != Kind::smooth) return;
+    const double t =
+        0.5 * curve.parameters[edge.segment] + 0.5 * curve.parameters[edge.segment + 1];
+    const Point<2> point = curve_points(curve.evaluate, {t}, curve.segment_name(0))[0];
+    added[edge.source].push_back({edge.segment, {t, point}});
+  };
+  for (const SweepConflict& conflict : conflicts) {
+    halve(conflict.edge);
+    if (conflict.other >= 0) halve(conflict.other);
+  }
+  bool any = false;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    if (added[s].empty()) continue;
+    insert(sources[s], added[s]);
+    any = true;
+  }
+  return any;
+}
+
+// Bounding box and area of a domain.
+struct Extent {
+  Box<2> bounds;
+  double area;
+};
+
+// The true curve's points halfway between those of the polyline.
+std::vector<Point<2>> middles(const BoundaryCurve& curve) {
+  std::vector<double> t;
+  for (std::size_t i = 0; i + 1 < curve.parameters.size(); ++i) {
+    t.push_back(0.5 * curve.parameters[i] + 0.5 * curve.parameters[i + 1]);
+  }
+  return curve_points(curve.evaluate, t, curve.name);
+}
+
+// Of the curves around the inside, which know their sides. Between the points of a smooth curve as
+// under a parabola through the middle.
+Extent extent_of(const std::vector<BoundaryCurve>& curves) {
+  Box<2> box = empty_box<2>();
+  for (const BoundaryCurve& curve : curves) {
+    for (const Point<2>& point : curve.points) include(box, point);
+  }
+  const Point<2> origin = box.low;
+  TwoTerms sum{0, 0};  // of twice the area
+  const auto add = [&sum](double term) {
+    const TwoTerms next = two_sum(sum.high, term);
+    sum = {next.high, sum.low + next.low};
+  };
+  const auto cross = [&origin](const Point<2>& a, const Point<2>& b) {
+    return (a[0] - origin[0]) * (b[1] - origin[1]) - (a[1] - origin[1]) * (b[0] - origin[0]);
+  };
+  for (const BoundaryCurve& curve : curves) {
+    const double sign = int{curve.left_inside} - int{curve.right_inside};
+    const auto& p = curve.points;
+    for (std::size_t i = 0; i + 1 < p.size(); ++i) add(sign * cross(p[i], p[i + 1]));
+    if (!curve.evaluate) continue;
+    const std::vector<Point<2>> middle = middles(curve);
+    for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+      // Between chord and curve as under a parabola: 4/3 of the triangle's area.
+      const double triangle = (middle[i][0] - p[i][0]) * (p[i + 1][1] - p[i][1]) -
+                              (middle[i][1] - p[i][1]) * (p[i + 1][0] - p[i][0]);
+      add(sign * 4 / 3 * triangle);
+      // The curve goes beyond the middle by less than the middle does beyond the chord.
+      const double sag_x = middle[i][0] - 0.5 * (p[i][0] + p[i + 1][0]);
+      const double sag_y = middle[i][1] - 0.5 * (p[i][1] + p[i + 1][1]);
+      include(box, {middle[i][0] + sag_x, middle[i][1] + sag_y});
+    }
+  }
+  return {box, 0.5 * (sum.high + sum.low)};
+}
 
 // Chords of smooth curves in conflict are halved this often before the conflict is believed.
 constexpr int kRefinements = 8;

@@ -9,14 +9,15 @@
 #include <numbers>
 #include <utility>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/given_values.hpp"
+#include "domain/plane/domain_graph.hpp"
 #include "domain/plane/domain_resolver.hpp"
 #include "domain/plane/sampling.hpp"
 #include "domain/plane/simplify.hpp"
-#include "domain/plane/smooth_graph.hpp"
+#include "sphere/area_in_chart.hpp"
 #include "sphere/degrees.hpp"
 #include "sphere/great_circle.hpp"
 
@@ -364,6 +365,20 @@ void PlaneDomain::check_open_sphere() {
   resolved_ = std::move(closed.resolved_);
   std::erase_if(resolved_.curves, [](const BoundaryCurve& curve) { return curve.bounds(); });
   checked_ = true;
+}
+
+double area_on_sphere(const PlaneDomain& domain) {
+  const double radius = domain.chart()->radius();
+  if (domain.is_whole_sphere()) return 4 * std::numbers::pi * radius * radius;
+  double area = 0;
+  for (const BoundaryCurve& curve : domain.curves()) {
+    if (!curve.bounds()) continue;
+    double beside = 0;
+    for (std::size_t p = 0; p + 1 < curve.points.size(); ++p)
+      beside += area_beside(curve.points[p], curve.points[p + 1], radius);
+    area += curve.left_inside ? beside : -beside;
+  }
+  return area;
 }
 
 }  // namespace pnpbs

@@ -176,4 +176,7 @@ class PlaneDomain : public DomainBase<2> {
   ResolvedDomain resolved_;
 };
 
+// Of a checked domain on a sphere, along the sphere.
+double area_on_sphere(const PlaneDomain& domain);
+
 }  // namespace pnpbs

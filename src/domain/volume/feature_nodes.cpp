@@ -2,14 +2,135 @@
 #include "domain/volume/feature_nodes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
 
+#include "base/index.hpp"
+#include "base/lattice.hpp"
+#include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
 #include "domain/curve_steps.hpp"
-#include "domain/volume/large_facets.hpp"
+#include "domain/node_limit.hpp"
+#include "domain/spacing_evaluator.hpp"
+#include "domain/volume/features.hpp"
+#include "geometry/boundary_mesh.hpp"
 #include "geometry/polyline_track.hpp"
+#include "implicit/level_set_kinks.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+// The check that the largest pieces of a surface alone have not too many nodes, as with one vertex
+// far away.
+
+constexpr std::size_t kLargest = 64;  // pieces that are looked at, of either kind
+constexpr double kBytesOnEdge = 450;  // of a node while it is laid: samples of d about
+constexpr int kParts = 4;             // of their sides, at whose ends d is asked
+
+// With the piece's end points; an edge has two that are the same.
+struct LargePiece {
+  double size;  // length or area
+  FacetCorners<3> corners;
+};
+
+void keep_largest_pieces(std::vector<LargePiece>& pieces) {
+  const auto larger = [](const LargePiece& a, const LargePiece& b) {
+    return a.size != b.size ? a.size > b.size : a.corners < b.corners;
+  };
+  const auto end = pieces.begin() + static_cast<std::ptrdiff_t>(std::min(kLargest, pieces.size()));
+  std::partial_sort(pieces.begin(), end, pieces.end(), larger);
+  pieces.erase(end, pieces.end());
+}
+
+std::vector<LargePiece> largest_edges(const BoundaryMesh<3>& mesh, const Features& features) {
+  std::vector<LargePiece> edges;
+  const auto at = [&](std::int32_t node) {
+    return mesh.nodes[static_cast<std::size_t>(node)].position;
+  };
+  for (const FeatureCurve& curve : features.curves) {
+    for (std::size_t k = 1; k < curve.nodes.size(); ++k) {
+      const Point<3> a = at(curve.nodes[k - 1]), b = at(curve.nodes[k]);
+      edges.push_back({distance<3>(a, b), {a, b, b}});
+    }
+  }
+  keep_largest_pieces(edges);
+  return edges;
+}
+
+std::vector<LargePiece> largest_triangles(const BoundaryMesh<3>& mesh, const Features& features) {
+  std::vector<LargePiece> triangles;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (features.patch[f] < 0) continue;
+    const FacetCorners<3> x = corners_of(mesh, mesh.facets[f]);
+    const Point<3> normal = cross(difference(x[1], x[0]), difference(x[2], x[0]));
+    triangles.push_back({0.5 * length(normal), x});
+  }
+  keep_largest_pieces(triangles);
+  return triangles;
+}
+
+// The places of a lattice on a piece.
+void append_places(const LargePiece& piece, std::vector<Point<3>>& places) {
+  for (int i = 0; i <= kParts; ++i)
+    for (int j = 0; i + j <= kParts; ++j) {
+      const std::array<double, 3> share{double(i) / kParts, double(j) / kParts,
+                                        double(kParts - i - j) / kParts};
+      Point<3> place{};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t c = 0; c < 3; ++c) place[k] += share[c] * piece.corners[c][k];
+      places.push_back(place);
+    }
+}
+
+// Of each piece the largest d at its places.
+std::vector<double> largest_spacings(const std::vector<LargePiece>& pieces,
+                                     const SpacingEvaluator<3>& spacing) {
+  std::vector<Point<3>> places;
+  for (const LargePiece& piece : pieces) append_places(piece, places);
+  std::vector<double> d(places.size());
+  if (!places.empty()) spacing(std::ssize(places), places.data(), d.data());
+  std::vector<double> largest;
+  const auto each =
+      static_cast<std::ptrdiff_t>(places.size() / std::max<std::size_t>(1, pieces.size()));
+  for (auto at = d.begin(); at != d.end(); at += each)
+    largest.push_back(*std::max_element(at, at + each));
+  return largest;
+}
+
+double perimeter(const FacetCorners<3>& x) {
+  return distance<3>(x[0], x[1]) + distance<3>(x[1], x[2]) + distance<3>(x[2], x[0]);
+}
+
+// From few places on each and the largest d there, so that it is far less work than to lay nodes,
+// and they are rather fewer than would be laid. Throws Error(ErrorKind::spacing) or ::memory, with
+// the longest of the edges.
+void require_few_on_large_facets(const BoundaryMesh<3>& mesh, const Features& features,
+                                 const SpacingEvaluator<3>& spacing, const NodeLimit& limit) {
+  const std::vector<LargePiece> edges = largest_edges(mesh, features),
+                                triangles = largest_triangles(mesh, features);
+  const std::vector<double> on_edges = largest_spacings(edges, spacing),
+                            on_triangles = largest_spacings(triangles, spacing);
+  double nodes = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) nodes += edges[i].size / on_edges[i];
+  const double on_all_edges = nodes;
+  // Half of the nodes on its sides stand in for a triangle's own.
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const double d = on_triangles[i];
+    nodes += std::max(0.0, Lattice<2>::kDensity * triangles[i].size / (d * d) -
+                               0.5 * perimeter(triangles[i].corners) / d);
+  }
+  if (edges.empty()) return;
+  if (nodes > static_cast<double>(limit.max_nodes)) {
+    const LargePiece& longest = edges.front();
+    limit.report_too_many(nodes, on_edges.front(),
+                          "the edge from " + point_text(longest.corners[0]) + " to " +
+                              point_text(longest.corners[1]) + ", which is " +
+                              number_text(longest.size) + " long,");
+  }
+  limit.require_memory_for(nodes);
+  limit.require_memory_for(on_all_edges, kBytesOnEdge);
+}
 
 std::vector<std::vector<Point<3>>> polylines(const BoundaryMesh<3>& mesh,
                                              const Features& features) {
@@ -96,6 +217,74 @@ FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& feat
   for (std::size_t c = 0; c < tracks.size(); ++c)
     add_curve(features, c, tracks[c], stations[c], found);
   return found;
+}
+
+namespace {
+
+struct CreaseAtNode {
+  const LevelSet* set = nullptr;
+  std::array<Point<3>, 2> normals;  // of the sides
+  std::array<Point<3>, 2> ways;     // unit, along the surface, away from the edge
+};
+
+CreaseAtNode crease_at(const ResolvedVolume& volume, const FeatureNode& node) {
+  CreaseAtNode at;
+  if (node.curve < 0) return at;
+  const LevelSetTriangles& sets = volume.level_sets;
+  const FeatureCurve& curve = volume.features.curves[index(node.curve)];
+  const std::size_t e = index(node.edge - curve.first_edge);
+  const LevelSetCrease* const crease = sets.crease(curve.nodes[e], curve.nodes[e + 1]);
+  if (!crease) return at;
+  at.set = sets.at(curve.facets[e].front());
+  at.normals = crease->normals;
+  const auto place = [&](std::int32_t n) { return volume.mesh.nodes[index(n)].position; };
+  const Point<3> along = difference(place(crease->nodes[1]), place(crease->nodes[0]));
+  at.ways = {unit_vector(cross(at.normals[0], along)), unit_vector(cross(along, at.normals[1]))};
+  return at;
+}
+
+}  // namespace
+
+void put_on_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach) {
+  constexpr double kAside = 0.2;  // resolutions
+  if (volume.level_sets.creases.empty()) return;
+  for (const auto& set : volume.level_sets.sets) {
+    if (!set) continue;
+    std::vector<std::size_t> nodes;
+    std::vector<CreaseSearch> searches;
+    for (std::size_t n = 0; n < laid.nodes.size(); ++n) {
+      const CreaseAtNode at = crease_at(volume, laid.nodes[n]);
+      if (at.set != set.get()) continue;
+      const Point<3>& x = laid.nodes[n].position;
+      const double aside = kAside * set->resolution();
+      nodes.push_back(n);
+      searches.push_back({{shifted(x, aside, at.ways[0]), shifted(x, aside, at.ways[1])},
+                          shifted(at.normals[0], 1, at.normals[1])});
+    }
+    const auto found = find_crease_points(*set, searches);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      Point<3>& x = laid.nodes[nodes[k]].position;
+      if (found[k] && distance<3>(found[k]->position, x) <= reach) x = found[k]->position;
+    }
+  }
+}
+
+// At two distances, from which it follows at none.
+std::array<Point<3>, 2> normals_beside(const ResolvedVolume& volume, const FeatureNode& node) {
+  constexpr double kAside = 1e-3;  // resolutions
+  const CreaseAtNode at = crease_at(volume, node);
+  std::array<Point<3>, 2> normals{};
+  if (!at.set) return normals;
+  std::vector<Point<3>> places;
+  for (const Point<3>& way : at.ways)
+    for (const double steps : {1.0, 2.0})
+      places.push_back(shifted(node.position, steps * kAside * at.set->resolution(), way));
+  const std::vector<LevelSetSlope> slopes = at.set->slopes(places);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Point<3> near = slopes[2 * side].normal(), far = slopes[2 * side + 1].normal();
+    normals[side] = unit_vector(shifted(near, 1, difference(near, far)));
+  }
+  return normals;
 }
 
 }  // namespace pnpbs

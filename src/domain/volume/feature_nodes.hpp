@@ -3,6 +3,7 @@
 // integral of ds/d along the polyline through the mesh's nodes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/features.hpp"
+#include "domain/volume/volume_domain.hpp"
 #include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
@@ -40,5 +42,12 @@ struct FeatureNodes {
 FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
                                const SpacingEvaluator<3>& spacing,
                                const NodeLimit& limit = (std::int64_t{1} << 31) - 2);
+
+// Moves the nodes between corners of a level set to where its edges truly run, not on the chords
+// between the vertices of their triangles; a node for which no edge is found within reach stays.
+void put_on_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach);
+
+// The gradients of f beside a node on its edge, of length 1; 0 for other nodes.
+std::array<Point<3>, 2> normals_beside(const ResolvedVolume& volume, const FeatureNode& node);
 
 }  // namespace pnpbs

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/domain_error.hpp"
 #include "base/error.hpp"
 #include "base/point_text.hpp"
 #include "geometry/volume/triangle_contacts.hpp"

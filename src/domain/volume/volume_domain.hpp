@@ -19,7 +19,7 @@
 #include "formats/surface_triangles.hpp"
 #include "geometry/volume/surface_index.hpp"
 #include "implicit/level_set.hpp"
-#include "implicit/repair_distances.hpp"
+#include "implicit/repaired_body.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {

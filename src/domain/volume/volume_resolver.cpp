@@ -2,31 +2,143 @@
 #include "domain/volume/volume_resolver.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "base/domain_error.hpp"
+#include "base/error.hpp"
+#include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
 #include "domain/domain_size.hpp"
 #include "domain/region_points.hpp"
-#include "domain/volume/mesh_creases.hpp"
-#include "domain/volume/resolved_features.hpp"
-#include "geometry/volume/surface_extent.hpp"
+#include "domain/volume/features.hpp"
+#include "domain/volume/volume_domain.hpp"
+#include "geometry/boundary_mesh.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "geometry/volume/welding.hpp"
+#include "predicates/expansion.hpp"
 #include "surfaces/nesting.hpp"
-#include "surfaces/self_intersections.hpp"
 #include "surfaces/surface_checks.hpp"
-#include "surfaces/surface_orientation.hpp"
-#include "surfaces/surface_roles.hpp"
+#include "surfaces/surface_edges.hpp"
 #include "surfaces/thin_triangles.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
-
 namespace {
+
+void warn_of_short_creases(ResolvedVolume& resolved) {
+  const auto& creases = resolved.features.short_creases;
+  if (creases.empty()) return;
+  const Point<3>& first =
+      resolved.mesh.nodes[static_cast<std::size_t>(creases.front()[0])].position;
+  resolved.warnings.emplace_back(
+      WarningCode::creases_ignored,
+      "treated as roughness, not as features: " + std::to_string(creases.size()) +
+          " sharp edges in short creases, the first at " + point_text(first),
+      std::ssize(creases));
+}
+
+// The smallest feature angle of the surfaces holds for all of them. Between triangles of one level
+// set normals do not count: these turn where they do not resolve a bend. Its edges are known by its
+// gradient.
+void find_features_of(const std::vector<SurfaceSource>& surfaces, ResolvedVolume& resolved) {
+  std::vector<double> angles;
+  for (const SurfaceSource& surface : surfaces)
+    if (!surface.level_set) angles.push_back(surface.feature_angle);
+  if (angles.empty()) angles.push_back(kFeatureAngle);
+  const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
+  if (*smallest < *largest)
+    resolved.warnings.emplace_back(WarningCode::feature_angle,
+                                   "the smallest feature_angle, " + number_text(*smallest) +
+                                       " degrees, holds for all surfaces",
+                                   0, *smallest);
+  SmoothSurfaces smooth{resolved.level_sets.of, {}};
+  for (const LevelSetCrease& crease : resolved.level_sets.creases)
+    smooth.creases.push_back(crease.nodes);
+  resolved.features = find_features(resolved.mesh, *smallest, smooth);
+  const Features& features = resolved.features;
+  resolved.summary.patches = features.patches;
+  for (const FeatureCurve& curve : features.curves)
+    resolved.summary.feature_edges += static_cast<std::int64_t>(curve.nodes.size()) - 1;
+  resolved.summary.corners = static_cast<std::int64_t>(features.corners.size());
+  warn_of_short_creases(resolved);
+}
+
+// The creases of all surfaces, whose vertices come one after the other; `joined`: of each vertex
+// the one that it is welded to.
+std::vector<SurfaceCrease> join_creases(const std::vector<SurfaceSource>& surfaces,
+                                        const std::vector<std::int32_t>& joined) {
+  std::vector<SurfaceCrease> creases;
+  std::int32_t first = 0;
+  for (const SurfaceSource& surface : surfaces) {
+    for (SurfaceCrease crease : surface.creases) {
+      for (std::int32_t& v : crease.vertices) v = joined[index(first + v)];
+      creases.push_back(crease);
+    }
+    first += static_cast<std::int32_t>(surface.vertices.size());
+  }
+  return creases;
+}
+
+// In the order of their nodes; `node`: of each vertex, or -1.
+std::vector<LevelSetCrease> creases_between(const std::vector<SurfaceCrease>& creases,
+                                            const std::vector<std::int32_t>& node) {
+  std::vector<LevelSetCrease> between;
+  for (const SurfaceCrease& crease : creases) {
+    const std::int32_t a = node[index(crease.vertices[0])], b = node[index(crease.vertices[1])];
+    if (a < 0 || b < 0 || a == b) continue;
+    const auto& [left, right] = crease.normals;
+    between.push_back(a < b ? LevelSetCrease{{a, b}, {left, right}}
+                            : LevelSetCrease{{b, a}, {right, left}});
+  }
+  std::sort(between.begin(), between.end(),
+            [](const LevelSetCrease& a, const LevelSetCrease& b) { return a.nodes < b.nodes; });
+  return between;
+}
+
+// Bounding box, volume and area of a domain.
+struct VolumeExtent {
+  Box<3> bounds;
+  double volume;
+  double area;  // of what bounds it, and of surfaces alone
+};
+
+class Sum {
+ public:
+  void add(double term) {
+    const TwoTerms next = two_sum(sum_.high, term);
+    sum_ = {next.high, sum_.low + next.low};
+  }
+  double value() const { return sum_.high + sum_.low; }
+
+ private:
+  TwoTerms sum_{0, 0};
+};
+
+// Of a mesh whose triangles know their sides; summed in their order, with the rounding's error
+// kept.
+VolumeExtent extent_of(const BoundaryMesh<3>& mesh) {
+  Box<3> box = empty_box<3>();
+  for (const BoundaryNode<3>& node : mesh.nodes) include(box, node.position);
+  const Point<3>& origin = box.low;
+  Sum volume, area;
+  for (const BoundaryTriangle& facet : mesh.facets) {
+    if (facet.front_inside && facet.back_inside) continue;
+    const auto& [a, b, c] = corners_of(mesh, facet);
+    const Point<3> normal = cross(difference(b, a), difference(c, a));
+    const double sign = int{facet.back_inside} - int{facet.front_inside};
+    volume.add(sign * dot(difference(a, origin), normal));
+    area.add(length(normal));
+  }
+  return {box, volume.value() / 6, area.value() / 2};
+}
 
 class Resolver {
  public:

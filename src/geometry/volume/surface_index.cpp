@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
-#include "geometry/facet_tree.hpp"
+#include "geometry/facet_index.hpp"
 #include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {

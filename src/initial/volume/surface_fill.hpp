@@ -12,7 +12,7 @@
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/surface.hpp"
-#include "initial/volume/rank_cells.hpp"
+#include "initial/volume/surface_pieces.hpp"
 
 namespace pnpbs {
 

@@ -3,15 +3,33 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "base/types.hpp"
 #include "comm/communicator.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/surface.hpp"
-#include "initial/volume/rank_cells.hpp"
+#include "tree/background_tree.hpp"
 
 namespace pnpbs {
+
+// The part of space in which a rank lays first nodes on surfaces: cells that cover the surfaces,
+// the same on all ranks, and which of them are this rank's.
+struct RankCells {
+  const BackgroundTree<3>& tree;  // its leaves are the cells
+  std::function<bool(std::int32_t cell)> owns;
+
+  bool hold(const Point<3>& x) const { return owns(tree.leaf_at(x)); }
+  bool meet(const Box<3>& box) const {
+    bool met = false;
+    tree.for_leaves_in(
+        box, [&](std::int32_t) { return !met; },
+        [&](std::int32_t cell) { met = met || owns(cell); });
+    return met;
+  }
+};
 
 struct SurfacePiece {
   SurfacePoint centre;

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "domain/volume/crease_nodes.hpp"
+#include "domain/volume/feature_nodes.hpp"
 
 namespace pnpbs {
 

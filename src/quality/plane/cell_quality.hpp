@@ -11,7 +11,7 @@
 #include "comm/communicator.hpp"
 #include "delaunay/delaunay_stars.hpp"
 #include "quality/measured_nodes.hpp"
-#include "spacing/spacing_bands.hpp"
+#include "spacing/spacing_range.hpp"
 
 namespace pnpbs {
 

@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "base/point_text.hpp"
-#include "formats/whole_file.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

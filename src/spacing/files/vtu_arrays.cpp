@@ -3,17 +3,48 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/number_bytes.hpp"
 #include "formats/text_fields.hpp"
-#include "spacing/files/byte_source.hpp"
 #include "spacing/files/inflate.hpp"
 #include "spacing/files/xml_tags.hpp"
 
 namespace pnpbs {
 
+// Bytes in a row, raw or as base64 (RFC 4648) with blanks anywhere. Of the latter parts may be
+// padded each for itself.
+class ByteSource {
+ public:
+  // Keeps a reference to the bytes.
+  ByteSource(std::string_view bytes, bool is_raw) : rest_(bytes), is_raw_(is_raw) {}
+
+  // False if there are not so many.
+  bool take(std::size_t count, std::string& bytes);
+  // No more than this can be taken.
+  std::size_t room() const { return is_raw_ ? rest_.size() : held_.size() + rest_.size(); }
+
+ private:
+  bool decode();
+
+  std::string_view rest_;
+  bool is_raw_;
+  std::string held_;  // decoded and not taken yet
+};
+
 namespace {
+
+// Of a letter; -1 if it is none.
+int value_in_base64(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
 
 template <class Number>
 double number_at(const char* bytes, std::endian order) {
@@ -38,6 +69,45 @@ constexpr std::array kVtkTypes{vtk_type<double>("Float64"),     vtk_type<float>(
                                vtk_type<std::int64_t>("Int64"), vtk_type<std::uint64_t>("UInt64")};
 
 }  // namespace
+
+bool ByteSource::take(std::size_t count, std::string& bytes) {
+  if (count > room()) return false;
+  bytes.clear();
+  bytes.reserve(count);
+  if (is_raw_) {
+    bytes = rest_.substr(0, count);
+    rest_.remove_prefix(count);
+    return true;
+  }
+  while (bytes.size() < count) {
+    if (held_.empty() && !decode()) return false;
+    const std::size_t part = std::min(count - bytes.size(), held_.size());
+    bytes += held_.substr(0, part);
+    held_.erase(0, part);
+  }
+  return true;
+}
+
+// Four letters are up to three bytes.
+bool ByteSource::decode() {
+  std::uint32_t bits = 0;
+  int letters = 0, padding = 0;
+  while (letters < 4) {
+    if (rest_.empty()) return false;
+    const char c = rest_.front();
+    rest_.remove_prefix(1);
+    if (kXmlBlanks.find(c) != std::string_view::npos) continue;
+    const int value = value_in_base64(c);
+    if (c == '=')
+      ++padding;
+    else if (value < 0 || padding > 0)
+      return false;
+    bits = bits << 6 | static_cast<std::uint32_t>(std::max(value, 0));
+    ++letters;
+  }
+  for (int k = 0; k < 3 - padding; ++k) held_ += static_cast<char>(bits >> (16 - 8 * k));
+  return padding < 3;
+}
 
 VtuFile::VtuFile(std::string_view bytes, std::string name) : name_(std::move(name)) {
   XmlTags xml(bytes, name_);
