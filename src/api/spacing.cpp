@@ -41,8 +41,8 @@ std::shared_ptr<const Spacing<Dim>> local_spacing(const PlacementOf<Dim>& in, co
     return std::make_shared<const Made>(make.template operator()<In>());
   };
   if constexpr (Dim == 2)
-    if (const StereographicChart* chart = in.chart())
-      return std::make_shared<const SphereSpacing>(shared.template operator()<3>(), *chart);
+    if (const Embedding<2>& on = in.results().embedding(); on.is_sphere())
+      return std::make_shared<const SphereSpacing>(shared.template operator()<3>(), on.chart());
   return shared.template operator()<Dim>();
 }
 
@@ -100,8 +100,8 @@ pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
       };
       agreed(comm, [&] {
         if constexpr (Dim == 2)
-          if (const StereographicChart* chart = in.chart())
-            return take.template operator()<SphereField>([&] { return *chart; });
+          if (const Embedding<2>& on = in.results().embedding(); on.is_sphere())
+            return take.template operator()<SphereField>([&] { return on.chart(); });
         take.template operator()<GivenField<Dim>>([&] { return in.domain().bounds(); });
       });
       agreed(comm, [&] {
@@ -161,12 +161,12 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
     const GivenGrid grid{size, origin, step, values};
     std::shared_ptr<const Spacing<Dim>> spacing;
     if constexpr (Dim == 2)
-      if (const StereographicChart* chart = in.chart())
+      if (const Embedding<2>& on = in.results().embedding(); on.is_sphere())
         spacing =
-            std::make_shared<SphereSpacing>(spacing_on_sphere_grid(grid, chart->radius()), *chart);
+            std::make_shared<SphereSpacing>(spacing_on_sphere_grid(grid, on.radius()), on.chart());
     if (!spacing) spacing = spacing_on_grid<Dim>(grid);
     in.domain().check();
-    if (!in.chart())
+    if (!in.domain().embedding().is_sphere())
       require_meeting_boxes<Dim>("arguments size, origin and step", spacing->extent()->box,
                                  in.domain().bounds());
     return spacing;

@@ -41,8 +41,7 @@ std::array<Point<3>, n> places_in_space(const Results<Dim>& results,
 // Of an element, see ElementRows.
 template <int Dim, std::size_t n>
 float element_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {
-  if constexpr (Dim == 2)
-    if (results.chart()) return quality_of(places_in_space(results, places));
+  if (results.embedding().is_sphere()) return quality_of(places_in_space(results, places));
   return quality_of(positions_at(results, places));
 }
 
@@ -58,7 +57,7 @@ float facet_quality(const Results<Dim>& results, const std::array<std::int64_t, 
 template <int Dim>
 Cells cells_of(const Results<Dim>& results, bool elements) {
   if (!elements) return Cells::nodes;
-  return results.surfaces_alone() ? Cells::facets : Cells::elements;
+  return results.kind() == GeometryKind::surface ? Cells::facets : Cells::elements;
 }
 
 // Makes ready what for_elements and for_facets need, or only the order. Collective.

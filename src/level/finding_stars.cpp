@@ -130,7 +130,7 @@ template <int Dim>
 void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known, bool taken_hold) {
   if constexpr (Dim == 3) {
     const bool kept = level.stars_before.any() && known.is_everywhere();
-    if (kept && !level.ground.surfaces_alone()) {
+    if (kept && level.ground.kind() != GeometryKind::surface) {
       begin_stars(level, known, taken_hold);
       return find_owned_stars(level, known, owned_without_star(level));
     }
@@ -138,7 +138,8 @@ void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known, bool taken_ho
   const PhaseTimer timer(level.timers, Phase::stars);
   level.timers.add(Phase::stars, {level.nodes.count, level.owned_count()});
   if constexpr (Dim == 3)
-    if (level.ground.surfaces_alone()) return level.stars.build(surface_star_input(level, known));
+    if (level.ground.kind() == GeometryKind::surface)
+      return level.stars.build(surface_star_input(level, known));
   level.stars.build(star_input(level, known));
 }
 
@@ -172,7 +173,8 @@ class UnknownBoxes {
   void ask_in_cap(std::int64_t i) {
     const double length = level_.stars.needs(i);
     if (length == 0) return;
-    const SphereCap cap(*level_.ground.domain().chart(), level_.nodes.position(i), length);
+    const SphereCap cap(level_.ground.domain().embedding().chart(), level_.nodes.position(i),
+                        length);
     known_.for_unknown_leaves(
         level_.tree->tree(), [&](const Box<2>& box) { return cap.meets(box); },
         [&](std::int32_t leaf) { leaves_.insert(leaf); });
@@ -323,7 +325,7 @@ bool stars_hold(Level<Dim>& level) {
   if constexpr (Dim == 2) {
     return false;
   } else {
-    if (level.ground.surfaces_alone()) return false;
+    if (level.ground.kind() == GeometryKind::surface) return false;
     const std::uint64_t before = level.stars_before.digest();
     level.stars_digest = node_digest(level);
     return level.comm->allreduce_sum(std::uint64_t{before != level.stars_digest}) == 0;
@@ -353,7 +355,7 @@ std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& know
                                  const StarZone& zone, bool taken_hold) {
   std::vector<Box<Dim>> unknown;
   if constexpr (Dim == 3)
-    if (level.distributed() && !level.ground.surfaces_alone()) {
+    if (level.distributed() && level.ground.kind() != GeometryKind::surface) {
       std::vector<std::int64_t> at_border;
       agreed(*level.comm, [&] {
         at_border = nodes_at_border(level.nodes, level.lists());

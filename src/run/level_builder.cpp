@@ -73,7 +73,8 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPla
     const PhaseTimer timer(timers_, Phase::spacing);
     placed.steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
-        next->ground.evaluator(), placed.d.without_reductions().known_values(), chart_of(*domain_));
+        next->ground.evaluator(), placed.d.without_reductions().known_values(),
+        domain_->embedding());
   }
   if (too_steep(placed.steepest) && settings.growth_limit > 0) {
     next.reset();
@@ -109,7 +110,7 @@ MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::shared_ptr<Level<Dim>> l
   made.level->held_rounds = made.placed.held.rounds;
   context_.run.coarser_levels = 0;
   filled_levels_ = 0;
-  if (context_.results.surfaces_alone()) {
+  if (context_.results.kind() == GeometryKind::surface) {
     begin_on_surfaces(made, settings, before);
   } else if (before.level) {
     take_kept_nodes(made, *before.level);
@@ -222,7 +223,7 @@ template <int Dim>
 void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& from_coarser,
                                         int which, Outcome& outcome) {
   if constexpr (Dim == 3) {
-    if (context_.results.surfaces_alone()) {
+    if (context_.results.kind() == GeometryKind::surface) {
       put_on_surfaces(level, std::move(from_coarser));
       return;
     }

@@ -103,7 +103,7 @@ void SpacingToPlace<Dim>::limit_growth(SizingField<Dim>& spacing, const Settings
           domain_->bounds(), measure_of(*domain_),
           indexed_boundary(*domain_, unlimited, settings.max_nodes));
       spacing.limit_growth(comm_, std::move(ways),
-                           GrowthRule<Dim>{settings.growth_limit, chart_of(*domain_)},
+                           GrowthRule<Dim>{settings.growth_limit, domain_->embedding()},
                            settings.node_limit());
     } catch (const AgreedError& error) {
       if (!is_lack_of_room(error)) throw;

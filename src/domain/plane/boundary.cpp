@@ -70,7 +70,7 @@ class Layer {
   // ------------------------------------------------------------ nodes and edges
   void assemble() {
     boundary_ = {};
-    if (domain_.chart()) boundary_.chart = *domain_.chart();
+    boundary_.embedding = domain_.embedding();
     places_.clear();
     for (const Corner& corner : domain_.corners()) {
       boundary_.nodes.push_back({corner.position, corner.tag});
@@ -281,7 +281,8 @@ class Layer {
         WarningCode::feature_unresolved,
         "the spacing is larger than the feature at " + std::to_string(all.size()) +
             " boundary edges shorter than half of it; the worst: ",
-        all, "length", domain_.chart(), [this](std::int32_t e) { return track(e).curve().name; },
+        all, "length", domain_.embedding(),
+        [this](std::int32_t e) { return track(e).curve().name; },
         advice_on_short_edges(all.size(), ends_.size())));
   }
 
@@ -316,7 +317,7 @@ class Layer {
         WarningCode::feature_unresolved,
         "the spacing is larger than the feature at " + std::to_string(nearest.size()) +
             " boundary nodes closer than a tenth of it to another edge; the worst: beside ",
-        nearest, "distance", domain_.chart(),
+        nearest, "distance", domain_.embedding(),
         [this](std::int32_t e) { return track(e).curve().name; }));
   }
 
@@ -358,7 +359,8 @@ class Layer {
         std::to_string(nearest.size()) +
             " fixed nodes are closer than 0.4 of the spacing to the boundary or to each other; the "
             "worst: ",
-        nearest, "distance", domain_.chart(), [&fixed](std::int32_t f) { return fixed[f].name; }));
+        nearest, "distance", domain_.embedding(),
+        [&fixed](std::int32_t f) { return fixed[f].name; }));
   }
 
   const PlaneDomain& domain_;

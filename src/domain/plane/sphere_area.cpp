@@ -8,7 +8,7 @@
 namespace pnpbs {
 
 double area_on_sphere(const PlaneDomain& domain) {
-  const double radius = domain.chart()->radius();
+  const double radius = domain.embedding().radius();
   if (domain.is_whole_sphere()) return 4 * std::numbers::pi * radius * radius;
   double area = 0;
   for (const BoundaryCurve& curve : domain.curves()) {

@@ -10,7 +10,7 @@
 
 #include "base/point_text.hpp"
 #include "base/warning.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
@@ -29,17 +29,18 @@ struct Worst {
 // name(which); in the chart of a sphere, lengths are told along the sphere, and places as well: who
 // takes coasts from files does not know which curve is which.
 template <class Name>
-MessageText worst_text(std::vector<Worst>& all, const char* length, const StereographicChart* chart,
+MessageText worst_text(std::vector<Worst>& all, const char* length, const Embedding<2>& embedding,
                        const Name& name) {
   std::sort(all.begin(), all.end());
   std::vector<MessageText> names;
   for (const Worst& worst : all) {
     if (names.size() == kNamedWorst) break;
-    const double stretch = chart ? chart->stretch(worst.at) : 1;
-    names.push_back(name(worst.which) + " (" + length + " " +
-                    rounded_text(worst.distance / stretch) + ", spacing " +
-                    rounded_text(worst.spacing / stretch) +
-                    (chart ? ", at " + point_text(worst.at) : MessageText()) + ")");
+    const auto measured = [&](double chart_length) {
+      return rounded_text(embedding.measured_length(worst.at, chart_length));
+    };
+    names.push_back(name(worst.which) + " (" + length + " " + measured(worst.distance) +
+                    ", spacing " + measured(worst.spacing) +
+                    (embedding.is_sphere() ? ", at " + point_text(worst.at) : MessageText()) + ")");
   }
   return list_text(names, kNamedWorst);
 }
@@ -47,9 +48,9 @@ MessageText worst_text(std::vector<Worst>& all, const char* length, const Stereo
 // The warning `begin`, the worst of all, `end`.
 template <class Name>
 Warning warning_of_worst(WarningCode code, const std::string& begin, std::vector<Worst>& all,
-                         const char* length, const StereographicChart* chart, const Name& name,
+                         const char* length, const Embedding<2>& embedding, const Name& name,
                          const std::string& end = "") {
-  MessageText text = begin + worst_text(all, length, chart, name) + end;
+  MessageText text = begin + worst_text(all, length, embedding, name) + end;
   return {code, std::move(text), std::ssize(all), all.front().ratio};
 }
 
