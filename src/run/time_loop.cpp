@@ -113,7 +113,7 @@ void Simulation<Dim>::rebalance() {
 // Nodes given from outside may be so few that they take longer to multiply.
 template <int Dim>
 bool Simulation<Dim>::far_too_few() const {
-  if (level_.settings.dimension < Dim) return false;  // of surfaces it is not known
+  if (level_.settings.bubble_dimension < Dim) return false;  // of surfaces it is not known
   return nodes() < method::kFarTooFew * expected_nodes(level_);
 }
 
@@ -130,7 +130,7 @@ double Simulation<Dim>::distance_tolerance(int round) const {
   const double tolerance =
       (schedule_.role == LevelRole::result ? method::kDistanceToleranceOnFinest : 1) *
       method::kDistanceTolerance;
-  if (level_.settings.dimension == 2) return round == 0 ? tolerance : kNever;
+  if (level_.settings.bubble_dimension == 2) return round == 0 ? tolerance : kNever;
   if (schedule_.taken_over()) return round < 2 ? method::kDistanceOff : method::kDistanceFarOff;
   if (round >= 2) return kNever;
   return schedule_.role != LevelRole::result || schedule_.refined() ? tolerance

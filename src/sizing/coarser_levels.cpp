@@ -53,12 +53,13 @@ SizingField<Dim> spacing_of_level(const SizingField<Dim>& spacing, int level) {
 Settings settings_of_level(Settings settings, bool coarsest) {
   // Of the finest level's tolerance: steps are cheap here.
   const double more_rest =
-      settings.dimension == 2 ? method::kCoarserRestInPlane : method::kCoarserRestInSpace;
+      settings.bubble_dimension == 2 ? method::kCoarserRestInPlane : method::kCoarserRestInSpace;
   settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
   settings.population_share = method::kCoarserPopulationShare;
   settings.defects.bad_below = 0;  // no triangle is handed on
   settings.tolerance_mean *= more_rest;
-  if (settings.dimension == 3) settings.population.mean_distance *= method::kCoarserDistanceInSpace;
+  if (settings.bubble_dimension == 3)
+    settings.population.mean_distance *= method::kCoarserDistanceInSpace;
   return settings;
 }
 

@@ -42,7 +42,7 @@ template <int Dim>
 double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
   constexpr int kMaxRounds = 10;
   constexpr double kNear = 0.05, kNearByMany = 0.02, kSame = 1e-3, kMinPower = 0.5, kMaxStep = 64;
-  const double steepest = settings.dimension;
+  const double steepest = settings.bubble_dimension;
   const auto more_than_wanted = [&](double factor, Samples samples) {
     return estimated_nodes(*this, bounded(spacing_.multiplied(factor), settings), settings,
                            samples) /
