@@ -27,16 +27,10 @@ OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
       ++contents_.elements;
       for (const std::int64_t place : places) know(place);
     });
-    const auto add = [&](const auto& places, auto...) {
+    results.for_facets_without_tags([&](const auto& places) {
       ++contents_.facets;
       for (const std::int64_t place : places) know(place);
-    };
-    if constexpr (Dim == 3) {
-      results.for_open_facets(add);
-      results.for_inner_facets(add);
-    } else {
-      results.for_boundary_facets(add);
-    }
+    });
   }
   contents_.nodes = owned_ + static_cast<std::int64_t>(ghosts_.size());
 }

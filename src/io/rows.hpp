@@ -15,6 +15,7 @@ constexpr std::int64_t kWindow = 8192;
 
 // Of a triangle 2 r_in / R, of a tetrahedron 3 r_in / R: 1 for an equilateral one, 0 for a flat
 // one.
+inline float quality_of(const std::array<Point<2>, 2>&) { return 0; }  // edges have none
 float quality_of(const std::array<Point<2>, 3>& triangle);
 float quality_of(const std::array<Point<3>, 3>& triangle);
 float quality_of(const std::array<Point<3>, 4>& tetrahedron);
@@ -48,10 +49,7 @@ float element_quality(const Results<Dim>& results, const std::array<std::int64_t
 // Of a facet: see FacetRows.
 template <int Dim, std::size_t n>
 float facet_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {
-  if constexpr (Dim == 3)
-    return quality_of(positions_at(results, places));
-  else
-    return 0;
+  return quality_of(positions_at(results, places));
 }
 
 template <int Dim>

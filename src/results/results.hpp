@@ -88,6 +88,24 @@ class Results : public NodalResults {
     for_inner_facets(0, count(), visit);
   }
   GeometryKind kind() const override { return level_ ? level_->ground.kind() : domain_->kind(); }
+  // Calls visit(places of its nodes, tag) for every facet once, over all ranks: those of the
+  // boundary and, in space, those inside. After prepare_stars.
+  template <class Visit>
+  void for_facets(const Visit& visit) const {
+    for_boundary_facets(visit);
+    if constexpr (Dim == 3) for_inner_facets(visit);
+  }
+  // The same as visit(places of its nodes): in space a tag takes a search.
+  template <class Visit>
+  void for_facets_without_tags(const Visit& visit) const {
+    const auto without_tag = [&](const auto& places, auto...) { visit(places); };
+    if constexpr (Dim == 3) {
+      for_open_facets(without_tag);
+      for_inner_facets(without_tag);
+    } else {
+      for_boundary_facets(without_tag);
+    }
+  }
   // Of a node, as it is handed out: on a sphere not that of the chart; z is 0 in the plane.
   Point<3> place_in_space(std::int64_t node) const;
   double spacing_at(std::int64_t node) const;
