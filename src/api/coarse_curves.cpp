@@ -28,13 +28,13 @@ pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing
                                    int64_t* curves) {
   return change_domain(domain, [&](DomainObject& object) {
     const SimplifyRule rule{tolerance, smallest};
-    if (const Embedding<2> in = sphere_of(object); in.is_sphere()) {
-      const SphereSpacing along(
-          std::make_shared<CallbackSpacing<3>>(spacing_from<3>(spacing, user)), in.chart());
-      simplify_by(*object.plane, along, rule, vertices, curves);
-    } else {
+    const auto along = spacing_on_sphere(sphere_of(object), [&](double) {
+      return std::make_shared<CallbackSpacing<3>>(spacing_from<3>(spacing, user));
+    });
+    if (along)
+      simplify_by(*object.plane, *along, rule, vertices, curves);
+    else
       simplify_by(plane_of(object), spacing_from<2>(spacing, user), rule, vertices, curves);
-    }
   });
 }
 

@@ -134,15 +134,13 @@ pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
       agreed(p.communicator(), [&] {
         in.domain().check();
         require_shape(in.domain());
-        if constexpr (Dim == 2)
-          if (const Embedding<2>& on = in.domain().embedding(); on.is_sphere()) {
-            DomainShapes<3> shapes(in.domain());
-            spacing = std::make_shared<SphereSpacing>(
-                std::make_shared<ShapeSpacing<3>>(shapes.spacing(demands, limits)), on.chart());
-            return;
-          }
-        spacing = std::make_shared<ShapeSpacing<Dim>>(ShapeIndex<Dim>(shape_of(in.domain())),
-                                                      demands, limits);
+        spacing = spacing_on_sphere(in.domain().embedding(), [&](double) {
+          DomainShapes<3> shapes(in.domain());
+          return std::make_shared<ShapeSpacing<3>>(shapes.spacing(demands, limits));
+        });
+        if (!spacing)
+          spacing = std::make_shared<ShapeSpacing<Dim>>(ShapeIndex<Dim>(shape_of(in.domain())),
+                                                        demands, limits);
       });
       in.set_spacing(std::move(spacing));
     });
