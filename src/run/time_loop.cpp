@@ -81,8 +81,7 @@ void Simulation<Dim>::event() {
   const Settings& settings = level_.settings;
   run_.last_speeds = speeds_of(level_);
   refresh_spacing(level_);
-  if constexpr (Dim == 3)
-    if (schedule_.role != LevelRole::coarser) require_sampled_spacing(level_);
+  if (schedule_.role != LevelRole::coarser) require_sampled_spacing(level_);
   const double population_until =
       std::floor(settings.population_share * static_cast<double>(most_steps(level_)));
   if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
