@@ -28,13 +28,13 @@ pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing
                                    int64_t* curves) {
   return change_domain(domain, [&](DomainObject& object) {
     const SimplifyRule rule{tolerance, smallest};
-    if (const StereographicChart* chart = sphere_of(object)) {
-      const SphereSpacing along(
-          std::make_shared<CallbackSpacing<3>>(spacing_from<3>(spacing, user)), *chart);
-      simplify_by(*object.plane, along, rule, vertices, curves);
-    } else {
+    const auto along = spacing_on_sphere(sphere_of(object), [&](double) {
+      return std::make_shared<CallbackSpacing<3>>(spacing_from<3>(spacing, user));
+    });
+    if (along)
+      simplify_by(*object.plane, *along, rule, vertices, curves);
+    else
       simplify_by(plane_of(object), spacing_from<2>(spacing, user), rule, vertices, curves);
-    }
   });
 }
 
@@ -46,8 +46,8 @@ pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char* path
     const std::string name = field ? field : "";
     const SimplifyRule rule{tolerance, smallest};
     std::shared_ptr<const LocalSpacing<2>> spacing;
-    if (const StereographicChart* chart = sphere_of(object)) {
-      spacing = spacing_from_field(read_field<SphereField>(path, name), *chart);
+    if (const Embedding<2> in = sphere_of(object); in.is_sphere()) {
+      spacing = spacing_from_field(read_field<SphereField>(path, name), in.chart());
       simplify_by(*object.plane, *spacing, rule, vertices, curves);
     } else {
       PlaneDomain& plane = plane_of(object);

@@ -30,20 +30,19 @@ pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
 }
 
 double whole_measure(const PlaneDomain& domain) {
-  return domain.chart() ? area_on_sphere(domain) : domain.area();
+  return domain.embedding().is_sphere() ? area_on_sphere(domain) : domain.area();
 }
 double whole_measure(const VolumeDomain& domain) { return domain.measure(); }
 
 // In the plane, or in the chart of a sphere.
 Point<2> point_from(const PlaneDomain& domain, const double* x) {
-  if (domain.chart()) return domain.chart()->in_chart(require_direction("point", x));
+  if (const Embedding<2>& in = domain.embedding(); in.is_sphere())
+    return in.chart().in_chart(require_direction("point", x));
   return {x[0], x[1]};
 }
 // As the interface has it; returns the end of that.
-double* copy_place(const StereographicChart* chart, const Point<2>& u, double* x) {
-  if (!chart) return std::copy(u.begin(), u.end(), x);
-  const Point<3> on_sphere = chart->on_sphere(u);
-  return std::copy(on_sphere.begin(), on_sphere.end(), x);
+double* copy_place(const Embedding<2>& embedding, const Point<2>& u, double* x) {
+  return std::copy_n(embedding.in_space(u).begin(), embedding.coordinates(), x);
 }
 Point<2> plane_point_from(const double* x) { return {x[0], x[1]}; }
 Point<3> space_point_from(const double* x) { return {x[0], x[1], x[2]}; }
@@ -73,7 +72,7 @@ pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) { return destroy(domain,
 pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t* dim) {
   return guarded(domain, [&](DomainObject& object) {
     require_pointer(dim, "dim");
-    *dim = object.plane && !sphere_of(object) ? 2 : 3;
+    *dim = object.plane && !sphere_of(object).is_sphere() ? 2 : 3;
     return PNPBS_OK;
   });
 }
@@ -85,7 +84,7 @@ pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_
     require_count(n, "n");
     require_pointer(coordinates, "coordinates");
     const CurveRole as = role_from(role);
-    if (sphere_of(object)) {
+    if (sphere_of(object).is_sphere()) {
       object.plane->add_great_circles(
           as, closed != 0, require_directions("coordinates", n, coordinates), tags, corner_angle);
       return;
@@ -249,10 +248,7 @@ pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n, const 
     require_count(n, "n");
     if (n > 0) require_pointer(coordinates, "coordinates");
     std::vector<double> charted;
-    if (const StereographicChart* chart = sphere_of(object)) {
-      charted = in_chart(*chart, require_directions("coordinates", n, coordinates));
-      coordinates = charted.data();
-    }
+    coordinates = placed_coordinates(sphere_of(object), n, coordinates, charted);
     in_its_dimension(object, [&](auto& d) { d.add_fixed_nodes(n, coordinates, tags); });
   });
 }
@@ -285,9 +281,9 @@ pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double* low, double* high)
     const auto& box = checked.bounds();
     std::copy(box.low.begin(), box.low.end(), low);
     std::copy(box.high.begin(), box.high.end(), high);
-    if (const StereographicChart* chart = pnpbs::chart_of(checked)) {
-      std::fill_n(low, 3, -chart->radius());
-      std::fill_n(high, 3, chart->radius());
+    if (const double radius = checked.embedding().radius(); radius > 0) {
+      std::fill_n(low, 3, -radius);
+      std::fill_n(high, 3, radius);
     }
     return PNPBS_OK;
   });
@@ -304,8 +300,8 @@ pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double* measure) {
 pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, int64_t* count,
                                        double* segments, int32_t* tags) {
   return guarded(domain, [&](DomainObject& object) {
-    const StereographicChart* chart = sphere_of(object);
-    PlaneDomain& plane = chart ? *object.plane : plane_of(object);
+    const Embedding<2> embedding = sphere_of(object);
+    PlaneDomain& plane = embedding.is_sphere() ? *object.plane : plane_of(object);
     if (!plane.is_checked()) {
       const Computing computing(*object.context);
       plane.check();
@@ -324,7 +320,7 @@ pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, in
       for (std::size_t p = 0; p + 1 < curve.points.size(); ++p) {
         if (tags) *tags++ = curve.tag;
         for (const Point<2>& end : {curve.points[p], curve.points[p + 1]})
-          if (segments) segments = copy_place(chart, end, segments);
+          if (segments) segments = copy_place(embedding, end, segments);
       }
     return PNPBS_OK;
   });

@@ -9,7 +9,7 @@
 namespace pnpbs::api {
 
 inline PlaneDomain& plane_of(const DomainObject& object) {
-  if (sphere_of(object))
+  if (sphere_of(object).is_sphere())
     throw Error(ErrorKind::argument,
                 "argument domain is on a sphere; this function is for domains in the plane");
   if (!object.plane)
@@ -22,7 +22,7 @@ inline VolumeDomain& volume_of(const DomainObject& object) {
   if (!object.volume)
     throw Error(ErrorKind::argument,
                 std::string("argument domain ") +
-                    (sphere_of(object) ? "is on a sphere" : "has two dimensions") +
+                    (sphere_of(object).is_sphere() ? "is on a sphere" : "has two dimensions") +
                     "; this function is for domains in space");
   return *object.volume;
 }
@@ -62,7 +62,8 @@ inline std::shared_ptr<DomainObject> body_with(const Context& context, bool in_p
   std::shared_ptr<DomainObject> object = require(body);
   if (object->context.get() != &context)
     throw Error(ErrorKind::argument, "argument body belongs to another context");
-  if (sphere_of(*object)) throw Error(ErrorKind::argument, "argument body is on a sphere");
+  if (sphere_of(*object).is_sphere())
+    throw Error(ErrorKind::argument, "argument body is on a sphere");
   if ((object->plane != nullptr) != in_plane)
     throw Error(ErrorKind::argument, std::string("argument body has ") +
                                          (object->plane ? "two" : "three") +

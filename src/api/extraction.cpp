@@ -45,8 +45,6 @@ void for_star(const Results<3>& results, std::int64_t i, const Visit& visit) {
   results.level().stars.for_neighbours(i, [&](std::int64_t j) { visit(j, false); });
 }
 
-bool on_sphere(const NodalResults& results) { return results.coordinates() > results.dimension(); }
-
 // Copies nodes with places first .. first + n - 1 out; arrays may be NULL.
 void copy_nodes(const NodalResults& results, std::int64_t first, std::int64_t n,
                 double* coordinates, std::int64_t* ids, std::int32_t* tags, double* spacing) {
@@ -76,8 +74,7 @@ pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t* dim) 
 pnpbs_status pnpbs_placement_sphere_radius(pnpbs_placement placement, double* radius) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(radius, "radius");
-    const StereographicChart* chart = object.placement->chart();
-    *radius = chart ? chart->radius() : 0;
+    *radius = object.placement->results().sphere_radius();
     return PNPBS_OK;
   });
 }
@@ -107,7 +104,7 @@ pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capa
                                          double* normals) {
   return guarded(placement, [&](PlacementObject& object) {
     NodalResults& results = object.placement->results();
-    const bool of_sphere = on_sphere(results);
+    const bool of_sphere = results.kind() == GeometryKind::sphere;
     if (!of_sphere) require_dimension<3>(results);
     require_capacity(capacity, results.count());
     if (results.count() == 0) return PNPBS_OK;
@@ -227,7 +224,7 @@ pnpbs_status get_elements(pnpbs_placement placement, std::int64_t capacity, std:
                           std::int64_t* elements) {
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
-    if (Dim == 3 && on_sphere(results)) {  // none, as on surfaces alone
+    if (Dim == 3 && results.kind() == GeometryKind::sphere) {  // none, as on surfaces alone
       *count = 0;
       return PNPBS_OK;
     }
@@ -295,7 +292,7 @@ pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t
                                               int64_t* count, int32_t* tags) {
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
-    if (results.surfaces_alone())
+    if (results.kind() == GeometryKind::surface)
       throw Error(ErrorKind::argument,
                   "argument placement has surfaces alone: their tags come with "
                   "pnpbs_placement_get_boundary_triangles");
@@ -332,7 +329,7 @@ pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, i
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
     *count = 0;
-    if (on_sphere(results))
+    if (results.kind() == GeometryKind::sphere)
       return copy_triangles_of_sphere(results, capacity, count, triangles, tags);
     const Results<3>& in = require_dimension<3>(results);
     results.prepare_stars();

@@ -17,23 +17,20 @@ LastError& thread_error();
 
 pnpbs_status status_of(ErrorKind kind) noexcept;
 
-// Returns the sphere that an object is on, or null. Messages name points by the chart of it, and
-// users want to know longitude and latitude.
-inline const StereographicChart* sphere_of(const Context&) { return nullptr; }
+// Returns how an object lies on a sphere; the identity if it is on none. Messages name points by
+// the chart of the sphere, and users want to know longitude and latitude.
 template <class Object>
-const StereographicChart* sphere_of(const Object&) {
-  return nullptr;
+Embedding<2> sphere_of(const Object&) {
+  return {};
 }
-inline const StereographicChart* sphere_of(const DomainObject& object) {
-  return object.plane ? object.plane->chart() : nullptr;
+inline Embedding<2> sphere_of(const DomainObject& object) {
+  return object.plane ? object.plane->embedding() : Embedding<2>();
 }
-inline const StereographicChart* sphere_of(const PlacementObject& object) {
-  return object.placement->chart();
-}
+Embedding<2> sphere_of(const PlacementObject& object);
 // Returns the message with longitude and latitude for the points of the chart in it, which become
 // points of the sphere in space.
-MessageText in_degrees(const StereographicChart* chart, const MessageText& message);
-void tell_in_degrees(const StereographicChart* chart, Context& context) noexcept;
+MessageText in_degrees(const Embedding<2>& sphere, const MessageText& message);
+void tell_in_degrees(const Embedding<2>& sphere, Context& context) noexcept;
 
 // [3], NaN for the third coordinate in the plane. Nothing if `output` is null.
 void copy_point(const NamedPoint& point, double* output) noexcept;

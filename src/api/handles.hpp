@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 
 #include "api/shape.hpp"
@@ -57,7 +56,7 @@ struct PlacementObject {
 struct TransferObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<FieldTransfer> transfer;
-  std::optional<StereographicChart> chart{};  // of the sphere that its nodes are on
+  double sphere_radius = 0;  // of the sphere that its nodes are on; 0 if they are on none
 };
 
 struct MeshObject {

@@ -35,7 +35,8 @@ pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement placement, in
     if (results.dimension() == 2)
       return copy_elements<3>(require_dimension<2>(results), capacity, count, corners, elements);
     const Results<3>& in = require_dimension<3>(results);
-    return in.surfaces_alone() ? copy_elements<3>(in, capacity, count, corners, elements)
-                               : copy_elements<4>(in, capacity, count, corners, elements);
+    return in.kind() == GeometryKind::surface
+               ? copy_elements<3>(in, capacity, count, corners, elements)
+               : copy_elements<4>(in, capacity, count, corners, elements);
   });
 }

@@ -32,7 +32,7 @@ std::shared_ptr<ParticlesObject> made(const std::shared_ptr<PlacementObject>& pl
 }
 
 void require_body(const NodalResults& results) {
-  if (results.surfaces_alone())
+  if (results.kind() == GeometryKind::surface)
     throw Error(ErrorKind::argument,
                 "argument placement has nodes on surfaces alone: no body is around them");
 }
@@ -47,7 +47,7 @@ pnpbs_status pnpbs_particles_create(pnpbs_placement placement, pnpbs_domain body
     agreed(results.communicator(), [&] {
       within = body_with(*object.context, results.dimension() == 2, body);
       require_body(results);
-      require_no_sphere(object.placement->chart(), "placement", "particles are made");
+      require_no_sphere(sphere_of(object), "placement", "particles are made");
       in_its_dimension(*within, [](auto& domain) { domain.check(); });
     });
     const std::shared_ptr<PlacementObject> of = require(placement);

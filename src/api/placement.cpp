@@ -151,9 +151,8 @@ pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
       IncomingNodes<Dim> nodes;
       agreed(p.communicator(), [&] {
         std::vector<double> charted;
-        if (const StereographicChart* chart = p.chart())
-          charted = in_chart(*chart, require_directions("coordinates", n, coordinates));
-        nodes = checked_nodes<Dim>(n, p.chart() ? charted.data() : coordinates, ids);
+        nodes = checked_nodes<Dim>(
+            n, placed_coordinates(placement_of.domain().embedding(), n, coordinates, charted), ids);
       });
       placement_of.set_nodes(std::move(nodes));  // on all ranks or none
       return PNPBS_OK;

@@ -70,7 +70,7 @@ pnpbs_status ask_shape(pnpbs_domain domain, const Ask& ask) {
       ask(*shapes);
       return PNPBS_OK;
     };
-    if (sphere_of(object))
+    if (sphere_of(object).is_sphere())
       return ask_in.template operator()<3>(*object.plane, object.volume_shapes);
     return object.plane ? ask_in.template operator()<2>(*object.plane, object.plane_shapes)
                         : ask_in.template operator()<3>(*object.volume, object.volume_shapes);
@@ -134,15 +134,13 @@ pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
       agreed(p.communicator(), [&] {
         in.domain().check();
         require_shape(in.domain());
-        if constexpr (Dim == 2)
-          if (const StereographicChart* chart = in.chart()) {
-            DomainShapes<3> shapes(in.domain());
-            spacing = std::make_shared<SphereSpacing>(
-                std::make_shared<ShapeSpacing<3>>(shapes.spacing(demands, limits)), *chart);
-            return;
-          }
-        spacing = std::make_shared<ShapeSpacing<Dim>>(ShapeIndex<Dim>(shape_of(in.domain())),
-                                                      demands, limits);
+        spacing = spacing_on_sphere(in.domain().embedding(), [&](double) {
+          DomainShapes<3> shapes(in.domain());
+          return std::make_shared<ShapeSpacing<3>>(shapes.spacing(demands, limits));
+        });
+        if (!spacing)
+          spacing = std::make_shared<ShapeSpacing<Dim>>(ShapeIndex<Dim>(shape_of(in.domain())),
+                                                        demands, limits);
       });
       in.set_spacing(std::move(spacing));
     });

@@ -21,7 +21,7 @@ class DomainShapes {
  public:
   explicit DomainShapes(const Domain<Dim>& checked) : index_(shape_of(checked)) {}
   explicit DomainShapes(const PlaneDomain& on_sphere) requires(Dim == 3)
-      : sphere_(Sphere{*on_sphere.chart(), ShapeIndex<2>(shape_of(on_sphere))}),
+      : sphere_(Sphere{on_sphere.embedding().chart(), ShapeIndex<2>(shape_of(on_sphere))}),
         index_(shape_on_sphere(on_sphere)) {}
 
   const ShapeIndex<Dim>& index() const { return index_; }

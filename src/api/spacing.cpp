@@ -40,10 +40,10 @@ std::shared_ptr<const Spacing<Dim>> local_spacing(const PlacementOf<Dim>& in, co
     using Made = decltype(make.template operator()<In>());
     return std::make_shared<const Made>(make.template operator()<In>());
   };
-  if constexpr (Dim == 2)
-    if (const StereographicChart* chart = in.chart())
-      return std::make_shared<const SphereSpacing>(shared.template operator()<3>(), *chart);
-  return shared.template operator()<Dim>();
+  std::shared_ptr<const Spacing<Dim>> spacing = spacing_on_sphere(
+      in.results().embedding(), [&](double) { return shared.template operator()<3>(); });
+  if (!spacing) spacing = shared.template operator()<Dim>();
+  return spacing;
 }
 
 void require_spacing(double d, const std::string& what) {
@@ -100,8 +100,8 @@ pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
       };
       agreed(comm, [&] {
         if constexpr (Dim == 2)
-          if (const StereographicChart* chart = in.chart())
-            return take.template operator()<SphereField>([&] { return *chart; });
+          if (const Embedding<2>& on = in.results().embedding(); on.is_sphere())
+            return take.template operator()<SphereField>([&] { return on.chart(); });
         take.template operator()<GivenField<Dim>>([&] { return in.domain().bounds(); });
       });
       agreed(comm, [&] {
@@ -159,14 +159,12 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
                                               const double* values) {
   return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
     const GivenGrid grid{size, origin, step, values};
-    std::shared_ptr<const Spacing<Dim>> spacing;
-    if constexpr (Dim == 2)
-      if (const StereographicChart* chart = in.chart())
-        spacing =
-            std::make_shared<SphereSpacing>(spacing_on_sphere_grid(grid, chart->radius()), *chart);
+    std::shared_ptr<const Spacing<Dim>> spacing =
+        spacing_on_sphere(in.domain().embedding(),
+                          [&](double radius) { return spacing_on_sphere_grid(grid, radius); });
     if (!spacing) spacing = spacing_on_grid<Dim>(grid);
     in.domain().check();
-    if (!in.chart())
+    if (in.domain().kind() != GeometryKind::sphere)
       require_meeting_boxes<Dim>("arguments size, origin and step", spacing->extent()->box,
                                  in.domain().bounds());
     return spacing;

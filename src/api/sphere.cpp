@@ -7,6 +7,7 @@
 #include "api/sphere_points.hpp"
 #include "base/point_text.hpp"
 #include "domain/given_values.hpp"
+#include "results/results.hpp"
 #include "sphere/degrees.hpp"
 
 using namespace pnpbs;
@@ -27,11 +28,18 @@ void require_degrees(std::int64_t i, const double* degrees) {
 
 }  // namespace
 
-MessageText pnpbs::api::in_degrees(const StereographicChart* chart, const MessageText& message) {
-  if (!chart) return message;
-  const auto moved = [chart](NamedPoint point) {
+Embedding<2> pnpbs::api::sphere_of(const PlacementObject& object) {
+  const NodalResults& results = object.placement->results();
+  return results.kind() == GeometryKind::sphere
+             ? static_cast<const Results<2>&>(results).embedding()
+             : Embedding<2>();
+}
+
+MessageText pnpbs::api::in_degrees(const Embedding<2>& sphere, const MessageText& message) {
+  if (!sphere.is_sphere()) return message;
+  const auto moved = [&sphere](NamedPoint point) {
     if (point.dimension != 2) return point;
-    point.x = chart->on_sphere({point.x[0], point.x[1]});
+    point.x = sphere.in_space({point.x[0], point.x[1]});
     point.dimension = 3;
     return point;
   };
@@ -42,10 +50,10 @@ MessageText pnpbs::api::in_degrees(const StereographicChart* chart, const Messag
 }
 
 // No room for it: then the message is as it was.
-void pnpbs::api::tell_in_degrees(const StereographicChart* chart, Context& context) noexcept {
-  if (!chart) return;
+void pnpbs::api::tell_in_degrees(const Embedding<2>& sphere, Context& context) noexcept {
+  if (!sphere.is_sphere()) return;
   try {
-    context.last_error.message = in_degrees(chart, context.last_error.message);
+    context.last_error.message = in_degrees(sphere, context.last_error.message);
     thread_error() = context.last_error;
   } catch (...) {
   }

@@ -11,7 +11,7 @@
 #include "api/guard.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs::api {
 
@@ -36,16 +36,22 @@ inline std::vector<Point<3>> require_directions(const char* argument, std::int64
   return points;
 }
 
-// The point that is projected from is far out in some direction.
-inline std::vector<double> in_chart(const StereographicChart& chart,
-                                    const std::vector<Point<3>>& points) {
-  std::vector<double> coordinates;
-  for (const Point<3>& x : points) {
+// Returns the coordinates by which nodes are placed: those given or, on a sphere, those of the
+// chart, which are put into `charted`. The point that is projected from is far out in some
+// direction.
+inline const double* placed_coordinates(const Embedding<2>& embedding, std::int64_t n,
+                                        const double* coordinates, std::vector<double>& charted) {
+  if (!embedding.is_sphere()) return coordinates;
+  for (const Point<3>& x : require_directions("coordinates", n, coordinates)) {
     constexpr double kFarOut = 1e9;
-    Point<2> u = chart.in_chart(x);
-    if (!std::isfinite(u[0]) || !std::isfinite(u[1])) u = {kFarOut * chart.radius(), 0};
-    coordinates.insert(coordinates.end(), u.begin(), u.end());
+    Point<2> u = embedding.chart().in_chart(x);
+    if (!std::isfinite(u[0]) || !std::isfinite(u[1])) u = {kFarOut * embedding.radius(), 0};
+    charted.insert(charted.end(), u.begin(), u.end());
   }
+  return charted.data();
+}
+inline const double* placed_coordinates(const Embedding<3>&, std::int64_t,
+                                        const double* coordinates, std::vector<double>&) {
   return coordinates;
 }
 
@@ -57,9 +63,9 @@ inline std::vector<double> put_on_sphere(double radius, const std::vector<Point<
 }
 
 // Throws for what is not there on a sphere yet.
-inline void require_no_sphere(const StereographicChart* chart, const char* argument,
+inline void require_no_sphere(const Embedding<2>& embedding, const char* argument,
                               const char* what) {
-  if (chart)
+  if (embedding.is_sphere())
     throw Error(ErrorKind::argument, std::string("argument ") + argument + " is on a sphere: " +
                                          what + " in the plane and in space only");
 }

@@ -57,15 +57,9 @@ pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t
         auto made = std::make_shared<TransferObject>();
         made->context = object.context;
         made->transfer = make_field_transfer(results, order, components, values);
-        if (const StereographicChart* chart = object.placement->chart()) made->chart = *chart;
+        made->sphere_radius = results.sphere_radius();
         return made;
       });
-}
-
-// Or of none, where there is none. From which point it is seen does not matter in space.
-bool is_of_sphere(const std::optional<StereographicChart>& chart,
-                  const StereographicChart* sphere) {
-  return sphere ? chart && chart->radius() == sphere->radius() : !chart;
 }
 
 }  // namespace
@@ -96,7 +90,7 @@ pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer* transfer) {
 
 pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t* dim, int32_t* components) {
   return guarded(transfer, [&](TransferObject& object) {
-    if (dim) *dim = object.chart ? 3 : object.transfer->dimension();
+    if (dim) *dim = object.sphere_radius > 0 ? 3 : object.transfer->dimension();
     if (components) *components = static_cast<std::int32_t>(object.transfer->components());
     return PNPBS_OK;
   });
@@ -110,9 +104,9 @@ pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n, const 
     if (n > 0) require_pointer(values, "values");
     require_kokkos();
     std::vector<double> on_sphere;
-    if (object.chart) {
+    if (object.sphere_radius > 0) {
       on_sphere =
-          put_on_sphere(object.chart->radius(), require_directions("coordinates", n, coordinates));
+          put_on_sphere(object.sphere_radius, require_directions("coordinates", n, coordinates));
       coordinates = on_sphere.data();
     }
     object.transfer->evaluate(n, coordinates, values);
@@ -129,7 +123,7 @@ pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement pl
         throw Error(ErrorKind::argument,
                     "argument placement belongs to another context than the transfer");
       NodalResults& results = target->placement->results();
-      if (!is_of_sphere(object.chart, target->placement->chart()))
+      if (object.sphere_radius != results.sphere_radius())
         throw Error(ErrorKind::argument,
                     "argument placement is not on the sphere that the transfer's nodes are on");
       if (results.dimension() != object.transfer->dimension())

@@ -116,18 +116,7 @@ struct Nodes {
   void reserve(std::int64_t n) {
     if (n <= capacity()) return;
     require_fits_rank(n, "nodes");
-    for (int k = 0; k < Dim; ++k) {
-      grow_labelled(x[k], "pnpbs::Nodes::x", n);
-      grow_labelled(v[k], "pnpbs::Nodes::v", n);
-      grow_labelled(reference[k], "pnpbs::Nodes::reference", n);
-    }
-    grow_labelled(d, "pnpbs::Nodes::d", n);
-    grow_labelled(id, "pnpbs::Nodes::id", n);
-    grow_labelled(tag, "pnpbs::Nodes::tag", n);
-    grow_labelled(carrier, "pnpbs::Nodes::carrier", n);
-    grow_labelled(boundary_node, "pnpbs::Nodes::boundary_node", n);
-    grow_labelled(owned, "pnpbs::Nodes::owned", n);
-    if constexpr (Dim == 3) grow_labelled(reference_on, "pnpbs::Nodes::reference_on", n);
+    for_arrays([&](auto& array, const char* label) { grow_labelled(array, label, n); });
     spare_ = Spare();
   }
 
@@ -169,7 +158,7 @@ struct Nodes {
   // The same nodes with values of their own, to be put back later.
   Nodes copy() const {
     Nodes copied = *this;
-    copied.for_arrays([this](auto& array) { copy_array(array, count + 1); });
+    copied.for_arrays([this](auto& array, const char*) { copy_array(array, count + 1); });
     copied.spare_ = Spare();
     copied.order_ = {};
     return copied;
@@ -195,18 +184,7 @@ struct Nodes {
   // into spare ones that are kept: nothing is allocated from one rebuild of the lists to the next.
   void permute(const View<std::int32_t>& from) {
     make_spare();  // a lack of memory changes no array, or all would be in different orders
-    for (int k = 0; k < Dim; ++k) {
-      permute_array(x[k], spare_.real, from);
-      permute_array(v[k], spare_.real, from);
-      permute_array(reference[k], spare_.real, from);
-    }
-    permute_array(d, spare_.real, from);
-    permute_array(id, spare_.id, from);
-    permute_array(tag, spare_.integer, from);
-    permute_array(carrier, spare_.carrier, from);
-    permute_array(boundary_node, spare_.integer, from);
-    permute_array(owned, spare_.flag, from);
-    if constexpr (Dim == 3) permute_array(reference_on, spare_.integer, from);
+    for_arrays([&](auto& array, const char*) { permute_array(array, spare_for(array), from); });
     ++arrangement_;
   }
 
@@ -248,21 +226,21 @@ struct Nodes {
     }
   }
 
-  // Calls visit(array) for each attribute of the nodes.
+  // Calls visit(array, label) for each attribute of the nodes.
   template <class Visit>
   void for_arrays(const Visit& visit) {
     for (int k = 0; k < Dim; ++k) {
-      visit(x[k]);
-      visit(v[k]);
-      visit(reference[k]);
+      visit(x[k], "pnpbs::Nodes::x");
+      visit(v[k], "pnpbs::Nodes::v");
+      visit(reference[k], "pnpbs::Nodes::reference");
     }
-    visit(d);
-    visit(id);
-    visit(tag);
-    visit(carrier);
-    visit(boundary_node);
-    visit(owned);
-    if constexpr (Dim == 3) visit(reference_on);
+    visit(d, "pnpbs::Nodes::d");
+    visit(id, "pnpbs::Nodes::id");
+    visit(tag, "pnpbs::Nodes::tag");
+    visit(carrier, "pnpbs::Nodes::carrier");
+    visit(boundary_node, "pnpbs::Nodes::boundary_node");
+    visit(owned, "pnpbs::Nodes::owned");
+    if constexpr (Dim == 3) visit(reference_on, "pnpbs::Nodes::reference_on");
   }
 
   template <class T>
@@ -309,6 +287,12 @@ struct Nodes {
     View<char> flag;
     View<Carrier> carrier;
   };
+  View<double>& spare_for(const NodeArray<double>&) { return spare_.real; }
+  View<std::int64_t>& spare_for(const NodeArray<std::int64_t>&) { return spare_.id; }
+  View<std::int32_t>& spare_for(const NodeArray<std::int32_t>&) { return spare_.integer; }
+  View<char>& spare_for(const NodeArray<char>&) { return spare_.flag; }
+  View<Carrier>& spare_for(const NodeArray<Carrier>&) { return spare_.carrier; }
+
   Spare spare_;
   View<std::int32_t> order_;
   std::int64_t arrangement_ = 0, positions_ = 0, references_ = 0, referenced_at_ = -1;

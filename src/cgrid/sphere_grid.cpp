@@ -308,7 +308,7 @@ double SphereGrid::area(std::int32_t node) const {
 
 std::unique_ptr<SphereGrid> make_sphere_grid(Results<2>& results) {
   auto grid = std::make_unique<SphereGrid>();
-  grid->radius = results.chart()->radius();
+  grid->radius = results.sphere_radius();
   Builder(results, *grid).build();
   return grid;
 }

@@ -48,27 +48,26 @@ bool BoundaryRoom<Dim>::any_nearer(const Point<Dim>& x, double reach) const {
 // Of an edge: how far its ends are within reach, in mean d. Nothing from behind, where x would not
 // see them.
 template <int Dim>
-double BoundaryRoom<Dim>::push_of(std::int32_t f, const Point<Dim>& x, double d) const {
-  if constexpr (Dim == 2) {
-    constexpr double kPoint = 1.53;  // that one node alone takes what any other does: 1 / density
-    const BoundaryEdge& edge = map_.facet(f);
-    const auto& [a, b] = map_.corners(f);
-    const auto from = [&](std::int32_t node, const Point<2>& at) {
-      const double mean = 0.5 * (d + d_[static_cast<std::size_t>(node)]);
-      return std::max(0.0, reach_ - distance<2>(at, x) / mean);
-    };
-    if (edge.begin == edge.end) return kPoint * from(edge.begin, a);
-    const double left = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
-    if (left > 0 ? !edge.left_inside : !edge.right_inside) return 0;
-    return 0.5 * (from(edge.begin, a) + from(edge.end, b));
-  }
-  return 0;
+double BoundaryRoom<Dim>::push_of(std::int32_t f, const Point<2>& x, double d) const
+    requires(Dim == 2) {
+  constexpr double kPoint = 1.53;  // that one node alone takes what any other does: 1 / density
+  const BoundaryEdge& edge = map_.facet(f);
+  const auto& [a, b] = map_.corners(f);
+  const auto from = [&](std::int32_t node, const Point<2>& at) {
+    const double mean = 0.5 * (d + d_[static_cast<std::size_t>(node)]);
+    return std::max(0.0, reach_ - distance<2>(at, x) / mean);
+  };
+  if (edge.begin == edge.end) return kPoint * from(edge.begin, a);
+  const double left = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
+  if (left > 0 ? !edge.left_inside : !edge.right_inside) return 0;
+  return 0.5 * (from(edge.begin, a) + from(edge.end, b));
 }
 
 template <int Dim>
 bool BoundaryRoom<Dim>::holds(const Point<Dim>& x, double d) const {
-  if constexpr (Dim == 3) return any_nearer(x, reach_ * d);
-  if constexpr (Dim == 2) {
+  if constexpr (Dim == 3) {
+    return any_nearer(x, reach_ * d);
+  } else {
     double sum = 0, limit = power<2>(reach_ * d);
     boxes_.for_near(
         x, [&] { return limit; },

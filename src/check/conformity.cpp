@@ -23,7 +23,7 @@ bool in_no_element(const Level<2>& level, std::int64_t i) {
   return none;
 }
 bool in_no_element(const Level<3>& level, std::int64_t i) {
-  if (!level.ground.surfaces_alone()) return level.stars.size(i) == 0;
+  if (level.ground.kind() != GeometryKind::surface) return level.stars.size(i) == 0;
   bool none = true;
   level.stars.for_triangles(i, [&](const std::array<std::int32_t, 2>&) { none = false; });
   return none;
@@ -32,7 +32,7 @@ bool in_no_element(const Level<3>& level, std::int64_t i) {
 FoundNodes<2> unmatched_edges(const Results<2>&, std::vector<Point<2>>&) { return {}; }
 FoundNodes<3> unmatched_edges(const Results<3>& results, std::vector<Point<3>>& places) {
   FoundNodes<3> found;
-  if (!results.surfaces_alone()) return found;
+  if (results.kind() != GeometryKind::surface) return found;
   for_unmatched_edges(results, [&](const SurfaceEdge& edge) {
     found.add(1, edge.low, edge.at);
     places.push_back(edge.at);
@@ -45,17 +45,19 @@ ElementMeasure measure_in(const Results<3>& results) { return measure_if_far_off
 
 BoundaryTopology topology_of(const Results<2>&, Conformity<2>&) { return {}; }
 BoundaryTopology topology_of(const Results<3>& results, Conformity<3>& result) {
-  return results.surfaces_alone() ? BoundaryTopology{} : boundary_topology(results, result.torn);
+  return results.kind() == GeometryKind::surface ? BoundaryTopology{}
+                                                 : boundary_topology(results, result.torn);
 }
 
 FoundNodes<2> flat_in(const Results<2>&, std::vector<Point<2>>&) { return {}; }
 FoundNodes<3> flat_in(const Results<3>& results, std::vector<Point<3>>& places) {
-  return results.surfaces_alone() ? FoundNodes<3>{} : flat_elements(results.level(), places);
+  return results.kind() == GeometryKind::surface ? FoundNodes<3>{}
+                                                 : flat_elements(results.level(), places);
 }
 
 const char* elements_of(const Results<2>&) { return "triangle"; }
 const char* elements_of(const Results<3>& results) {
-  return results.surfaces_alone() ? "triangle" : "tetrahedron";
+  return results.kind() == GeometryKind::surface ? "triangle" : "tetrahedron";
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ class Measuring : public VolumeNodeCheck {
  public:
   explicit Measuring(const Results<3>& results)
       : VolumeNodeCheck(results),
-        alone_(results.surfaces_alone()),
+        alone_(results.kind() == GeometryKind::surface),
         domain_(alone_ ? ground_.domain().area() : ground_.measure()) {}
 
   ElementMeasure all() const {

@@ -158,7 +158,7 @@ void VolumeResultCheck::check_volume(bool fills) const {
 std::optional<MessageText> check_results(Results<3>& results) {
   results.prepare_stars();
   const Conformity<3> conformity = conformity_of(results);
-  if (results.surfaces_alone())
+  if (results.kind() == GeometryKind::surface)
     check_surfaces(results, conformity.fills());
   else
     VolumeResultCheck(results, conformity).check();

@@ -25,7 +25,8 @@ class Fingerprint {
 
 std::uint64_t fingerprint_of(const PlaneDomain& domain) {
   Fingerprint print;
-  if (const StereographicChart* chart = domain.chart()) print.add(chart->projected_from());
+  if (const Embedding<2>& in = domain.embedding(); in.is_sphere())
+    print.add(in.chart().projected_from());
   // How a whole sphere is closed depends on the spacing.
   const bool whole = domain.is_whole_sphere();
   for (const BoundaryCurve& curve : domain.curves()) {

@@ -193,9 +193,6 @@ double nodes_in(const DomainMap<Dim>& map, const Domain<Dim>& domain,
   return packed.density * room_inside<Dim>(map, measure_of(domain), evaluator, boundary, samples);
 }
 
-bool is_filled(const PlaneDomain&) { return true; }
-bool is_filled(const VolumeDomain& domain) { return domain.filled(); }
-
 // Those that close a sphere stand where others would.
 double nodes_on_boundary(const PlaneDomain& domain, const BoundaryMesh<2>& boundary,
                          const SpacingEvaluator<2>&) {
@@ -237,7 +234,7 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
         comm, domain.bounds(), boundary, evaluator, std::numeric_limits<std::int64_t>::max(),
         [&](const BackgroundTree<Dim>& tree, std::int32_t c, double in_cell) {
           return tree.cell(c).depth < kUniformDepth || in_cell > max ||
-                 chart_varies(domain, tree.cell_box(c));
+                 domain.embedding().varies_much_in(tree.cell_box(c));
         },
         kLevelRefinement<Dim>);
     const bool last = pass + 1 == passes;
@@ -246,12 +243,12 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
       if (last && run.first_row)
         nodes += more_by_first_row(map, evaluator, many ? kManyEdges : kFewEdges);
     });
-    if (is_filled(domain)) nodes += on_boundary;
+    if (domain.kind() != GeometryKind::surface) nodes += on_boundary;
     max = nodes / cells;
   }
   return {nodes, steepest_growth<Dim>(
                      comm, map, [](std::int32_t) { return true; }, evaluator,
-                     spacing.known_values(), chart_of(domain))};
+                     spacing.known_values(), domain.embedding())};
 }
 
 template NodeEstimate<2> estimate_nodes<2>(const Communicator&, const Domain<2>&, const Spacing<2>&,

@@ -5,12 +5,11 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <type_traits>
 #include <vector>
 
 #include "base/types.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
@@ -56,7 +55,7 @@ struct BoundaryMesh {
   // Nodes placed on the facets are no farther from them than this: those of a level set are where
   // it is 0, which may be in a cell of a background tree that no facet meets.
   double node_distance = 0;
-  std::optional<StereographicChart> chart{};  // of the sphere that all is on, if it is on one
+  Embedding<Dim> embedding{};  // of all points
 };
 
 // Where the corners of a facet are.

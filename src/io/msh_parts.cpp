@@ -85,7 +85,7 @@ class MshPart {
   // Those of all ranks, on each of them.
   void find_groups() {
     groups_[kMshFacets] = tagged_groups(contents(mesh_.corners - 1), boxes_by_tag(kMshFacets));
-    if (mesh_.surfaces_alone) {
+    if (mesh_.kind == GeometryKind::surface) {
       groups_[kMshElements] = tagged_groups(contents(mesh_.corners), boxes_by_tag(kMshElements));
     } else {
       find_regions();
@@ -161,7 +161,7 @@ class MshPart {
   // Of nodes inside, that of their elements.
   void find_regions_of_nodes() {
     node_regions_.assign(mesh_.numbers.size(), 0);
-    if (mesh_.surfaces_alone) return;
+    if (mesh_.kind == GeometryKind::surface) return;
     const auto n = static_cast<std::size_t>(mesh_.corners);
     for (std::size_t e = 0; e < mesh_.element_tags.size(); ++e)
       for (std::size_t k = n * e; k < n * (e + 1); ++k) {
@@ -173,9 +173,9 @@ class MshPart {
   // Of a tag that only the node has: inside.
   EntityPart part_of_node(std::size_t i) const {
     const std::int32_t tag = mesh_.tags[i], owner = mesh_.owners[i];
-    const std::int32_t tag_within = mesh_.surfaces_alone ? tag : node_regions_[i];
+    const std::int32_t tag_within = mesh_.kind == GeometryKind::surface ? tag : node_regions_[i];
     const bool within = group_of(groups_[kMshElements], tag_within) != nullptr;
-    if (group_of(groups_[kMshFacets], tag) && !(within && mesh_.surfaces_alone))
+    if (group_of(groups_[kMshFacets], tag) && !(within && mesh_.kind == GeometryKind::surface))
       return part(kMshFacets, tag, owner);
     return within ? part(kMshElements, tag_within, owner) : EntityPart{kMshElements, 0, owner};
   }

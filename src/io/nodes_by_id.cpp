@@ -114,13 +114,7 @@ NodesById<Dim>::NodesById(Results<Dim>& results, bool elements,
   std::vector<std::int64_t> counts{owned_, 0, 0};
   if (elements) {
     results.for_elements([&](const auto&) { ++counts[1]; });
-    const auto count_facet = [&](const auto&...) { ++counts[2]; };
-    if constexpr (Dim == 2) {
-      results.for_boundary_facets(count_facet);
-    } else {
-      results.for_open_facets(count_facet);
-      results.for_inner_facets(count_facet);
-    }
+    results.for_facets_without_tags([&](const auto&) { ++counts[2]; });
   }
   comm_.allreduce_sum(counts);
   contents_.nodes = counts[0];
@@ -300,11 +294,9 @@ std::vector<TagGroup> NodesById<Dim>::node_groups() const {
 template <int Dim>
 std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
   TagGroups groups;
-  const auto add = [&](const auto& places, std::int32_t tag) {
+  results_.for_facets([&](const auto& places, std::int32_t tag) {
     groups.add(tag, places_in_space(results_, places));
-  };
-  results_.for_boundary_facets(add);
-  if constexpr (Dim == 3) results_.for_inner_facets(add);
+  });
   return groups.of_all(comm_);
 }
 

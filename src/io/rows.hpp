@@ -15,6 +15,7 @@ constexpr std::int64_t kWindow = 8192;
 
 // Of a triangle 2 r_in / R, of a tetrahedron 3 r_in / R: 1 for an equilateral one, 0 for a flat
 // one.
+inline float quality_of(const std::array<Point<2>, 2>&) { return 0; }  // edges have none
 float quality_of(const std::array<Point<2>, 3>& triangle);
 float quality_of(const std::array<Point<3>, 3>& triangle);
 float quality_of(const std::array<Point<3>, 4>& tetrahedron);
@@ -41,24 +42,20 @@ std::array<Point<3>, n> places_in_space(const Results<Dim>& results,
 // Of an element, see ElementRows.
 template <int Dim, std::size_t n>
 float element_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {
-  if constexpr (Dim == 2)
-    if (results.chart()) return quality_of(places_in_space(results, places));
+  if (results.embedding().is_sphere()) return quality_of(places_in_space(results, places));
   return quality_of(positions_at(results, places));
 }
 
 // Of a facet: see FacetRows.
 template <int Dim, std::size_t n>
 float facet_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {
-  if constexpr (Dim == 3)
-    return quality_of(positions_at(results, places));
-  else
-    return 0;
+  return quality_of(positions_at(results, places));
 }
 
 template <int Dim>
 Cells cells_of(const Results<Dim>& results, bool elements) {
   if (!elements) return Cells::nodes;
-  return results.surfaces_alone() ? Cells::facets : Cells::elements;
+  return results.kind() == GeometryKind::surface ? Cells::facets : Cells::elements;
 }
 
 // Makes ready what for_elements and for_facets need, or only the order. Collective.

@@ -70,16 +70,10 @@ OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
       ++contents_.elements;
       for (const std::int64_t place : places) know(place);
     });
-    const auto add = [&](const auto& places, auto...) {
+    results.for_facets_without_tags([&](const auto& places) {
       ++contents_.facets;
       for (const std::int64_t place : places) know(place);
-    };
-    if constexpr (Dim == 3) {
-      results.for_open_facets(add);
-      results.for_inner_facets(add);
-    } else {
-      results.for_boundary_facets(add);
-    }
+    });
   }
   contents_.nodes = owned_ + static_cast<std::int64_t>(ghosts_.size());
 }
@@ -352,8 +346,8 @@ void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& c
 }
 
 Wished wished_of(const Placement& placement) {
-  const bool surfaces_alone = placement.results().surfaces_alone();
-  return {placement.dimension(), !surfaces_alone, surfaces_alone, placement.chart() != nullptr};
+  const GeometryKind kind = placement.results().kind();
+  return {placement.dimension(), kind != GeometryKind::surface, kind};
 }
 
 void give_up_if_asked(const AsksToStop& asks_to_stop, std::size_t done, std::size_t files) {
@@ -375,11 +369,11 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
   require_possible(path, format, elements, of.dimension);
-  if (format.write == write_gadget && of.on_sphere)
+  if (format.write == write_gadget && of.kind == GeometryKind::sphere)
     refuse("a .hdf5 file is of gas in the plane or in space, none on a sphere: '" + path + "'");
-  if (format.of == Of::spheres && !of.on_sphere)
+  if (format.of == Of::spheres && of.kind != GeometryKind::sphere)
     refuse(std::string("a .") + format.name + " file is of the cells of a sphere: '" + path + "'");
-  if (of.surfaces_alone && format.of == Of::bodies && !format.fields.empty())
+  if (of.kind == GeometryKind::surface && format.of == Of::bodies && !format.fields.empty())
     refuse(std::string("a .") + format.name + " file is of bodies, none of surfaces alone: '" +
            path + "'");
   const bool holds_elements =

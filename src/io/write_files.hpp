@@ -25,8 +25,7 @@ struct FileWish {
 struct Wished {
   int dimension = 2;
   bool has_elements = false;
-  bool surfaces_alone = false;
-  bool on_sphere = false;
+  GeometryKind kind = GeometryKind::plane;
 };
 
 Wished wished_of(const Placement& placement);

@@ -40,7 +40,7 @@ std::vector<double> wanted_on_surfaces(const Level<2>&) { return {}; }
 // all of them.
 template <int Dim>
 std::vector<double> wanted_nodes(const Level<Dim>& level) {
-  if (level.ground.surfaces_alone()) return wanted_on_surfaces(level);
+  if (level.ground.kind() == GeometryKind::surface) return wanted_on_surfaces(level);
   const DomainMap<Dim>& map = level.map();
   const BackgroundTree<Dim>& tree = map.tree();
   std::uint64_t inside = 0, crossed = 0;  // areas or volumes
@@ -80,12 +80,12 @@ namespace {
 // sphere, which is not filled.
 double growth_of_chart(const Level<2>& level, std::int32_t leaf, double d) {
   constexpr double kTooMuch = 0.5;  // over a leaf
-  const StereographicChart* chart = level.ground.domain().chart();
-  if (!chart) return 0;
+  const Embedding<2>& embedding = level.ground.domain().embedding();
+  if (!embedding.is_sphere()) return 0;
   const BackgroundTree<2>& tree = level.map().tree();
   const std::int32_t cell = tree.leaf_cell(leaf);
   const Point<2> centre = tree.cell_centre(cell);
-  const double growth = chart->relative_growth(centre), side = tree.cell_side(cell);
+  const double growth = embedding.chart().relative_growth(centre), side = tree.cell_side(cell);
   const Point<2> outermost{centre[0] + std::copysign(side / 2, centre[0]),
                            centre[1] + std::copysign(side / 2, centre[1])};
   if (growth * side > kTooMuch || level.ground.domain().is_in_patch(outermost))

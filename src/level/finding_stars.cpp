@@ -126,19 +126,20 @@ void find_owned_stars(Level<3>& level, const KnownRegion<3>& known,
   count_stars(level, wanted);
 }
 
-template <int Dim>
-void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known, bool taken_hold) {
-  if constexpr (Dim == 3) {
-    const bool kept = level.stars_before.any() && known.is_everywhere();
-    if (kept && !level.ground.surfaces_alone()) {
-      begin_stars(level, known, taken_hold);
-      return find_owned_stars(level, known, owned_without_star(level));
-    }
+void build_stars(Level<2>& level, const KnownRegion<2>& known, bool) {
+  const PhaseTimer timer(level.timers, Phase::stars);
+  level.timers.add(Phase::stars, {level.nodes.count, level.owned_count()});
+  level.stars.build(star_input(level, known));
+}
+void build_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) {
+  const bool on_surfaces = level.ground.kind() == GeometryKind::surface;
+  if (!on_surfaces && level.stars_before.any() && known.is_everywhere()) {
+    begin_stars(level, known, taken_hold);
+    return find_owned_stars(level, known, owned_without_star(level));
   }
   const PhaseTimer timer(level.timers, Phase::stars);
   level.timers.add(Phase::stars, {level.nodes.count, level.owned_count()});
-  if constexpr (Dim == 3)
-    if (level.ground.surfaces_alone()) return level.stars.build(surface_star_input(level, known));
+  if (on_surfaces) return level.stars.build(surface_star_input(level, known));
   level.stars.build(star_input(level, known));
 }
 
@@ -172,7 +173,8 @@ class UnknownBoxes {
   void ask_in_cap(std::int64_t i) {
     const double length = level_.stars.needs(i);
     if (length == 0) return;
-    const SphereCap cap(*level_.ground.domain().chart(), level_.nodes.position(i), length);
+    const SphereCap cap(level_.ground.domain().embedding().chart(), level_.nodes.position(i),
+                        length);
     known_.for_unknown_leaves(
         level_.tree->tree(), [&](const Box<2>& box) { return cap.meets(box); },
         [&](std::int32_t leaf) { leaves_.insert(leaf); });
@@ -318,16 +320,12 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
 
 }  // namespace
 
-template <int Dim>
-bool stars_hold(Level<Dim>& level) {
-  if constexpr (Dim == 2) {
-    return false;
-  } else {
-    if (level.ground.surfaces_alone()) return false;
-    const std::uint64_t before = level.stars_before.digest();
-    level.stars_digest = node_digest(level);
-    return level.comm->allreduce_sum(std::uint64_t{before != level.stars_digest}) == 0;
-  }
+bool stars_hold(Level<2>&) { return false; }
+bool stars_hold(Level<3>& level) {
+  if (level.ground.kind() == GeometryKind::surface) return false;
+  const std::uint64_t before = level.stars_before.digest();
+  level.stars_digest = node_digest(level);
+  return level.comm->allreduce_sum(std::uint64_t{before != level.stars_digest}) == 0;
 }
 
 template <int Dim>
@@ -338,42 +336,36 @@ void rebuild_stars(Level<Dim>& level) {
   level.stars_before.forget();
 }
 
-template <int Dim>
-bool restore_stars(Level<Dim>& level) {
-  if constexpr (Dim == 2) {
-    if (level.distributed()) return false;
-    const PhaseTimer timer(level.timers, Phase::stars);
-    return restore_by_flips(level.nodes, level.ground.sectors(), level.stars);
-  }
-  return false;
+bool restore_stars(Level<2>& level) {
+  if (level.distributed()) return false;
+  const PhaseTimer timer(level.timers, Phase::stars);
+  return restore_by_flips(level.nodes, level.ground.sectors(), level.stars);
 }
+bool restore_stars(Level<3>&) { return false; }
 
-template <int Dim>
-std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known,
-                                 const StarZone& zone, bool taken_hold) {
-  std::vector<Box<Dim>> unknown;
-  if constexpr (Dim == 3)
-    if (level.distributed() && !level.ground.surfaces_alone()) {
-      std::vector<std::int64_t> at_border;
-      agreed(*level.comm, [&] {
-        at_border = nodes_at_border(level.nodes, level.lists());
-        unknown = find_border_stars(level, known, at_border, zone, taken_hold);
-      });
-      if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
-      agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, zone.rings); });
-      return unknown;
-    }
+std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known, const StarZone& zone,
+                               bool taken_hold) {
+  std::vector<Box<2>> unknown;
   agreed(*level.comm, [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
   return unknown;
 }
+std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known, const StarZone& zone,
+                               bool taken_hold) {
+  std::vector<Box<3>> unknown;
+  if (!level.distributed() || level.ground.kind() == GeometryKind::surface) {
+    agreed(*level.comm, [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
+    return unknown;
+  }
+  agreed(*level.comm, [&] {
+    const std::vector<std::int64_t> at_border = nodes_at_border(level.nodes, level.lists());
+    unknown = find_border_stars(level, known, at_border, zone, taken_hold);
+  });
+  if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
+  agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, zone.rings); });
+  return unknown;
+}
 
-template bool stars_hold(Level<2>&);
-template bool stars_hold(Level<3>&);
-template std::vector<Box<2>> find_stars(Level<2>&, const KnownRegion<2>&, const StarZone&, bool);
-template std::vector<Box<3>> find_stars(Level<3>&, const KnownRegion<3>&, const StarZone&, bool);
 template void rebuild_stars(Level<2>&);
 template void rebuild_stars(Level<3>&);
-template bool restore_stars(Level<2>&);
-template bool restore_stars(Level<3>&);
 
 }  // namespace pnpbs

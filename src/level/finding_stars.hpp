@@ -13,15 +13,16 @@ namespace pnpbs {
 
 // Has no node moved, come or gone, on any rank, since the stars were found that were taken last?
 // From now on level.stars_digest is that of the nodes now. In the plane: no. Collective.
-template <int Dim>
-bool stars_hold(Level<Dim>& level);
+bool stars_hold(Level<2>& level);
+bool stars_hold(Level<3>& level);
 
 // Finds the stars of the owned nodes and of the ghosts in that zone around them; if those taken
 // hold, only what is missing. Returns what must be known for those that it could not find; nothing
 // on all ranks: they are all there. Collective.
-template <int Dim>
-std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known,
-                                 const StarZone& zone, bool taken_hold);
+std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known, const StarZone& zone,
+                               bool taken_hold);
+std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known, const StarZone& zone,
+                               bool taken_hold);
 
 // Of all nodes, on one rank.
 template <int Dim>
@@ -29,8 +30,8 @@ void rebuild_stars(Level<Dim>& level);
 
 // The same in the plane where those there are were found before the nodes moved a little, without
 // lists. False if they were not, or on several ranks: then they are as they were, or worth nothing.
-template <int Dim>
-bool restore_stars(Level<Dim>& level);
+bool restore_stars(Level<2>& level);
+bool restore_stars(Level<3>& level);
 
 // What the stars are made from; the region must outlive it.
 VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known);

@@ -30,5 +30,7 @@ class FinerPlaces : public AgreedError {
 
 // Throws FinerPlaces if there are any at nodes that move. Collective.
 void require_sampled_spacing(const Level<3>& level);
+// Checks nothing in the plane.
+inline void require_sampled_spacing(const Level<2>&) {}
 
 }  // namespace pnpbs

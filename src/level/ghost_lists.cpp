@@ -10,7 +10,7 @@ namespace pnpbs {
 
 ListsOf lists_of_stars(const Level<2>&) { return ListsOf::all_nodes; }
 ListsOf lists_of_stars(const Level<3>& level) {
-  return level.ground.surfaces_alone() ? ListsOf::all_nodes : ListsOf::owned_nodes;
+  return level.ground.kind() == GeometryKind::surface ? ListsOf::all_nodes : ListsOf::owned_nodes;
 }
 
 template <int Dim>

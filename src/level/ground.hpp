@@ -3,7 +3,7 @@
 // spacing, too, in space the surfaces and the nodes on their feature edges. It never changes.
 //
 // Ground<2> and Ground<3> have in common: bounds(), measure() (area or volume), spacing(),
-// surfaces_alone(), evaluator(), and boundary(), the facets that the background tree sorts.
+// kind(), evaluator(), and boundary(), the facets that the background tree sorts.
 #pragma once
 
 #include "level/plane/ground.hpp"

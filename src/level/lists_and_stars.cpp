@@ -139,7 +139,7 @@ void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone z
 
 template <int Dim>
 void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
-  if (level.ground.surfaces_alone()) zone.rings += AgreedTriangles::kRings;
+  if (level.ground.kind() == GeometryKind::surface) zone.rings += AgreedTriangles::kRings;
   level.changed_labels = {};
   KnownRegion<Dim> known = known_after_exchange(level, hops);
   const auto any = [&](const std::vector<Box<Dim>>& unknown) {

@@ -13,7 +13,7 @@ double widest_radius(const Settings& settings) {
 }
 
 double meeting_radius(const Settings& settings) {
-  return (settings.dimension == 3 ? method::kVolumeClearance : method::kBoundaryClearance) +
+  return (settings.bubble_dimension == 3 ? method::kVolumeClearance : method::kBoundaryClearance) +
          settings.motion.max_move * static_cast<double>(settings.event_interval);
 }
 
@@ -35,7 +35,7 @@ std::int64_t ghost_life(const Settings& settings) {
 }
 
 int deepest_hops(const Settings& settings) {
-  const int repair_hops = settings.dimension == 3 ? kRepairHops<3> : kRepairHops<2>;
+  const int repair_hops = settings.bubble_dimension == 3 ? kRepairHops<3> : kRepairHops<2>;
   // One more because nodes drift out of their leaves, and one to see who is beyond.
   return std::max({step_hops(settings), runge_kutta_hops(settings), kPopulationHops, kDefectHops,
                    repair_hops}) +

@@ -79,7 +79,7 @@ void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visi
   const Nodes<Dim>& nodes = level.nodes;
   // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
   const int pieces = pieces_of<Dim>(level.ground.spacing_at(nodes, i), d);
-  if (pieces < 2 || level.ground.surfaces_alone()) return;
+  if (pieces < 2 || level.ground.kind() == GeometryKind::surface) return;
   const Point<Dim> x = nodes.position(i);
   level.stars.for_neighbours(i, [&](std::int64_t j) {
     if (nodes.id(i) < nodes.id(j) && !on_one_edge(level.ground, nodes, i, j))
@@ -123,7 +123,7 @@ IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   constexpr std::int64_t kChunk = 512;
   level.nodes.set_reference_positions();
   exchange(level, kStarHops);
-  if (level.ground.surfaces_alone())
+  if (level.ground.kind() == GeometryKind::surface)
     agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
   else
     make_lists_and_stars(level, kStarHops, level.settings.list_radius, {});

@@ -40,7 +40,7 @@ void TimeIntegration<Dim>::step(Scheme scheme, Nodes<Dim>& nodes, Neighbourhood<
   scratch(nodes);
   if (settings.cubic_law)
     move_by(CubicLaw{}, scheme, nodes, neighbourhood.lists(), settings);
-  else if (settings.dimension < Dim)
+  else if (settings.bubble_dimension < Dim)
     move_by(OnSurface<LinearPush>{{1, settings.rest_length}}, scheme, nodes, neighbourhood.lists(),
             settings);
   else

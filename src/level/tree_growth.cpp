@@ -91,7 +91,7 @@ std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& sett
         comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
         [&](const BackgroundTree<Dim>& tree, std::int32_t c, double nodes) {
           return tree.cell(c).depth < kUniformDepth || nodes > max ||
-                 chart_varies(ground_.domain(), tree.cell_box(c));
+                 ground_.domain().embedding().varies_much_in(tree.cell_box(c));
         },
         kLevelRefinement<Dim>);
     work = expected_work(map_);
@@ -132,11 +132,11 @@ void LevelTree<Dim>::link_leaves(const Settings& settings) {
     reach.push_back(map_.leaf_empty(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
   }
   std::vector<double> stretch;
-  if constexpr (Dim == 2)
-    if (const StereographicChart* chart = ground_.domain().chart())
-      for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf)
-        stretch.push_back(
-            chart->most_stretch_in(map_.tree().cell_box(map_.tree().leaf_cell(leaf))));
+  const Embedding<Dim>& embedding = ground_.domain().embedding();
+  if (embedding.is_sphere())
+    for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf)
+      stretch.push_back(
+          embedding.most_stretch_in(map_.tree().cell_box(map_.tree().leaf_cell(leaf))));
   links_ =
       std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach), std::move(stretch));
 }

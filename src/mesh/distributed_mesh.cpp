@@ -228,10 +228,10 @@ void make(Results<Dim>& results, int layers, DistributedMesh& mesh) {
 std::unique_ptr<DistributedMesh> make_distributed_mesh(NodalResults& results, int layers) {
   auto mesh = std::make_unique<DistributedMesh>();
   mesh->dimension = results.coordinates();
-  mesh->surfaces_alone = results.surfaces_alone();
+  mesh->kind = results.kind();
   in_its_dimension(results, [&]<int Dim>(Results<Dim>& in) {
     mesh->names = in.domain().names();
-    if (in.surfaces_alone())
+    if (in.kind() == GeometryKind::surface)
       make<3>(in, layers, *mesh);
     else
       make<Dim + 1>(in, layers, *mesh);

@@ -15,9 +15,9 @@
 namespace pnpbs {
 
 struct DistributedMesh {
-  int dimension = 0;            // of coordinates
-  int corners = 0;              // of an element
-  bool surfaces_alone = false;  // elements are triangles of surfaces
+  int dimension = 0;  // of coordinates
+  int corners = 0;    // of an element
+  GeometryKind kind = GeometryKind::plane;
 
   // Owned ones first, in the order of their ids, so that their numbers count up; then the others,
   // by number.

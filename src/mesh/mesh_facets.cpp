@@ -107,8 +107,7 @@ std::vector<MeshFacet<Corners>> facets_of_owned_elements(const Results<Dim>& res
         corners[k] = numbers[static_cast<std::size_t>(places[k])];
       finder.add(corners[0], corners, tag);
     };
-    results.for_boundary_facets(add);
-    if constexpr (Dim == 3) results.for_inner_facets(add);
+    results.for_facets(add);
   }
   return deliver<MeshFacet<Corners>>(results.communicator(), finder.found());
 }

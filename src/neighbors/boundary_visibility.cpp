@@ -81,9 +81,9 @@ bool BoundaryVisibility::sees(std::int32_t b, std::int32_t c) const {
 // shells of nodes are within twice the radius, and such bubbles are several times as far away from
 // all that move.
 bool VisibilityPastEdges::far_along_sphere(std::int64_t i, std::int64_t j) const {
-  const StereographicChart& chart = *map.boundary().chart;
+  const Embedding<2>& embedding = map.boundary().embedding;
   const Point<2> x = near_edges.place_of(i), y = near_edges.place_of(j);
-  const double stretch_x = chart.stretch(x), stretch_y = chart.stretch(y);
+  const double stretch_x = embedding.stretch(x), stretch_y = embedding.stretch(y);
   const double along = std::max(nodes.d(i) / stretch_x, nodes.d(j) / stretch_y);
   const double far = 2 * near_edges.radius() * along;
   return squared_distance<2>(x, y) > far * far * stretch_x * stretch_y;

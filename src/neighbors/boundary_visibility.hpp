@@ -47,7 +47,7 @@ struct VisibilityPastEdges {
   // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2. Nor
   // may they be far apart along a sphere.
   bool visible(std::int64_t i, std::int64_t j) const {
-    if (map.boundary().chart && far_along_sphere(i, j)) return false;
+    if (map.boundary().embedding.is_sphere() && far_along_sphere(i, j)) return false;
     // Whatever lies between the two is within their distance of either, and that is at most
     // radius times the larger spacing.
     const bool i_wide = nodes.d(i) >= nodes.d(j);

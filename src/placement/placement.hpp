@@ -18,7 +18,6 @@
 #include "run/outcome.hpp"
 #include "run/run_state.hpp"
 #include "settings/options.hpp"
-#include "sphere/stereographic_chart.hpp"
 
 namespace pnpbs {
 
@@ -30,7 +29,6 @@ class Placement {
   virtual ~Placement() = default;
 
   virtual int dimension() const = 0;
-  virtual const StereographicChart* chart() const = 0;  // of the sphere that it is on, or null
   Options& options() { return options_; }
   const Options& options() const { return options_; }
   virtual void forget_nodes() = 0;  // lets go of everything that lives in Kokkos' memory

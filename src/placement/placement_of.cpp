@@ -65,8 +65,8 @@ void PlacementOf<Dim>::roll_back(PlacementBefore<Dim>& before) noexcept {
 // growth of d is not limited there.
 template <int Dim>
 Settings PlacementOf<Dim>::present_settings() const {
-  Settings settings(options_, results_.surfaces_alone() ? 2 : Dim);
-  if (results_.surfaces_alone()) settings.growth_limit = 0;
+  Settings settings(options_, bubble_dimension(results_.kind()));
+  if (results_.kind() == GeometryKind::surface) settings.growth_limit = 0;
   return settings;
 }
 
@@ -425,8 +425,8 @@ template <int Dim>
 void PlacementOf<Dim>::continue_from(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
                                      Patch<Dim> patch) {
   if (saved.spacing_saved)
-    now_.spacing =
-        field_from(std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch), chart()));
+    now_.spacing = field_from(
+        std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch), domain_->embedding()));
   now_.spacing.set_finer_places(finer_places_of<Dim>(saved));
   const Settings settings = settings_for_new_level();
   PlacedSpacing<Dim> placed;

@@ -34,7 +34,6 @@ class PlacementOf : public Placement {
         results_(comm_, domain_) {}
 
   int dimension() const override { return Dim; }
-  const StereographicChart* chart() const override { return chart_of(*domain_); }
   Domain<Dim>& domain() { return *domain_; }
   void set_spacing(std::shared_ptr<const Spacing<Dim>> spacing) {
     now_.spacing = field_from(std::move(spacing));

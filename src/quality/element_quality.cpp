@@ -328,8 +328,9 @@ namespace {
 
 SimplexQuality measure_simplices(const Communicator& comm, const MeasuredNodes<2>& measured,
                                  const DelaunayStars& stars) {
-  return measured.chart ? measure_simplices<SpaceTriangle, 2>(comm, measured, stars)
-                        : measure_simplices<PlaneTriangle, 2>(comm, measured, stars);
+  return measured.embedding.is_sphere()
+             ? measure_simplices<SpaceTriangle, 2>(comm, measured, stars)
+             : measure_simplices<PlaneTriangle, 2>(comm, measured, stars);
 }
 SimplexQuality measure_simplices(const Communicator& comm, const MeasuredNodes<3>& measured,
                                  const VolumeStars& stars) {

@@ -4,34 +4,30 @@
 #pragma once
 
 #include "base/nodes.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
 template <int Dim>
 struct MeasuredNodes {
   const Nodes<Dim>& nodes;
-  const StereographicChart* chart = nullptr;  // in the plane, of a sphere
+  Embedding<Dim> embedding{};
 
   double d(std::int64_t i) const {
-    if constexpr (Dim == 2)
-      if (chart) return nodes.d(i) / chart->stretch(nodes.position(i));
-    return nodes.d(i);
+    return embedding.measured_length(nodes.position(i), nodes.d(i));
   }
 
   double distance_between(std::int64_t i, std::int64_t j) const {
     return distance_to(i, nodes.position(j));
   }
   double distance_to(std::int64_t i, const Point<Dim>& x) const {
-    if constexpr (Dim == 2)
-      if (chart) return chart->distance(nodes.position(i), x);
-    return distance<Dim>(nodes.position(i), x);
+    return embedding.distance(nodes.position(i), x);
   }
 
   // As a corner of an element: in space those of the plane's nodes, which are in a chart.
   void put(std::int64_t i, Point<Dim>& corner) const { corner = nodes.position(i); }
   void put(std::int64_t i, Point<3>& corner) const requires(Dim == 2) {
-    corner = chart->on_sphere(nodes.position(i));
+    corner = embedding.in_space(nodes.position(i));
   }
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/geometry_kind.hpp"
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
 #include "comm/exchange_pattern.hpp"
@@ -53,8 +54,8 @@ class NodalResults {
   // Of what the nodes fill; a sphere is filled like the plane.
   virtual int dimension() const = 0;
   virtual int coordinates() const = 0;  // of a node, as they are handed out
-  // Whether the domain is surfaces alone, and of what its bubbles fill.
-  virtual bool surfaces_alone() const = 0;
+  virtual GeometryKind kind() const = 0;
+  virtual double sphere_radius() const = 0;  // 0 if the domain is not on a sphere
   const Communicator& communicator() const { return *comm_; }
   const std::shared_ptr<const Communicator>& ranks() const { return comm_; }
 

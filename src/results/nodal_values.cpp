@@ -43,7 +43,7 @@ void for_rim_facets(const Results<3>& results, const Visit& visit) {
   results.for_open_facets([&](const std::array<std::int64_t, 3>& places) {
     std::int64_t behind = -1;
     const std::int64_t a = results.node_at(places[1]), b = results.node_at(places[2]);
-    if (!results.surfaces_alone())
+    if (results.kind() != GeometryKind::surface)
       level.stars.for_simplices(results.node_at(places[0]), [&](const auto& others) {
         std::int64_t third = -1;
         int shared = 0;
@@ -156,7 +156,8 @@ std::shared_ptr<const Spacing<Dim>> spacing_from(Results<Dim>& results,
   values.resize(patch.nodes.size());
   fill_ghosts(results.communicator(), *results.exchange_pattern(), values);
   for (std::size_t p = 0; p < values.size(); ++p) patch.nodes[p].value = values[p];
-  return std::make_shared<NodalSpacing<Dim>>(results.ranks(), std::move(patch), results.chart());
+  return std::make_shared<NodalSpacing<Dim>>(results.ranks(), std::move(patch),
+                                             results.embedding());
 }
 
 template Patch<2> patch_of(Results<2>&);

@@ -161,7 +161,7 @@ NodeColumns Results<Dim>::nodes() const {
   NodeColumns columns{nodes.count,       {}, nodes.d.view(), nodes.id.view(), nodes.tag.view(),
                       nodes.owned.view()};
   for (std::size_t k = 0; k < Dim; ++k) columns.x[k] = nodes.x[k].view();
-  if (!chart()) return columns;
+  if (!embedding().is_sphere()) return columns;
   put_on_sphere();
   for (std::size_t k = 0; k < 3; ++k) columns.x[k] = on_sphere_[k];
   columns.d = spacing_on_sphere_;
@@ -184,16 +184,12 @@ void Results<Dim>::put_on_sphere() const {
 
 template <int Dim>
 Point<3> Results<Dim>::place_in_space(std::int64_t node) const {
-  const Point<Dim> x = level_->nodes.position(node);
-  if constexpr (Dim == 2)
-    return chart() ? chart()->on_sphere(x) : Point<3>{x[0], x[1], 0};
-  else
-    return x;
+  return embedding().in_space(level_->nodes.position(node));
 }
 
 template <int Dim>
 double Results<Dim>::spacing_at(std::int64_t node) const {
-  return MeasuredNodes<Dim>{level_->nodes, chart()}.d(node);
+  return embedding().measured_length(level_->nodes.position(node), level_->nodes.d(node));
 }
 
 // ------------------------------------------------------------------ figures --------------------
@@ -218,7 +214,7 @@ template <int Dim>
 NearestNeighbourError Results<Dim>::spacing_error() {
   prepare_lists();
   const Nodes<Dim>& nodes = level_->nodes;
-  const MeasuredNodes<Dim> measured{nodes, chart()};
+  const MeasuredNodes<Dim> measured{nodes, embedding()};
   const AdjacencyList<Dim>& lists = level_->lists();
   // Nodes with no listed neighbour count as far as the lists reach.
   View<double> ratio;
@@ -252,11 +248,11 @@ const ElementQuality& Results<Dim>::element_quality() {
   prepare_stars();
   if (quality_stamp_ == level_->stamp()) return quality_;
   quality_ = measure_elements<Dim>(
-      *comm_, {level_->nodes, chart()}, level_->stars,
+      *comm_, {level_->nodes, embedding()}, level_->stars,
       [this](const View<double>& values) { level_->ghosts.fill(*comm_, values); });
   quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
   if constexpr (Dim == 3) {
-    if (!level_->ground.surfaces_alone()) {
+    if (level_->ground.kind() != GeometryKind::surface) {
       const LeastAngles least = least_angles(*level_, quality_.simplex.min_angle);
       quality_.simplex.min_angle_at_sharp_edges = least.at_sharp_edges;
       quality_.simplex.min_angle_elsewhere = least.elsewhere;

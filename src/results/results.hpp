@@ -31,8 +31,9 @@ class Results : public NodalResults {
   Level<Dim>* shown() const { return level_; }
 
   int dimension() const override { return Dim; }
-  int coordinates() const override { return chart() ? 3 : Dim; }
-  const StereographicChart* chart() const { return chart_of(*domain_); }
+  int coordinates() const override { return embedding().coordinates(); }
+  decltype(auto) embedding() const { return domain_->embedding(); }
+  double sphere_radius() const override { return embedding().radius(); }
   bool has_nodes() const override { return level_ != nullptr; }
   const Level<Dim>& level() const { return *level_; }
   // The user's, who may have changed it since.
@@ -87,10 +88,24 @@ class Results : public NodalResults {
   void for_inner_facets(const Visit& visit) const requires(Dim == 3) {
     for_inner_facets(0, count(), visit);
   }
-  bool surfaces_alone() const override {
-    if (level_) return level_->ground.surfaces_alone();
-    if constexpr (Dim == 3) return !domain_->filled();
-    return false;
+  GeometryKind kind() const override { return level_ ? level_->ground.kind() : domain_->kind(); }
+  // Calls visit(places of its nodes, tag) for every facet once, over all ranks: those of the
+  // boundary and, in space, those inside. After prepare_stars.
+  template <class Visit>
+  void for_facets(const Visit& visit) const {
+    for_boundary_facets(visit);
+    if constexpr (Dim == 3) for_inner_facets(visit);
+  }
+  // The same as visit(places of its nodes): in space a tag takes a search.
+  template <class Visit>
+  void for_facets_without_tags(const Visit& visit) const {
+    const auto without_tag = [&](const auto& places, auto...) { visit(places); };
+    if constexpr (Dim == 3) {
+      for_open_facets(without_tag);
+      for_inner_facets(without_tag);
+    } else {
+      for_boundary_facets(without_tag);
+    }
   }
   // Of a node, as it is handed out: on a sphere not that of the chart; z is 0 in the plane.
   Point<3> place_in_space(std::int64_t node) const;

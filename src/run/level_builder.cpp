@@ -73,7 +73,8 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPla
     const PhaseTimer timer(timers_, Phase::spacing);
     placed.steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
-        next->ground.evaluator(), placed.d.without_reductions().known_values(), chart_of(*domain_));
+        next->ground.evaluator(), placed.d.without_reductions().known_values(),
+        domain_->embedding());
   }
   if (too_steep(placed.steepest) && settings.growth_limit > 0) {
     next.reset();
@@ -109,7 +110,7 @@ MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::shared_ptr<Level<Dim>> l
   made.level->held_rounds = made.placed.held.rounds;
   context_.run.coarser_levels = 0;
   filled_levels_ = 0;
-  if (context_.results.surfaces_alone()) {
+  if (context_.results.kind() == GeometryKind::surface) {
     begin_on_surfaces(made, settings, before);
   } else if (before.level) {
     take_kept_nodes(made, *before.level);
@@ -128,19 +129,18 @@ void LevelBuilder<Dim>::take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before
   Level<Dim>& level = *made.level;
   IncomingNodes<Dim> kept = refined(before, made.placed.d);
   level.next_id = before.next_id;
-  if constexpr (Dim == 3) settle_surfaces(level, kept, made.outcome, LevelRole::surfaces, context_);
+  settle_surfaces(level, kept, made.outcome, LevelRole::surfaces, context_);
   made.taken = take(level, std::move(kept), level.next_id);
   // Where d was far larger, or the shape is thin.
   made.inserted = made.taken.numbered;
-  if constexpr (Dim == 3) made.inserted += fill_gaps_inside(level);
+  made.inserted += fill_gaps_inside(level);
   made.taken.left_out = 0;  // not the user's
 }
 
 template <int Dim>
 void LevelBuilder<Dim>::take_given_nodes(MadeLevel<Dim>& made, IncomingNodes<Dim> given) {
   Level<Dim>& level = *made.level;
-  if constexpr (Dim == 3)
-    settle_surfaces(level, given, made.outcome, LevelRole::surfaces, context_);
+  settle_surfaces(level, given, made.outcome, LevelRole::surfaces, context_);
   made.taken = take(level, std::move(given), level.next_id);
 }
 
@@ -148,8 +148,7 @@ template <int Dim>
 void LevelBuilder<Dim>::begin_anew(MadeLevel<Dim>& made, const Settings& settings) {
   int& coarser_levels = context_.run.coarser_levels;
   filled_levels_ = coarser_levels = coarser_levels_that_pay(*made.level, *domain_, made.placed.d);
-  if constexpr (Dim == 3)
-    coarser_levels = std::max(coarser_levels, surface_levels_that_pay(*made.level));
+  coarser_levels = std::max(coarser_levels, surface_levels_that_pay(*made.level));
   IncomingNodes<Dim> nodes;
   if (coarser_levels > 0) nodes = nodes_from_coarser_levels(made, settings, made.outcome);
   put_first_nodes(*made.level, nodes, 0, made.outcome);
@@ -222,22 +221,22 @@ template <int Dim>
 void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& from_coarser,
                                         int which, Outcome& outcome) {
   if constexpr (Dim == 3) {
-    if (context_.results.surfaces_alone()) {
+    if (context_.results.kind() == GeometryKind::surface) {
       put_on_surfaces(level, std::move(from_coarser));
       return;
     }
-    settle_surfaces(level, from_coarser, outcome,
-                    which > 0 ? LevelRole::coarser : LevelRole::surfaces, context_);
-    from_coarser = new_nodes<Dim>(std::move(from_coarser));
-    level.next_id = 0;
   }
+  settle_surfaces(level, from_coarser, outcome,
+                  which > 0 ? LevelRole::coarser : LevelRole::surfaces, context_);
+  from_coarser = new_nodes<Dim>(std::move(from_coarser));
+  level.next_id = 0;
   if (which > filled_levels_) return;  // surfaces alone
   if (which == filled_levels_) {
     fill(level, laid_nodes(level.ground, from_coarser));
     return;
   }
   take(level, std::move(from_coarser), 0);
-  if constexpr (Dim == 3) fill_gaps_inside(level);
+  fill_gaps_inside(level);
 }
 
 template <int Dim>

@@ -41,7 +41,7 @@ namespace {
 
 // Elements that can be used, but hardly: d is held down there next, if the user wants that.
 void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unresolved) {
-  if (level.ground.surfaces_alone()) return;
+  if (level.ground.kind() == GeometryKind::surface) return;
   const double min_angle = level.settings.min_angle,
                below = min_angle > 0 ? min_angle : method::kSmallAngle;
   SmallAngleElements found = small_angle_elements(level, below);

@@ -38,7 +38,7 @@ struct NodesByCarrier {
 // nodes that are to come, and parts of even work on the surfaces would have jagged borders inside.
 Settings settings_on_surfaces(const Level<3>& level) {
   Settings settings = surface_settings(level.settings);
-  if (!level.ground.surfaces_alone())
+  if (level.ground.kind() != GeometryKind::surface)
     settings.rebalance_above = std::numeric_limits<double>::infinity();
   return settings;
 }

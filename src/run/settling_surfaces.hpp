@@ -20,10 +20,14 @@ namespace pnpbs {
 // it is stopped. Collective.
 void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outcome, LevelRole role,
                      const LevelContext<3>& context);
+// Does nothing in the plane, where the nodes of the boundary are laid in their places.
+inline void settle_surfaces(Level<2>&, IncomingNodes<2>&, Outcome&, LevelRole,
+                            const LevelContext<2>&) {}
 
 // Coarser levels from which the nodes on surfaces come: where these are flat and d is even there,
 // one lattice fills each; else a few. Collective.
 int surface_levels_that_pay(const Level<3>& finest);
+inline int surface_levels_that_pay(const Level<2>&) { return 0; }
 
 // These of the surfaces, or a fill of them if there are none, become the nodes of a level of
 // surfaces alone, which the time loop moves. Returns how many of this rank's are too dense for d.

@@ -81,8 +81,7 @@ void Simulation<Dim>::event() {
   const Settings& settings = level_.settings;
   run_.last_speeds = speeds_of(level_);
   refresh_spacing(level_);
-  if constexpr (Dim == 3)
-    if (schedule_.role != LevelRole::coarser) require_sampled_spacing(level_);
+  if (schedule_.role != LevelRole::coarser) require_sampled_spacing(level_);
   const double population_until =
       std::floor(settings.population_share * static_cast<double>(most_steps(level_)));
   if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
@@ -113,7 +112,7 @@ void Simulation<Dim>::rebalance() {
 // Nodes given from outside may be so few that they take longer to multiply.
 template <int Dim>
 bool Simulation<Dim>::far_too_few() const {
-  if (level_.settings.dimension < Dim) return false;  // of surfaces it is not known
+  if (level_.settings.bubble_dimension < Dim) return false;  // of surfaces it is not known
   return nodes() < method::kFarTooFew * expected_nodes(level_);
 }
 
@@ -130,7 +129,7 @@ double Simulation<Dim>::distance_tolerance(int round) const {
   const double tolerance =
       (schedule_.role == LevelRole::result ? method::kDistanceToleranceOnFinest : 1) *
       method::kDistanceTolerance;
-  if (level_.settings.dimension == 2) return round == 0 ? tolerance : kNever;
+  if (level_.settings.bubble_dimension == 2) return round == 0 ? tolerance : kNever;
   if (schedule_.taken_over()) return round < 2 ? method::kDistanceOff : method::kDistanceFarOff;
   if (round >= 2) return kNever;
   return schedule_.role != LevelRole::result || schedule_.refined() ? tolerance

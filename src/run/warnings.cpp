@@ -61,7 +61,8 @@ std::optional<Warning> warning_of_coarse_spacing(const Level<3>& level,
 template <int Dim>
 MessageText reach_text(const GivenExtent<Dim>& extent, const Domain<Dim>& domain) {
   const std::string begin = std::string(". The ") + extent.name + " reaches ";
-  if (chart_of(domain)) return extent.on_sphere.empty() ? std::string() : begin + extent.on_sphere;
+  if (domain.embedding().is_sphere())
+    return extent.on_sphere.empty() ? std::string() : begin + extent.on_sphere;
   const Box<Dim>& bounds = domain.bounds();
   return begin + extent_text<Dim>(extent.box, bounds) + ", the domain " +
          extent_text<Dim>(bounds, bounds);
@@ -99,7 +100,7 @@ std::optional<Warning> warning_of_partial_extent(const Level<Dim>& level, const 
   const std::uint64_t all = comm.allreduce_sum(static_cast<std::uint64_t>(level.owned_count()));
   if (beyond.count == 0) return std::nullopt;
   const std::string name = extent->name;
-  if (beyond.count == static_cast<std::int64_t>(all) && chart_of(domain))
+  if (beyond.count == static_cast<std::int64_t>(all) && domain.embedding().is_sphere())
     throw AgreedError(ErrorKind::spacing, "the " + name +
                                               " of the spacing does not meet the domain: all " +
                                               std::to_string(all) +
@@ -158,7 +159,7 @@ std::vector<Warning> warnings_of_level(const Level<Dim>& level, const Domain<Dim
   warnings.insert(warnings.end(), level.ground.warnings().begin(), level.ground.warnings().end());
   if (too_steep(steepest))
     warnings.push_back(warning_of_growth(steepest, level.settings.growth_limit));
-  if (level.ground.surfaces_alone() && options.is_set("growth_limit") &&
+  if (level.ground.kind() == GeometryKind::surface && options.is_set("growth_limit") &&
       options.real("growth_limit") > 0)
     warnings.emplace_back(WarningCode::option_without_effect,
                           "the option growth_limit has no effect on surfaces alone");

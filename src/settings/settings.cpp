@@ -6,7 +6,7 @@ namespace pnpbs {
 Settings::Settings(const Options& options, int dim) : Settings(options.in(dim)) {}
 
 Settings::Settings(const Options& o)
-    : dimension(o.dimension()),
+    : bubble_dimension(o.dimension()),
       cubic_law(o.choice("law") == "cubic"),
       predictor_corrector(o.choice("scheme") == "predictor_corrector"),
       runge_kutta_finish(o.choice("finish") == "runge_kutta"),
@@ -40,8 +40,8 @@ Settings::Settings(const Options& o)
   motion.dt = o.real("time_step");
   motion.damping = o.real("damping");
   motion.max_move = o.real("max_move");
-  population.dimension = dimension;
-  population.ideal = dimension == 3 ? Lattice<3>::kIdealOverlap : Lattice<2>::kIdealOverlap;
+  population.dimension = bubble_dimension;
+  population.ideal = bubble_dimension == 3 ? Lattice<3>::kIdealOverlap : Lattice<2>::kIdealOverlap;
   population.delete_above = o.real("delete_above");
   population.insert_below = o.real("insert_below");
   population.mean_distance = o.real("mean_distance");

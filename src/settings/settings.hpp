@@ -21,7 +21,7 @@ struct Settings {
   Settings(const Options& options, int dimension);
   explicit Settings(const Options& options);
 
-  int dimension = 2;         // of what the bubbles fill: 3 inside a volume, 2 on a surface
+  int bubble_dimension = 2;  // of what the bubbles fill: 3 inside a volume, 2 on a surface
   bool cubic_law;            // equation (2) of the paper; otherwise DefaultLaw
   bool predictor_corrector;  // otherwise one force evaluation per step
   bool runge_kutta_finish;

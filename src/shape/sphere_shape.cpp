@@ -23,7 +23,7 @@ ShapePiece<3> piece_on_sphere(const ShapePiece<2>& piece, const StereographicCha
 Shape<3> shape_on_sphere(const PlaneDomain& domain) {
   Shape<3> shape;
   for (const ShapePiece<2>& piece : shape_of(domain))
-    shape.push_back(piece_on_sphere(piece, *domain.chart()));
+    shape.push_back(piece_on_sphere(piece, domain.embedding().chart()));
   return shape;
 }
 

@@ -98,9 +98,9 @@ class FromOtherSide : public Spacing<2> {
 };
 
 // Along the sphere, at the point that the chart is projected from.
-double spacing_at_point(const Spacing<2>& spacing, const StereographicChart& chart,
-                        const StereographicChart& other) {
+double spacing_at_point(const Spacing<2>& spacing, const StereographicChart& chart) {
   constexpr double kFirst = 1e-3;
+  const StereographicChart other = opposite_of(chart);
   const Point<2> at{0, 0};
   double d = 0;
   FromOtherSide(spacing, chart, other, kFirst * chart.radius()).evaluate(1, &at, &d);
@@ -184,7 +184,7 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
   const double radius = chart.radius();
   const StereographicChart other = opposite_of(chart);
   ClosingPatch patch;
-  patch.d = spacing_at_point(spacing, chart, other);
+  patch.d = spacing_at_point(spacing, chart);
   const double d = patch.d / radius;  // radians
   if (d > kMostAtPoint)
     throw Error(ErrorKind::spacing, "the spacing at the point that is named as outside is " +
@@ -211,9 +211,7 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
 
 bool is_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing) {
   if (!domain.closing()) return false;
-  const StereographicChart& chart = *domain.chart();
-  const StereographicChart other = opposite_of(chart);
-  const double d = spacing_at_point(spacing, chart, other);
+  const double d = spacing_at_point(spacing, domain.embedding().chart());
   return std::fabs(d / domain.closing()->d - 1) < kSameSpacing;
 }
 
@@ -224,11 +222,10 @@ std::shared_ptr<const PlaneDomain> closed_before_sizing(
     double wanted_nodes) {
   if (!domain->is_whole_sphere() || wanted_nodes == 0) return closed_for(domain, spacing);
   constexpr double kALittleLess = 0.99;
-  const StereographicChart& chart = *domain->chart();
-  const StereographicChart other = opposite_of(chart);
+  const StereographicChart& chart = domain->embedding().chart();
   const double even = std::sqrt(Lattice<2>::kDensity * area_of(chart) / wanted_nodes),
                d = std::min(even, kALittleLess * kMostAtPoint * chart.radius());
-  return closed_for(domain, spacing.coarsened(d / spacing_at_point(spacing, chart, other)));
+  return closed_for(domain, spacing.coarsened(d / spacing_at_point(spacing, chart)));
 }
 
 std::shared_ptr<const VolumeDomain> closed_before_sizing(
@@ -240,7 +237,7 @@ std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneD
                                               const Spacing<2>& spacing) {
   if (!domain->is_whole_sphere() || is_closed_for(*domain, spacing)) return domain;
   auto closed = std::make_shared<PlaneDomain>(*domain);
-  closed->close(closing_patch(*domain->chart(), spacing));
+  closed->close(closing_patch(domain->embedding().chart(), spacing));
   closed->check();
   return closed;
 }
@@ -252,16 +249,15 @@ std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const Volum
 
 bool can_be_closed(const PlaneDomain& domain, const Spacing<2>& spacing) {
   if (!domain.is_whole_sphere()) return true;
-  const StereographicChart& chart = *domain.chart();
-  const double d = spacing_at_point(spacing, chart, opposite_of(chart)) / chart.radius();
+  const StereographicChart& chart = domain.embedding().chart();
+  const double d = spacing_at_point(spacing, chart) / chart.radius();
   return d <= kMostAtPoint && domain.leaves_room_beyond(edge_in_chart(chart, last_of_patch(d)));
 }
 bool can_be_closed(const VolumeDomain&, const Spacing<3>&) { return true; }
 
 double factor_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing) {
   if (!domain.closing()) return 1;
-  const StereographicChart& chart = *domain.chart();
-  return domain.closing()->d / spacing_at_point(spacing, chart, opposite_of(chart));
+  return domain.closing()->d / spacing_at_point(spacing, domain.embedding().chart());
 }
 double factor_closed_for(const VolumeDomain&, const Spacing<3>&) { return 1; }
 

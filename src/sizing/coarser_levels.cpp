@@ -25,21 +25,20 @@ double coarser_by(int level) { return std::ldexp(1.0, level); }
 // between them, and each has dozens of edges near it. Of a coarser level with this spacing, is what
 // its boundary has beyond its share of the finest one's little beside all of its nodes? (In space
 // it is a matter of the surfaces, which settle before.)
-template <int Dim>
-bool boundary_leaves_room(const Level<Dim>& finest, const Domain<Dim>& domain,
-                          const Spacing<Dim>& coarser, double factor, double nodes) {
-  if constexpr (Dim == 2) {
-    double laid = 0;
-    agreed(*finest.comm, [&] {
-      const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
-        evaluate_spacing<2>(coarser, measure_of(domain), n, x, d);
-      };
-      laid = boundary_nodes(domain, discretize_boundary(domain, checked).nodes.size());
-    });
-    const Ground<2>& ground = finest.ground;
-    return laid - boundary_nodes(ground.domain(), ground.boundary().nodes.size()) / factor <=
-           method::kMaxForced * (nodes / std::pow(factor, 2));
-  }
+bool boundary_leaves_room(const Level<2>& finest, const PlaneDomain& domain,
+                          const Spacing<2>& coarser, double factor, double nodes) {
+  double laid = 0;
+  agreed(*finest.comm, [&] {
+    const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+      evaluate_spacing<2>(coarser, measure_of(domain), n, x, d);
+    };
+    laid = boundary_nodes(domain, discretize_boundary(domain, checked).nodes.size());
+  });
+  const Ground<2>& ground = finest.ground;
+  return laid - boundary_nodes(ground.domain(), ground.boundary().nodes.size()) / factor <=
+         method::kMaxForced * (nodes / std::pow(factor, 2));
+}
+bool boundary_leaves_room(const Level<3>&, const VolumeDomain&, const Spacing<3>&, double, double) {
   return true;
 }
 
@@ -53,12 +52,13 @@ SizingField<Dim> spacing_of_level(const SizingField<Dim>& spacing, int level) {
 Settings settings_of_level(Settings settings, bool coarsest) {
   // Of the finest level's tolerance: steps are cheap here.
   const double more_rest =
-      settings.dimension == 2 ? method::kCoarserRestInPlane : method::kCoarserRestInSpace;
+      settings.bubble_dimension == 2 ? method::kCoarserRestInPlane : method::kCoarserRestInSpace;
   settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
   settings.population_share = method::kCoarserPopulationShare;
   settings.defects.bad_below = 0;  // no triangle is handed on
   settings.tolerance_mean *= more_rest;
-  if (settings.dimension == 3) settings.population.mean_distance *= method::kCoarserDistanceInSpace;
+  if (settings.bubble_dimension == 3)
+    settings.population.mean_distance *= method::kCoarserDistanceInSpace;
   return settings;
 }
 

@@ -42,7 +42,7 @@ template <int Dim>
 double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
   constexpr int kMaxRounds = 10;
   constexpr double kNear = 0.05, kNearByMany = 0.02, kSame = 1e-3, kMinPower = 0.5, kMaxStep = 64;
-  const double steepest = settings.dimension;
+  const double steepest = settings.bubble_dimension;
   const auto more_than_wanted = [&](double factor, Samples samples) {
     return estimated_nodes(*this, bounded(spacing_.multiplied(factor), settings), settings,
                            samples) /
@@ -103,7 +103,7 @@ void SpacingToPlace<Dim>::limit_growth(SizingField<Dim>& spacing, const Settings
           domain_->bounds(), measure_of(*domain_),
           indexed_boundary(*domain_, unlimited, settings.max_nodes));
       spacing.limit_growth(comm_, std::move(ways),
-                           GrowthRule<Dim>{settings.growth_limit, chart_of(*domain_)},
+                           GrowthRule<Dim>{settings.growth_limit, domain_->embedding()},
                            settings.node_limit());
     } catch (const AgreedError& error) {
       if (!is_lack_of_room(error)) throw;

@@ -166,13 +166,12 @@ void DomainMap<Dim>::Growth::expect_known(const Box<Dim>& box, CellState& cell) 
 template <int Dim>
 void DomainMap<Dim>::Growth::expect_by_chart(const Box<Dim>& box, const CellSamples& samples,
                                              CellState& cell) const {
-  if constexpr (Dim == 2) {
-    if (!boundary_.chart || samples.d.empty() || !boundary_.chart->varies_much_in(box)) return;
-    double along = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < samples.d.size(); ++k)
-      along = std::min(along, samples.d[k] / boundary_.chart->stretch(samples.at[k]));
-    cell.min = std::min(cell.min, along * boundary_.chart->least_stretch_in(box));
-  }
+  const Embedding<Dim>& embedding = boundary_.embedding;
+  if (samples.d.empty() || !embedding.varies_much_in(box)) return;
+  double along = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < samples.d.size(); ++k)
+    along = std::min(along, embedding.measured_length(samples.at[k], samples.d[k]));
+  cell.min = std::min(cell.min, along * embedding.least_stretch_in(box));
 }
 
 // Where a sample point of the cell asks for d: there if it is inside; for surfaces alone at the

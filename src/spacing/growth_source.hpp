@@ -4,11 +4,10 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <tuple>
 
 #include "base/types.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
@@ -41,32 +40,24 @@ struct GrowthLabel {
   }
 };
 
-// By how much d may grow per unit of length: in the chart of a sphere, d and lengths are those
-// along the sphere.
+// By how much d may grow per unit of length, both as users measure them.
 template <int Dim>
 struct GrowthRule {
   double growth = 0;
-  std::optional<StereographicChart> chart{};  // in the plane
+  Embedding<Dim> embedding{};
 
-  GrowthRule(double most = 0, const StereographicChart* of = nullptr) : growth(most) {
-    if (of) chart = *of;
-  }
+  GrowthRule(double most = 0, const Embedding<Dim>& of = {}) : growth(most), embedding(of) {}
 
   // What d is at most at a point, with this source.
   double limit(const GrowthSource<Dim>& source, const Point<Dim>& at) const {
-    if constexpr (Dim == 2)
-      if (chart)
-        return chart->stretch(at) *
-               (source.d / chart->stretch(source.x) + growth * chart->distance(source.x, at));
-    return source.limit(at, growth);
+    return embedding.coordinate_length(at, embedding.measured_length(source.x, source.d) +
+                                               growth * embedding.distance(source.x, at));
   }
 
   // Between points with those d.
   double between(const Point<Dim>& x, double d_x, const Point<Dim>& y, double d_y) const {
-    if constexpr (Dim == 2)
-      if (chart)
-        return std::abs(d_x / chart->stretch(x) - d_y / chart->stretch(y)) / chart->distance(x, y);
-    return std::abs(d_x - d_y) / distance<Dim>(x, y);
+    return std::abs(embedding.measured_length(x, d_x) - embedding.measured_length(y, d_y)) /
+           embedding.distance(x, y);
   }
 };
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "spacing/spacing.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
@@ -26,5 +26,18 @@ class SphereSpacing : public LocalSpacing<2> {
   std::shared_ptr<const LocalSpacing<3>> along_;
   StereographicChart chart_;
 };
+
+// Returns the spacing in the chart for make(radius), one along the sphere; null for an embedding
+// that is not of a sphere.
+template <class Make>
+std::shared_ptr<const LocalSpacing<2>> spacing_on_sphere(const Embedding<2>& embedding,
+                                                         const Make& make) {
+  if (!embedding.is_sphere()) return nullptr;
+  return std::make_shared<const SphereSpacing>(make(embedding.radius()), embedding.chart());
+}
+template <class Make>
+std::shared_ptr<const LocalSpacing<3>> spacing_on_sphere(const Embedding<3>&, const Make&) {
+  return nullptr;
+}
 
 }  // namespace pnpbs

@@ -106,7 +106,7 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
                                     const std::function<bool(std::int32_t)>& owns_leaf,
                                     const SpacingEvaluator<Dim>& spacing,
                                     const KnownValues<Dim>& known,
-                                    const StereographicChart* chart) {
+                                    const Embedding<Dim>& embedding) {
   std::vector<Slope<Dim>> slopes;
   std::vector<Slope<Dim>> known_slopes;
   const auto is_own = [&](const Slope<Dim>& slope) {
@@ -116,7 +116,7 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
     return slope.in_domain || (!map.leaf_outside(leaf) && map.inside_in_leaf(leaf, slope.at));
   };
   agreed(comm, [&] {
-    slopes = slopes_of_own<Dim>(map, owns_leaf, spacing, {0, chart});
+    slopes = slopes_of_own<Dim>(map, owns_leaf, spacing, {0, embedding});
     for (const auto& [growth, d, at, in_domain] : known.slopes)
       known_slopes.push_back({growth, d, at, in_domain});
     add_steepest<Dim>(known_slopes, is_own, slopes);
@@ -145,10 +145,10 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
 template SteepestGrowth<2> steepest_growth<2>(const Communicator&, const DomainMap<2>&,
                                               const std::function<bool(std::int32_t)>&,
                                               const SpacingEvaluator<2>&, const KnownValues<2>&,
-                                              const StereographicChart*);
+                                              const Embedding<2>&);
 template SteepestGrowth<3> steepest_growth<3>(const Communicator&, const DomainMap<3>&,
                                               const std::function<bool(std::int32_t)>&,
                                               const SpacingEvaluator<3>&, const KnownValues<3>&,
-                                              const StereographicChart*);
+                                              const Embedding<3>&);
 
 }  // namespace pnpbs

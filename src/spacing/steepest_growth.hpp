@@ -8,6 +8,7 @@
 #include "comm/communicator.hpp"
 #include "spacing/domain_map.hpp"
 #include "spacing/spacing.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
@@ -19,12 +20,12 @@ struct SteepestGrowth {
 
 // By samples in the middle and on the sides of the leaves that this rank owns, and at the boundary
 // nodes in them: of each pair with one inside the domain and no boundary between. The same on any
-// number of ranks. In the chart of a sphere growth is that along the sphere. Collective.
+// number of ranks. Lengths are those that users measure. Collective.
 template <int Dim>
 SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Dim>& map,
                                     const std::function<bool(std::int32_t)>& owns_leaf,
                                     const SpacingEvaluator<Dim>& spacing,
                                     const KnownValues<Dim>& known = {},
-                                    const StereographicChart* chart = nullptr);
+                                    const Embedding<Dim>& embedding = {});
 
 }  // namespace pnpbs

@@ -91,7 +91,7 @@ class FieldTransferOf : public FieldTransfer {
         search_(results.ranks(), space_.searched(space_.patch(results))),
         values_(with_ghosts(results, components, values)),
         integrals_(integrals(results.communicator(), space_, search_.patch().patch(),
-                             results.surfaces_alone(), components, values_)) {
+                             results.kind() == GeometryKind::surface, components, values_)) {
     components_ = components;
     if (order == TransferOrder::second)
       fits_.emplace(results, search_.patch().patch().nodes, components, values_);
@@ -220,7 +220,8 @@ void FieldTransferOf<Space>::conserve_integrals(Results<Dim>& results, double* v
   const Communicator& comm = search_.communicator();
   const std::vector<double> all = with_ghosts(results, components_, values);
   const std::vector<double> now =
-      integrals(comm, space_, space_.patch(results), results.surfaces_alone(), components_, all);
+      integrals(comm, space_, space_.patch(results), results.kind() == GeometryKind::surface,
+                components_, all);
   const std::int64_t owned = results.count();
   for (std::int64_t c = 0; c < components_; ++c) {
     const auto k = static_cast<std::size_t>(c);
@@ -256,7 +257,8 @@ std::unique_ptr<FieldTransfer> make_field_transfer(NodalResults& results, Transf
   if (results.dimension() == 3)
     return made.operator()<FlatSpace<3>>(static_cast<Results<3>&>(results));
   auto& in = static_cast<Results<2>&>(results);
-  return in.chart() ? made.operator()<SphereSpace>(in) : made.operator()<FlatSpace<2>>(in);
+  return in.kind() == GeometryKind::sphere ? made.operator()<SphereSpace>(in)
+                                           : made.operator()<FlatSpace<2>>(in);
 }
 
 }  // namespace pnpbs

@@ -239,7 +239,7 @@ ParabolicFits<Dim>::ParabolicFits(Results<Dim>& results, std::vector<PatchNode<D
   for (std::int64_t p = 0; p < owned; ++p) {
     // Those on surfaces tell nothing of what is aside of these.
     double& has = fits[static_cast<std::size_t>(p * columns_)];
-    if (results.surfaces_alone()) has = 0;
+    if (results.kind() == GeometryKind::surface) has = 0;
     without += has == 0;
   }
   nodes_without_ =

@@ -30,9 +30,10 @@ SphereFits::InChart::InChart(const StereographicChart& in, Results<2>& results,
 
 SphereFits::SphereFits(Results<2>& results, const std::vector<PatchNode<3>>& nodes,
                        std::int64_t components, const std::vector<double>& values)
-    : charts_{InChart(*results.chart(), results, nodes, components, values),
-              InChart(opposite_chart(*results.chart()), results, nodes, components, values)} {
-  const Point<3> from = results.chart()->projected_from();
+    : charts_{InChart(results.embedding().chart(), results, nodes, components, values),
+              InChart(opposite_chart(results.embedding().chart()), results, nodes, components,
+                      values)} {
+  const Point<3> from = results.embedding().chart().projected_from();
   for (const PatchNode<3>& node : nodes) chart_at_.push_back(dot(node.x, from) > 0 ? 1 : 0);
   std::uint64_t without = 0;
   const std::int64_t owned = results.count();

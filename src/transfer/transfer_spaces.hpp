@@ -53,7 +53,7 @@ struct SphereSpace {
   using Searched = SpherePatch;
   using Fits = SphereFits;
 
-  explicit SphereSpace(const Results<2>& results) : radius(results.chart()->radius()) {}
+  explicit SphereSpace(const Results<2>& results) : radius(results.sphere_radius()) {}
   Data patch(Results<2>& results) const { return sphere_patch_of(results); }
   Searched searched(Data patch) const { return Searched(std::move(patch), radius); }
   Point<3> position(const Results<2>& results, std::int64_t node) const {

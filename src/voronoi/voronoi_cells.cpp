@@ -298,21 +298,13 @@ std::unique_ptr<VoronoiCells> make(const Communicator& comm, const DistributedMe
   return made;
 }
 
-double sphere_radius_of(NodalResults& results) {
-  double radius = 0;
-  in_its_dimension(results, [&]<int Dim>(const Results<Dim>& in) {
-    if (in.chart()) radius = in.chart()->radius();
-  });
-  return radius;
-}
-
 }  // namespace
 
 std::unique_ptr<VoronoiCells> make_voronoi_cells(NodalResults& results) {
   const std::unique_ptr<DistributedMesh> mesh = make_distributed_mesh(results, 1);
   const Communicator& comm = results.communicator();
   if (mesh->dimension == 2) return make<3, 2>(comm, *mesh);
-  if (results.dimension() == 2) return make<3, 3>(comm, *mesh, sphere_radius_of(results));
+  if (results.dimension() == 2) return make<3, 3>(comm, *mesh, results.sphere_radius());
   if (mesh->corners == 3) return make<3, 3>(comm, *mesh);
   return make<4, 3>(comm, *mesh);
 }

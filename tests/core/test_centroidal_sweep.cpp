@@ -96,7 +96,7 @@ START_TEST(centroid_as_by_pixels) {
   LevelRun run = distorted(kSquare, d, 300, {});
   pnpbs::refresh_spacing(*run.level);
   const Level& level = *run.level;
-  const pnpbs::CellCentroids centroids(level.nodes, level.stars, nullptr);
+  const pnpbs::CellCentroids centroids(level.nodes, level.stars, {});
   int tried = 0;
   double moved = 0;
   for (std::int64_t i = 0; i < level.nodes.count && tried < 60; ++i) {
@@ -133,7 +133,7 @@ START_TEST(centroid_on_a_sphere_as_by_pixels) {
   LevelRun run = distorted(kSquare, d, 310, {});
   pnpbs::refresh_spacing(*run.level);
   const Level& level = *run.level;
-  const pnpbs::CellCentroids centroids(level.nodes, level.stars, &chart);
+  const pnpbs::CellCentroids centroids(level.nodes, level.stars, chart);
   int tried = 0;
   double off_plane = 0;
   for (std::int64_t i = 0; i < level.nodes.count && tried < 15; ++i) {
@@ -146,7 +146,7 @@ START_TEST(centroid_on_a_sphere_as_by_pixels) {
         [&](const P& x, double area) { sum = pnpbs::shifted(sum, area, chart.on_sphere(x)); });
     const P expected = chart.in_chart(sum), found = centroids.of(i);
     ck_assert_double_lt(pnpbs::distance<2>(found, expected), 7e-4 * level.nodes.d(i));
-    const P in_plane = pnpbs::CellCentroids(level.nodes, level.stars, nullptr).of(i);
+    const P in_plane = pnpbs::CellCentroids(level.nodes, level.stars, {}).of(i);
     off_plane = std::max(off_plane, pnpbs::distance<2>(in_plane, expected) / level.nodes.d(i));
   }
   ck_assert_int_eq(tried, 15);
@@ -167,7 +167,7 @@ START_TEST(lattice_is_a_fixed_point) {
   pnpbs::take(*run.level, lattice, 0);
   run.renew_stars();
   Level& level = *run.level;
-  const pnpbs::CellCentroids centroids(level.nodes, level.stars, nullptr);
+  const pnpbs::CellCentroids centroids(level.nodes, level.stars, {});
   std::int64_t middle = -1;
   for (std::int64_t i = 0; i < level.nodes.count; ++i) {
     if (!is_deep_inside(level, i)) continue;
@@ -181,7 +181,7 @@ START_TEST(lattice_is_a_fixed_point) {
   pnpbs::View<char> allowed = pnpbs::make_view<char>("allowed", level.nodes.count);
   for (int sweep = 0; sweep < 60; ++sweep)
     pnpbs::centroidal_sweep(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(),
-                            level.map(), nullptr, {1}, level.time_integration.scratch(level.nodes),
+                            level.map(), {}, {1}, level.time_integration.scratch(level.nodes),
                             allowed);
   ck_assert_double_lt(pnpbs::distance<2>(level.nodes.position(middle), place), 1e-9 * kD);
 }

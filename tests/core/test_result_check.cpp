@@ -32,7 +32,7 @@ std::unique_ptr<Placement> laid_sphere() {
   auto domain = std::make_shared<pnpbs::PlaneDomain>(pnpbs::StereographicChart(1, {0, 0, 1}));
   auto placement =
       std::make_unique<Placement>(pnpbs::serial_communicator(), domain, pnpbs::Options());
-  const pnpbs::StereographicChart chart = *domain->chart();
+  const pnpbs::StereographicChart chart = domain->embedding().chart();
   placement->set_spacing(spacing_of([chart](double x, double y) {
     return 0.1 * chart.stretch({x, y});
   }));

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The chart of a sphere against angles and lengths in space, great circles, caps and their areas,
-// and d along the sphere: its growth, and the limit of that.
+// and d along the sphere: its growth, and the limit of that. How domains of each kind are measured.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "base/space_vectors.hpp"
 #include "domain/plane/plane_domain.hpp"
+#include "domain/volume/volume_domain.hpp"
 #include "quick_assert.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 #include "spacing/growth_source.hpp"
 #include "spacing/sphere_spacing.hpp"
+#include "sphere/embedding.hpp"
 #include "sphere/great_circle.hpp"
 #include "sphere/sphere_cap.hpp"
 #include "sphere/stereographic_chart.hpp"
 
-using pnpbs::Point, pnpbs::SphereCap, pnpbs::StereographicChart;
+using pnpbs::Embedding, pnpbs::GeometryKind, pnpbs::Point, pnpbs::SphereCap,
+    pnpbs::StereographicChart;
 
 namespace {
 
@@ -242,7 +246,7 @@ START_TEST(growth_is_along_the_sphere) {
   const StereographicChart chart(2, {0, 0, -1});
   const auto constant = std::make_shared<const pnpbs::ConstantSpacing<3>>(0.1);
   const pnpbs::SphereSpacing spacing(constant, chart);
-  const pnpbs::GrowthRule<2> rule{0.2, &chart};
+  const pnpbs::GrowthRule<2> rule{0.2, chart};
   for (int k = 0; k < 200; ++k) {
     const Point<2> u[2] = {chart.in_chart(on_unit_sphere(random)),
                            chart.in_chart(on_unit_sphere(random))};
@@ -257,9 +261,91 @@ START_TEST(growth_is_along_the_sphere) {
 }
 END_TEST
 
+namespace {
+
+template <int Dim>
+Point<Dim> anywhere(Random& random) {
+  Point<Dim> x;
+  for (double& part : x) part = random.between(-5, 5);
+  return x;
+}
+
+// To the last bit: nodes in the plane and in space do not depend on this.
+template <int Dim>
+void measures_as_coordinates_are(const Embedding<Dim>& embedding) {
+  Random random(7);
+  const pnpbs::GrowthRule<Dim> rule{0.2, embedding};
+  quick_assert(!embedding.is_sphere() && embedding.radius() == 0);
+  quick_assert(embedding.coordinates() == Dim);
+  for (int k = 0; k < 200; ++k) {
+    const Point<Dim> x = anywhere<Dim>(random), y = anywhere<Dim>(random);
+    const double d = random.between(0.1, 3), e = random.between(0.1, 3);
+    const double way = pnpbs::distance<Dim>(x, y);
+    quick_assert(embedding.measured_length(x, d) == d && embedding.coordinate_length(x, d) == d);
+    quick_assert(embedding.distance(x, y) == way);
+    const Point<3> in_space = embedding.in_space(x);
+    quick_assert(std::equal(x.begin(), x.end(), in_space.begin()));
+    quick_assert(Dim == 3 || in_space[2] == 0);
+    quick_assert(rule.limit({x, d}, y) == d + 0.2 * way);
+    quick_assert(rule.between(x, d, y, e) == std::fabs(d - e) / way);
+  }
+  pnpbs::Box<Dim> box;
+  box.low.fill(-1);
+  box.high.fill(100);
+  quick_assert(embedding.least_stretch_in(box) == 1 && embedding.most_stretch_in(box) == 1);
+  quick_assert(!embedding.varies_much_in(box));
+}
+
+}  // namespace
+
+START_TEST(flat_domains_are_measured_as_they_are) {
+  measures_as_coordinates_are<2>(pnpbs::PlaneDomain().embedding());
+  measures_as_coordinates_are<3>(pnpbs::VolumeDomain::embedding());
+}
+END_TEST
+
+START_TEST(domains_on_spheres_are_measured_along_them) {
+  Random random(8);
+  for (const StereographicChart& chart : charts()) {
+    const pnpbs::PlaneDomain domain(chart);
+    const Embedding<2>& embedding = domain.embedding();
+    quick_assert(embedding.is_sphere() && embedding.chart() == chart);
+    quick_assert(embedding.radius() == chart.radius() && embedding.coordinates() == 3);
+    for (int k = 0; k < 200; ++k) {
+      const Point<2> u = chart.in_chart(on_unit_sphere(random)),
+                     v = chart.in_chart(on_unit_sphere(random));
+      const double d = random.between(0.1, 3);
+      quick_assert(embedding.measured_length(u, d) == d / chart.stretch(u));
+      quick_assert(embedding.coordinate_length(u, d) == d * chart.stretch(u));
+      quick_assert(embedding.distance(u, v) == chart.distance(u, v));
+      quick_assert(embedding.in_space(u) == chart.on_sphere(u));
+    }
+    const pnpbs::Box<2> box{{-1, -1}, {100 * chart.radius(), 1}};
+    quick_assert(embedding.least_stretch_in(box) == chart.least_stretch_in(box));
+    quick_assert(embedding.most_stretch_in(box) == chart.most_stretch_in(box));
+    quick_assert(embedding.varies_much_in(box));
+  }
+}
+END_TEST
+
+START_TEST(kinds_of_domains) {
+  pnpbs::VolumeDomain volume;
+  ck_assert(pnpbs::PlaneDomain().kind() == GeometryKind::plane);
+  ck_assert(pnpbs::PlaneDomain(charts().front()).kind() == GeometryKind::sphere);
+  ck_assert(volume.kind() == GeometryKind::body);
+  volume.set_filled(false);
+  ck_assert(volume.kind() == GeometryKind::surface);
+  ck_assert_int_eq(pnpbs::bubble_dimension(GeometryKind::body), 3);
+  for (const auto kind : {GeometryKind::plane, GeometryKind::sphere, GeometryKind::surface})
+    ck_assert_int_eq(pnpbs::bubble_dimension(kind), 2);
+}
+END_TEST
+
 TEST_SUITE(test_sphere) {
   return run_kernel_suite(
       "sphere",
       {there_and_back, it_keeps_angles, distances_are_along_the_sphere, ways_follow_great_circles,
-       areas_of_caps, caps_hold_what_is_near, caps_hold_circles, growth_is_along_the_sphere});
+       areas_of_caps, caps_hold_what_is_near, caps_hold_circles, growth_is_along_the_sphere,
+       flat_domains_are_measured_as_they_are, domains_on_spheres_are_measured_along_them,
+       kinds_of_domains});
 }

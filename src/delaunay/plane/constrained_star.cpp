@@ -277,7 +277,7 @@ void leave_gap(std::vector<Entry>& star, std::size_t before) {
 double star_in_patch(const StarInput& input, std::int64_t i, std::vector<Entry>& star) {
   constexpr double kFirst = 2, kNext = 1.5;  // in a lattice circles are 1.15 d wide
   const std::size_t before = star.size();
-  const StereographicChart& chart = *input.domain.chart();
+  const StereographicChart& chart = input.domain.embedding().chart();
   const Point<2> at = input.nodes.position(i);
   for (double length = kFirst * input.nodes.d(i) / chart.stretch(at);; length *= kNext) {
     const SphereCap cap(chart, at, length);

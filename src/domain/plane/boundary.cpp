@@ -38,17 +38,18 @@ struct Worst {
 // name(which); in the chart of a sphere, lengths are told along the sphere, and places as well: who
 // takes coasts from files does not know which curve is which.
 template <class Name>
-MessageText worst_text(std::vector<Worst>& all, const char* length, const StereographicChart* chart,
+MessageText worst_text(std::vector<Worst>& all, const char* length, const Embedding<2>& embedding,
                        const Name& name) {
   std::sort(all.begin(), all.end());
   std::vector<MessageText> names;
   for (const Worst& worst : all) {
     if (names.size() == kNamedWorst) break;
-    const double stretch = chart ? chart->stretch(worst.at) : 1;
-    names.push_back(name(worst.which) + " (" + length + " " +
-                    rounded_text(worst.distance / stretch) + ", spacing " +
-                    rounded_text(worst.spacing / stretch) +
-                    (chart ? ", at " + point_text(worst.at) : MessageText()) + ")");
+    const auto measured = [&](double chart_length) {
+      return rounded_text(embedding.measured_length(worst.at, chart_length));
+    };
+    names.push_back(name(worst.which) + " (" + length + " " + measured(worst.distance) +
+                    ", spacing " + measured(worst.spacing) +
+                    (embedding.is_sphere() ? ", at " + point_text(worst.at) : MessageText()) + ")");
   }
   return list_text(names, kNamedWorst);
 }
@@ -56,9 +57,9 @@ MessageText worst_text(std::vector<Worst>& all, const char* length, const Stereo
 // The warning `begin`, the worst of all, `end`.
 template <class Name>
 Warning warning_of_worst(WarningCode code, const std::string& begin, std::vector<Worst>& all,
-                         const char* length, const StereographicChart* chart, const Name& name,
+                         const char* length, const Embedding<2>& embedding, const Name& name,
                          const std::string& end = "") {
-  MessageText text = begin + worst_text(all, length, chart, name) + end;
+  MessageText text = begin + worst_text(all, length, embedding, name) + end;
   return {code, std::move(text), std::ssize(all), all.front().ratio};
 }
 
@@ -122,7 +123,7 @@ class Layer {
   // ------------------------------------------------------------ nodes and edges
   void assemble() {
     boundary_ = {};
-    if (domain_.chart()) boundary_.chart = *domain_.chart();
+    boundary_.embedding = domain_.embedding();
     places_.clear();
     for (const Corner& corner : domain_.corners()) {
       boundary_.nodes.push_back({corner.position, corner.tag});
@@ -333,7 +334,8 @@ class Layer {
         WarningCode::feature_unresolved,
         "the spacing is larger than the feature at " + std::to_string(all.size()) +
             " boundary edges shorter than half of it; the worst: ",
-        all, "length", domain_.chart(), [this](std::int32_t e) { return track(e).curve().name; },
+        all, "length", domain_.embedding(),
+        [this](std::int32_t e) { return track(e).curve().name; },
         advice_on_short_edges(all.size(), ends_.size())));
   }
 
@@ -368,7 +370,7 @@ class Layer {
         WarningCode::feature_unresolved,
         "the spacing is larger than the feature at " + std::to_string(nearest.size()) +
             " boundary nodes closer than a tenth of it to another edge; the worst: beside ",
-        nearest, "distance", domain_.chart(),
+        nearest, "distance", domain_.embedding(),
         [this](std::int32_t e) { return track(e).curve().name; }));
   }
 
@@ -410,7 +412,8 @@ class Layer {
         std::to_string(nearest.size()) +
             " fixed nodes are closer than 0.4 of the spacing to the boundary or to each other; the "
             "worst: ",
-        nearest, "distance", domain_.chart(), [&fixed](std::int32_t f) { return fixed[f].name; }));
+        nearest, "distance", domain_.embedding(),
+        [&fixed](std::int32_t f) { return fixed[f].name; }));
   }
 
   const PlaneDomain& domain_;

@@ -165,14 +165,14 @@ void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vert
   if (angle_between(place(v), next) > kNearlyOpposite)
     reject("vertices " + vertex_text(v, place(v)) + " and " + vertex_text(next_v, next) +
            " are opposite points of the sphere: no way between them is the shortest");
-  if (angle_to_way(chart_->projected_from(), place(v), next) < kSame)
+  if (angle_to_way(embedding_.chart().projected_from(), place(v), next) < kSame)
     reject("vertex " + vertex_text(v, place(v)) +
            ", or the way from it to the next: the point that is named as outside of the domain "
            "lies on the curve");
-  add(chart_->in_chart(place(v)), false);
+  add(embedding_.chart().in_chart(place(v)), false);
   if (next_v < 0) return;
   add_segment();
-  for (const Point<2>& u : points_on_the_way(*chart_, place(v), next)) {
+  for (const Point<2>& u : points_on_the_way(embedding_.chart(), place(v), next)) {
     add(u, true);
     add_segment();
   }
@@ -272,7 +272,9 @@ bool PlaneDomain::has_boundary_curve() const {
   });
 }
 
-bool PlaneDomain::is_whole_sphere() const { return chart_ && (closing_ || !has_boundary_curve()); }
+bool PlaneDomain::is_whole_sphere() const {
+  return embedding_.is_sphere() && (closing_ || !has_boundary_curve());
+}
 
 // What closes the sphere comes behind what was given.
 template <class Visit>
@@ -354,10 +356,10 @@ void PlaneDomain::check_open_sphere() {
   constexpr double kNextToNothing = 1e-3;  // radians
   PlaneDomain closed = *this;
   ClosingPatch patch;
-  const double r = 2 * chart_->radius() / std::tan(kNextToNothing / 2);
+  const double r = 2 * embedding_.chart().radius() / std::tan(kNextToNothing / 2);
   for (std::size_t k = 0; k < 3; ++k) {
     const double turn = 2 * std::numbers::pi * static_cast<double>(k) / 3;
-    patch.rim[k] = chart_->on_sphere({r * std::cos(turn), r * std::sin(turn)});
+    patch.rim[k] = embedding_.chart().on_sphere({r * std::cos(turn), r * std::sin(turn)});
   }
   patch.edge = patch.beyond = std::numeric_limits<double>::infinity();
   closed.close(patch);
@@ -368,7 +370,7 @@ void PlaneDomain::check_open_sphere() {
 }
 
 double area_on_sphere(const PlaneDomain& domain) {
-  const double radius = domain.chart()->radius();
+  const double radius = domain.embedding().radius();
   if (domain.is_whole_sphere()) return 4 * std::numbers::pi * radius * radius;
   double area = 0;
   for (const BoundaryCurve& curve : domain.curves()) {

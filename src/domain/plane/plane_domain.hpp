@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/geometry_kind.hpp"
 #include "base/space_vectors.hpp"
 #include "base/types.hpp"
 #include "base/warning.hpp"
@@ -16,7 +17,7 @@
 #include "domain/plane/curve_source.hpp"
 #include "domain/region_index.hpp"
 #include "domain/spacing_evaluator.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
@@ -78,10 +79,12 @@ struct ResolvedDomain {
 class PlaneDomain : public DomainBase<2> {
  public:
   PlaneDomain() = default;
-  explicit PlaneDomain(const StereographicChart& chart) : chart_(chart) {}
+  explicit PlaneDomain(const StereographicChart& chart) : embedding_(chart) {}
 
-  // Null in the plane.
-  const StereographicChart* chart() const { return chart_ ? &*chart_ : nullptr; }
+  const Embedding<2>& embedding() const { return embedding_; }
+  GeometryKind kind() const {
+    return embedding_.is_sphere() ? GeometryKind::sphere : GeometryKind::plane;
+  }
 
   // On a sphere, and nothing bounds it?
   bool is_whole_sphere() const;
@@ -167,7 +170,7 @@ class PlaneDomain : public DomainBase<2> {
   void for_given_points(const Visit& visit) const;
   bool has_boundary_curve() const;
 
-  std::optional<StereographicChart> chart_;
+  Embedding<2> embedding_;
   std::optional<Closing> closing_;
   std::size_t open_sources_ = 0, open_nodes_ = 0;  // of a closed sphere, those given
   std::vector<CurveSource> sources_;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/geometry_kind.hpp"
 #include "base/warning.hpp"
 #include "domain/domain_base.hpp"
 #include "domain/region_index.hpp"
@@ -20,6 +21,7 @@
 #include "geometry/volume/surface_index.hpp"
 #include "implicit/level_set.hpp"
 #include "implicit/repaired_body.hpp"
+#include "sphere/embedding.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
@@ -102,6 +104,8 @@ class VolumeDomain : public DomainBase<3> {
   // Not filled, the domain is its surfaces alone, closed or open, of either role.
   void set_filled(bool filled);
   bool filled() const { return filled_; }
+  GeometryKind kind() const { return filled_ ? GeometryKind::body : GeometryKind::surface; }
+  static Embedding<3> embedding() { return {}; }
 
   // Checks everything and finds inside, orientation and features; does nothing if nothing changed
   // since the last time. Throws Error(ErrorKind::domain).

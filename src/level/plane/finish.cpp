@@ -82,9 +82,9 @@ void take_spacing_here(Level<2>& level) {
 std::vector<EdgeBand> edge_bands(Level<2>& level) {
   std::vector<EdgeBand> bands;
   update_ghosts(level);
-  if (level.ground.domain().chart()) take_spacing_here(level);
+  if (level.ground.domain().embedding().is_sphere()) take_spacing_here(level);
   agreed(*level.comm, [&] {
-    bands = edge_bands_to_judge<2>(*level.comm, {level.nodes, level.ground.domain().chart()},
+    bands = edge_bands_to_judge<2>(*level.comm, {level.nodes, level.ground.domain().embedding()},
                                    level.stars);
   });
   return bands;
@@ -135,7 +135,7 @@ std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps) {
   const SweepRule rule{1, method::kSweepMaxMove, method::kCentroidalSweepGuardsBelow};
   sweep_over_stars(level, sweeps, [&](Field<2>& proposed, View<char>& allowed) {
     centroidal_sweep(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(),
-                     level.map(), level.ground.domain().chart(), rule, proposed, allowed);
+                     level.map(), level.ground.domain().embedding(), rule, proposed, allowed);
   });
   return edge_bands(level);
 }
@@ -143,7 +143,7 @@ std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps) {
 void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds) {
   make_finish_stars(level, {1});  // of neighbours only one moves
   const PhaseTimer timer(level.timers, Phase::sweeps);
-  repair_triangles(level, measure_of_obtuse_triangles(level.ground.domain().chart()), rounds);
+  repair_triangles(level, measure_of_obtuse_triangles(level.ground.domain().embedding()), rounds);
 }
 
 }  // namespace pnpbs

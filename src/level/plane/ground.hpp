@@ -34,7 +34,7 @@ class Ground<2> {
   const PlaneDomain& domain() const { return *domain_; }
   const Box<2>& bounds() const { return domain_->bounds(); }
   double measure() const { return domain_->area(); }
-  static constexpr bool surfaces_alone() { return false; }
+  GeometryKind kind() const { return domain_->kind(); }
   const Spacing<2>& spacing() const { return *spacing_; }
   SpacingEvaluator<2> evaluator() const;  // d, checked; while this ground is there
   const Boundary& boundary() const { return boundary_; }

@@ -225,7 +225,7 @@ std::int64_t add_boundary_nodes(Level<3>& level) {
 
 PopulationCounts refine_boundary(Level<3>& level) {
   PopulationCounts counts;
-  if (level.ground.surfaces_alone()) return counts;
+  if (level.ground.kind() == GeometryKind::surface) return counts;
   std::int64_t nodes_off = std::numeric_limits<std::int64_t>::max();
   for (int round = 0; round <= method::kMaxBoundaryRounds; ++round) {
     counts.inserted += add_boundary_nodes(level);

@@ -112,7 +112,7 @@ void repair_slivers(Level<3>& level) {
 }  // namespace
 
 FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps, const StopTest& stops) {
-  if (level.ground.surfaces_alone()) {
+  if (level.ground.kind() == GeometryKind::surface) {
     sweep_on_surfaces(level, sweeps);
     put_on_level_sets(level);
     return {};

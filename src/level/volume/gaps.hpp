@@ -22,5 +22,7 @@ IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates);
 // Puts a fill of the inside into the gaps there. Returns how many nodes that is, of all ranks.
 // Collective.
 std::int64_t fill_gaps_inside(Level<3>& level);
+// Fills nothing in the plane.
+inline std::int64_t fill_gaps_inside(Level<2>&) { return 0; }
 
 }  // namespace pnpbs

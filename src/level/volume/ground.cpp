@@ -10,7 +10,7 @@ namespace pnpbs {
 Ground<3>::Ground(std::shared_ptr<const VolumeDomain> domain,
                   std::shared_ptr<const Spacing<3>> spacing, const NodeLimit& limit)
     : domain_(std::move(domain)),
-      surfaces_alone_(!domain_->filled()),
+      kind_(domain_->kind()),
       spacing_(std::move(spacing)),
       bounds_(widened(domain_->bounds(), domain_->mesh().node_distance)),
       surface_(domain_->mesh(), domain_->features()) {

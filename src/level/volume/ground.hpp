@@ -39,7 +39,7 @@ class Ground<3> {
   const VolumeDomain& domain() const { return *domain_; }
   const Box<3>& bounds() const { return bounds_; }  // of all nodes
   double measure() const { return domain_->volume(); }
-  bool surfaces_alone() const { return surfaces_alone_; }  // when it was made
+  GeometryKind kind() const { return kind_; }  // when it was made
   const Spacing<3>& spacing() const { return *spacing_; }
   SpacingEvaluator<3> evaluator() const;  // d, checked; while this ground is there
   const BoundaryMesh<3>& boundary() const { return domain_->mesh(); }
@@ -64,7 +64,8 @@ class Ground<3> {
   }
   // Of surfaces alone none is.
   bool has_inner_surfaces() const {
-    return !surfaces_alone() && std::ranges::find(patch_bounds_, 0) != patch_bounds_.end();
+    return kind_ == GeometryKind::body &&
+           std::ranges::find(patch_bounds_, 0) != patch_bounds_.end();
   }
 
   // The nodes on feature edges and in corners, the same on all ranks.
@@ -74,7 +75,7 @@ class Ground<3> {
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
   std::shared_ptr<const VolumeDomain> domain_;
-  bool surfaces_alone_;
+  GeometryKind kind_;
   std::shared_ptr<const Spacing<3>> spacing_;
   Box<3> bounds_;
   Surface surface_;

@@ -194,7 +194,7 @@ std::vector<char> changed_nodes(const Level<3>& level,
 }  // namespace
 
 std::int64_t settle_elements(Level<3>& level, int rounds) {
-  if (level.ground.surfaces_alone()) return 0;
+  if (level.ground.kind() == GeometryKind::surface) return 0;
   const PhaseTimer timer(level.timers, Phase::conformity);
   std::vector<std::int64_t> own_ids;
   std::int64_t torn = 0;

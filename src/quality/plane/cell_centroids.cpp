@@ -165,16 +165,17 @@ Point<N> centroid(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_
 }  // namespace
 
 Point<2> CellCentroids::of(std::int64_t i) const {
-  if (!chart_) {
+  if (!embedding_.is_sphere()) {
     const Point<2> origin = nodes_.position(i);  // so that little cancels
     const Point<2> from_there = centroid<2>(nodes_, stars_, i, [&](std::int64_t j) {
       return CellCorner<2>{way(origin, nodes_.position(j)), nodes_.d(j)};
     });
     return combined(1, origin, 1, from_there);
   }
-  return chart_->in_chart(centroid<3>(nodes_, stars_, i, [&](std::int64_t j) {
+  const StereographicChart& chart = embedding_.chart();
+  return chart.in_chart(centroid<3>(nodes_, stars_, i, [&](std::int64_t j) {
     const Point<2> u = nodes_.position(j);
-    return CellCorner<3>{unit_vector(chart_->on_sphere(u)), nodes_.d(j) / chart_->stretch(u)};
+    return CellCorner<3>{unit_vector(chart.on_sphere(u)), nodes_.d(j) / chart.stretch(u)};
   }));
 }
 

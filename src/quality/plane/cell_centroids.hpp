@@ -9,15 +9,15 @@
 
 #include "base/nodes.hpp"
 #include "delaunay/delaunay_stars.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
 class CellCentroids {
  public:
-  // In the plane, or in a chart of a sphere. d is linear on each triangle.
-  CellCentroids(const Nodes<2>& nodes, const DelaunayStars& stars, const StereographicChart* chart)
-      : nodes_(nodes), stars_(stars), chart_(chart) {}
+  // d is linear on each triangle.
+  CellCentroids(const Nodes<2>& nodes, const DelaunayStars& stars, const Embedding<2>& embedding)
+      : nodes_(nodes), stars_(stars), embedding_(embedding) {}
 
   // Does node i move, and is its cell whole?
   bool has(std::int64_t i) const {
@@ -31,7 +31,7 @@ class CellCentroids {
  private:
   const Nodes<2>& nodes_;
   const DelaunayStars& stars_;
-  const StereographicChart* chart_;
+  Embedding<2> embedding_;
 };
 
 }  // namespace pnpbs

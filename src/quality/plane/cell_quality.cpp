@@ -96,7 +96,7 @@ class CellMeasurement {
         nodes_(measured.nodes),
         stars_(stars),
         bands_(bands),
-        centroids_(measured.nodes, stars, measured.chart),
+        centroids_(measured.nodes, stars, measured.embedding),
         areas_(make_view<double>("pnpbs::cell_areas", measured.nodes.count)) {}
 
   // All but the areas beside each other.
@@ -204,8 +204,9 @@ void add_ranks(const Communicator& comm, CellSums& sums) {
 CellQuality measure_cells(const Communicator& comm, const MeasuredNodes<2>& measured,
                           const DelaunayStars& stars, const SpacingBands& bands,
                           const FillGhosts& fill_ghosts) {
-  CellSums sums = measured.chart ? local_sums<3>(comm, measured, stars, bands, fill_ghosts)
-                                 : local_sums<2>(comm, measured, stars, bands, fill_ghosts);
+  CellSums sums = measured.embedding.is_sphere()
+                      ? local_sums<3>(comm, measured, stars, bands, fill_ghosts)
+                      : local_sums<2>(comm, measured, stars, bands, fill_ghosts);
   add_ranks(comm, sums);
   CellQuality found;
   found.mean_offset = sums.cells > 0 ? sums.offset.value() / static_cast<double>(sums.cells) : 0;

@@ -31,16 +31,16 @@ double value_of(const Point<N>& a, const Point<N>& b, const Point<N>& c) {
 
 }  // namespace
 
-TriangleMeasure measure_of_obtuse_triangles(const StereographicChart* chart) {
+TriangleMeasure measure_of_obtuse_triangles(const Embedding<2>& embedding) {
   constexpr double kTurnedOver = -2;
   // Above what triangles have with such an angle: isosceles ones have the largest quality. And by a
   // margin, since angles of wide triangles are a little other in a chart.
   constexpr double kSufficientQuality = 0.9;
-  const auto value = [chart](const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  const auto value = [embedding](const Point<2>& a, const Point<2>& b, const Point<2>& c) {
     const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     if (twice_area <= 0) return kTurnedOver;
-    if (!chart) return value_of<2>(a, b, c);
-    return value_of<3>(chart->on_sphere(a), chart->on_sphere(b), chart->on_sphere(c));
+    if (!embedding.is_sphere()) return value_of<2>(a, b, c);
+    return value_of<3>(embedding.in_space(a), embedding.in_space(b), embedding.in_space(c));
   };
   return {value, std::cos(kRadians * method::kObtuseRepairAngle), kSufficientQuality};
 }

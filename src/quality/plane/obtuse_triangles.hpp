@@ -4,11 +4,11 @@
 #pragma once
 
 #include "quality/plane/bad_triangles.hpp"
-#include "sphere/stereographic_chart.hpp"
+#include "sphere/embedding.hpp"
 
 namespace pnpbs {
 
-// By which they are repaired. In the chart of a sphere by the angles in space.
-TriangleMeasure measure_of_obtuse_triangles(const StereographicChart* chart);
+// Measures triangles for their repair: on a sphere by the angles in space.
+TriangleMeasure measure_of_obtuse_triangles(const Embedding<2>& embedding);
 
 }  // namespace pnpbs

@@ -151,7 +151,7 @@ class VoronoiRing {
     Point<N> x;
     measured.put(j, x);
     if constexpr (N == 3) {
-      const double scale = 1 / measured.chart->radius();
+      const double scale = 1 / measured.embedding.radius();
       return {scale * x[0], scale * x[1], scale * x[2]};
     } else {
       const Point<2> from = measured.nodes.position(node_);
