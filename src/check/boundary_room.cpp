@@ -47,9 +47,8 @@ bool BoundaryRoom<Dim>::any_nearer(const Point<Dim>& x, double reach) const {
 
 // Of an edge: how far its ends are within reach, in mean d. Nothing from behind, where x would not
 // see them.
-template <int Dim>
-double BoundaryRoom<Dim>::push_of(std::int32_t f, const Point<2>& x, double d) const
-    requires(Dim == 2) {
+template <>
+double BoundaryRoom<2>::push_of(std::int32_t f, const Point<2>& x, double d) const {
   constexpr double kPoint = 1.53;  // that one node alone takes what any other does: 1 / density
   const BoundaryEdge& edge = map_.facet(f);
   const auto& [a, b] = map_.corners(f);

@@ -33,7 +33,7 @@ class BoundaryRoom {
   static constexpr double kPlaneReach = 1.35;
 
  private:
-  double push_of(std::int32_t f, const Point<2>& x, double d) const requires(Dim == 2);
+  double push_of(std::int32_t f, const Point<Dim>& x, double d) const;  // in the plane alone
 
   const DomainMap<Dim>& map_;
   BoxTree<Dim> boxes_;     // of the facets

@@ -267,8 +267,6 @@ START_TEST(coordinates_beyond_all_limits) {
     ck_assert_int_eq(pnpbs_domain_shape_spacing(it.domain, 20, 3, 1, 0, 2, x, out),
                      PNPBS_ERROR_ARGUMENT);
     expect_in_error(&it, PNPBS_ERROR_ARGUMENT, part);
-    ck_assert_int_eq(pnpbs_placement_set_nodes(it.placement, 2, x, NULL), PNPBS_ERROR_ARGUMENT);
-    expect_in_error(&it, PNPBS_ERROR_ARGUMENT, part);
   }
   pnpbs_transfer_destroy(&transfer);
   job_end(&it);
