@@ -41,6 +41,9 @@ class BoundaryRoom {
   double reach_;
 };
 
+template <>
+double BoundaryRoom<2>::push_of(std::int32_t f, const Point<2>& x, double d) const;
+
 extern template class BoundaryRoom<2>;
 extern template class BoundaryRoom<3>;
 

@@ -97,7 +97,7 @@ std::vector<GrowthSource<3>> resolving_sources(const Spacing<3>& raw, const Volu
                                                const NodeLimit& limit, const Resolution& resolution,
                                                const std::function<void()>& beat) {
   constexpr double kPieces = 1.5;       // length of their edges
-  constexpr std::size_t kChunk = 4096;  // pieces between two calls of beat()
+  constexpr std::size_t kChunk = 1024;  // pieces between two calls of beat()
   const ShapeToResolve shape(domain, resolution);
   std::vector<GrowthSource<3>> sources;
   std::vector<Piece> pieces = shape.facets();

@@ -52,11 +52,36 @@ NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
   return best;
 }
 
+namespace {
+
+// Does the segment from x along `way`, up to this part of it, meet the box? Where rounding decides,
+// it does.
+bool may_meet(const Box<3>& box, const Point<3>& x, const Point<3>& way, double until) {
+  constexpr double kRounding = 1e-9;
+  double from = 0, to = until;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double pad =
+        kRounding * (std::fabs(x[k]) + std::fabs(box.low[k]) + std::fabs(box.high[k]));
+    const double low = box.low[k] - pad - x[k], high = box.high[k] + pad - x[k];
+    if (way[k] == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    const double a = low / way[k], b = high / way[k];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  return from <= to + kRounding;
+}
+
+}  // namespace
+
 SurfaceIndex::Hit SurfaceIndex::first_hit(const Point<3>& x, const Point<3>& way,
                                           std::int32_t from) const {
   const Point<3> end = shifted(x, 1, way);
   Hit first{1};
-  boxes_.for_meeting(joined(Box<3>{x, x}, {end, end}), [&](std::int32_t f) {
+  const auto before_first = [&](const Box<3>& box) { return may_meet(box, x, way, first.along); };
+  boxes_.for_entered(before_first, [&](std::int32_t f) {
     if (f == from || !crosses(x, end, sides_.corners(f))) return;
     const auto& [a, b, c] = sides_.corners(f);
     const Point<3> normal = cross(difference(b, a), difference(c, a));
