@@ -9,21 +9,21 @@ set(PNPBS_TESTS_OF_quick
     available_memory best_round boundary_topology cell_quality cholesky defects domain_map domain_rule
     element_labels exact_sum execution first_row fixed_point forces initial_fill lawson_flips neighbors
     nodal_spacing output_files population population_contest repair resolved_spacing result_check schemes
-    settings slivers spacing speeds sphere sphere_cells surface_moves sweep tetrahedron_quality trees
+    settings sizing_field slivers spacing speeds sphere sphere_cells surface_moves sweep tetrahedron_quality trees
     visibility volume_domain volume_fill volume_lattice volume_population volume_star volume_stars
     # geometry and its files
     boundary boundary_tag features msh plane_domain plane_sweep poly_reader polygons predicates simplify
     space_ties surface surface_checks surface_readers surface_walk triangle_contacts
     # the interface
     api_adapting api_arguments api_arithmetic api_boundary api_callbacks api_checkpoints api_contexts
-    api_files api_groups api_handles api_level_sets api_neighbours api_regions api_shape api_small
+    api_files api_groups api_handles api_level_sets api_messages api_neighbours api_regions api_shape api_small
     api_sphere api_surfaces api_tables
     geo_reading geo_projecting geo_raster_values
     # ranks
     parallel_adapt parallel_adapting parallel_assembly parallel_background parallel_distributed_mesh
     parallel_exchange parallel_faults_1 parallel_faults_3 parallel_fields parallel_files
     parallel_long_lists parallel_memory_2 parallel_mesh_files parallel_node_hashes parallel_redundancy
-    parallel_soak_3 parallel_sparse_exchange parallel_sphere_fields parallel_star_questions
+    parallel_restart parallel_soak_3 parallel_sparse_exchange parallel_sphere_fields parallel_star_questions
     parallel_transfer parallel_tree_part parallel_volume_halo parallel_volume_partition
     parallel_voronoi_cells parallel_wide_sums
     # the command
