@@ -241,10 +241,12 @@ void check(const Case& c, pnpbs_context part, int size_of_part) {
 
 std::vector<Case> cases(Spot& even, Spot& spot) {
   std::vector<Case> all;
-  for (const auto& [kind, name] : {std::pair(Kind::plane, "plane"),
-                                   {Kind::body, "body"},
-                                   {Kind::surface, "surface"},
-                                   {Kind::sphere, "sphere"}}) {
+  for (const auto& named : {std::pair(Kind::plane, "plane"),
+                            {Kind::body, "body"},
+                            {Kind::surface, "surface"},
+                            {Kind::sphere, "sphere"}}) {
+    const Kind kind = named.first;
+    const std::string name = named.second;
     const std::int32_t dim = kind == Kind::plane ? 2 : 3;
     const double d = kind == Kind::plane ? 0.15 : kind == Kind::body ? 0.35 : 0.25;
     const auto add = [&](const char* what, SetSpacing set, const char* limit) {
