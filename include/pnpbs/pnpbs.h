@@ -117,13 +117,14 @@ typedef struct pnpbs_mesh_handle *pnpbs_mesh;
 typedef struct pnpbs_voronoi_handle *pnpbs_voronoi;
 typedef struct pnpbs_particles_handle *pnpbs_particles;
 
-/* After a status below 0 everything is as it was before the call, on all ranks: nodes, owners, ghosts,
- * lists, statistics and warnings, except the statistics seconds.*, memory.* and redundancy.*, which count
- * what was spent. A call that is repeated has the result that it would have had without the error. For
- * this, calls that move nodes keep a copy of the nodes until they end: about 100 bytes for each node and
- * ghost of the rank in space, 80 in the plane. Where there is no memory for the copy, the call fails
- * with PNPBS_ERROR_MEMORY before it changes anything. What was derived from the nodes, such as adjacency
- * lists, is freed after an error and derived again when it is requested. */
+/* After a status below 0 everything is as it was before the call, on all ranks: nodes, owners,
+ * ghosts, lists, statistics and warnings, except the statistics seconds.*, memory.* and
+ * redundancy.*, which count what was spent. A call that is repeated has the result that it would
+ * have had without the error. For this, calls that move nodes keep a copy of the nodes until they
+ * end: about 100 bytes for each node and ghost of the rank in space, 80 in the plane. Where there
+ * is no memory for the copy, the call fails with PNPBS_ERROR_MEMORY before it changes anything.
+ * What was derived from the nodes, such as adjacency lists, is freed after an error and derived
+ * again when it is requested. */
 
 /** Returns the meaning of a status in a few words. Local. Never NULL. */
 PNPBS_API const char *pnpbs_status_string(pnpbs_status status);

@@ -162,8 +162,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
                                out.reals + 3, out.integers + 4, out.reals + 5, out.reals + 6))    \
   X(placement_warning_count, (handle, out.small + 2))                                             \
   X(placement_get_warning, (handle, 0, out.texts + 1))                                            \
-  X(placement_get_warning_data, (handle, 0, out.small + 2, out.integers + 1, out.reals + 2,       \
-                                 out.reals + 3))                                                  \
+  X(placement_get_warning_data,                                                                   \
+    (handle, 0, out.small + 2, out.integers + 1, out.reals + 2, out.reals + 3))                   \
   X(placement_write, (handle, "unwritten.csv", 0))                                                \
   X(placement_write_files, (handle, 0, NULL, NULL, NULL))                                         \
   X(placement_write_checkpoint, (handle, "unwritten.vtkhdf"))                                     \
