@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sizing field: its parts apply in their order, against the formula, and tell their places. Work
-// that takes long calls beat(), and what that throws ends it.
+// The sizing field: its parts apply in their order, against the formula, and tell their places.
+// Work that takes long calls beat(), and what that throws ends it.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -75,8 +75,8 @@ START_TEST(parts_apply_in_their_order) {
 END_TEST
 
 START_TEST(values_that_are_not_finite_stay) {
-  const auto broken = std::make_shared<pnpbs::CallbackSpacing<3>>(
-      [](std::int64_t n, const double*, double* d) {
+  const auto broken =
+      std::make_shared<pnpbs::CallbackSpacing<3>>([](std::int64_t n, const double*, double* d) {
         std::fill(d, d + n, INFINITY);
         return 0;
       });
@@ -134,7 +134,7 @@ START_TEST(beats_while_it_is_made) {
 END_TEST
 
 TEST_SUITE(test_sizing_field) {
-  return run_kernel_suite("sizing_field",
-                          {parts_apply_in_their_order, values_that_are_not_finite_stay,
-                           places_are_told, beats_while_it_is_made});
+  return run_kernel_suite(
+      "sizing_field", {parts_apply_in_their_order, values_that_are_not_finite_stay, places_are_told,
+                       beats_while_it_is_made});
 }
