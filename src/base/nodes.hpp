@@ -155,7 +155,7 @@ struct Nodes {
     owned(i) = 1;
   }
 
-  // The same nodes with values of their own, to be put back later.
+  // Returns the same nodes with values of their own, which do not change with these.
   Nodes copy() const {
     Nodes copied = *this;
     copied.for_arrays([this](auto& array, const char*) { copy_array(array, count + 1); });

@@ -29,7 +29,7 @@ struct SavedState {
   std::string options;         // those that decide, "name = value" in lines
   std::string warnings;        // of the last run: see saved_warnings.hpp
 
-  // Tables, in rows of numbers: they are no fields.
+  // These are tables: rows of numbers of a fixed length. for_tables() visits them.
   std::vector<double> held;          // places where d is reduced, each followed by d there
   std::vector<double> finer_places;  // SizingField::finer_places(): the same of d found there
   std::vector<double> finer_slopes;  // places, growth from there, d there, 1 if surely inside

@@ -27,8 +27,8 @@ struct PlacementState {
   Unresolved<Dim> unresolved;                 // by the last finish
 };
 
-// A placement when a call began. The level is the same object, which the call may have changed:
-// so there is a copy of its nodes beside it.
+// What a placement was when a call began. The level is the same object, which the call may change:
+// so a copy of its nodes is kept beside it.
 template <int Dim>
 struct PlacementBefore {
   PlacementState<Dim> state;
