@@ -166,7 +166,7 @@ class WholeSphere(CommandTest):
     @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks_go_on_from_one_file(self):
         self.placed("--checkpoint", "half.h5", "--set", "steps=20", code=3)
-        goes_on = ("--restart", "half.h5", "--set", "steps=20")
+        goes_on = ("--restart", "half.h5", "--set", "steps=300")
         nodes, _ = self.placed(*goes_on)
         self.assertEqual(self.placed(*goes_on, ranks=3)[0], nodes)
 
