@@ -861,7 +861,7 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  thin wall are as long as it is thick); PNPBS_NOT_CONFORMING, whatever else is true, if there are
  *  no tetrahedra, nodes are in none, some have no volume, their boundary is torn or has another
  *  Euler characteristic than the domain's, the volume differs from the domain's by more than 0.001
- *  of it and more than boundary faces can cut off, or triangles of surfaces alone do not join (a
+ *  of it and more than boundary faces cut off as chords, or triangles of surfaces alone do not join (a
  *  warning says which); PNPBS_STOPPED. The nodes are valid in all these cases. In space, before it
  *  would return PNPBS_NOT_CONFORMING, it reduces d around the places where elements are missing and
  *  continues from its nodes, up to `conforming_rounds` times; a warning reports the cost (statistic

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/conformity.hpp"
 
+#include <cstdlib>
+
 #include "base/found_indices.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
@@ -55,6 +57,17 @@ FoundNodes<3> flat_in(const Results<3>& results, std::vector<Point<3>>& places) 
                                                  : flat_elements(results.level(), places);
 }
 
+MessageText text_of(const ElementMeasure& measure, const std::string& element) {
+  const bool area = element == "triangle";
+  return (area ? "the triangles have the area " : "the tetrahedra have the volume ") +
+         rounded_text(measure.elements) + ", the domain " + rounded_text(measure.domain) +
+         (area ? ", and no more than " + rounded_text(measure.between) + " can lie between them"
+               : ", and the distance of the boundary faces from the surfaces explains a "
+                 "difference of " +
+                     rounded_text(measure.chord_error)) +
+         ": the spacing does not resolve the shape: " + kWaysOut;
+}
+
 const char* elements_of(const Results<2>&) { return "triangle"; }
 const char* elements_of(const Results<3>& results) {
   return results.kind() == GeometryKind::surface ? "triangle" : "tetrahedron";
@@ -90,6 +103,20 @@ Conformity<Dim> conformity_of(const Results<Dim>& results) {
 }
 
 template <int Dim>
+ElementFaults Conformity<Dim>::element_faults() const {
+  constexpr double kParts = 1000;
+  ElementFaults faults;
+  faults.no_elements = !any_elements();
+  faults.pieces = std::abs(boundary.pieces - boundary.pieces_of_domain);
+  faults.euler = std::abs(boundary.euler - boundary.euler_of_domain);
+  if (measure.far_off())
+    faults.lost_thousandths =
+        static_cast<std::int64_t>(kParts * measure.difference() / measure.domain);
+  faults.torn = isolated.count + unmatched.count + flat.count + boundary.torn.count;
+  return faults;
+}
+
+template <int Dim>
 MessageText text_of(const Conformity<Dim>& conformity, const Results<Dim>& results) {
   const Level<Dim>& level = results.level();
   const std::string element = elements_of(results);
@@ -115,13 +142,7 @@ MessageText text_of(const Conformity<Dim>& conformity, const Results<Dim>& resul
            " tetrahedra, one of them at " + rounded_point_text<Dim>(conformity.flat.at) +
            ", where a wall or a bar is thinner than the spacing, and its nodes lie in one plane: "
            "make it smaller there";
-  if (conformity.measure.far_off())
-    return (element == "triangle" ? "the triangles have the area "
-                                  : "the tetrahedra have the volume ") +
-           rounded_text(conformity.measure.elements) + ", the domain " +
-           rounded_text(conformity.measure.domain) + ", and no more than " +
-           rounded_text(conformity.measure.between) +
-           " can lie between them: the spacing does not resolve the shape: make it smaller";
+  if (conformity.measure.far_off()) return text_of(conformity.measure, element);
   if (conformity.boundary.torn.count > 0)
     return "the boundary of the tetrahedra is torn at " +
            std::to_string(conformity.boundary.torn.count) + " nodes, one of them at " +

@@ -3,6 +3,8 @@
 // run, for its outcome and its warning, and by the check of the results.
 #pragma once
 
+#include <compare>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,18 @@
 #include "results/results.hpp"
 
 namespace pnpbs {
+
+// How far the elements are from filling the domain. Of two rounds of a run the one with fewer
+// faults is better: what is named first counts first.
+struct ElementFaults {
+  bool no_elements = false;
+  std::int64_t pieces = 0;            // of the boundary, too many or too few
+  std::int64_t euler = 0;             // by which its Euler characteristic is off
+  std::int64_t lost_thousandths = 0;  // of the volume, by which it is off
+  std::int64_t torn = 0;  // nodes in no element, or where the boundary is torn; flat elements
+
+  auto operator<=>(const ElementFaults&) const = default;
+};
 
 template <int Dim>
 struct Conformity {
@@ -40,6 +54,7 @@ struct Conformity {
     return measure.far_off() ? 0 : boundary.torn.count;
   }
   bool holds() const { return fills() && boundary.agrees(); }
+  ElementFaults element_faults() const;
 };
 
 // After prepare_stars. Collective.

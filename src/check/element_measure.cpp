@@ -17,7 +17,10 @@ namespace {
 
 constexpr double kTolerance = 1e-9;  // of the domain, for rounding
 constexpr double kSmall = 1e-3;      // of the domain
-constexpr double kFoundTo = 1e-6;    // of its resolution: as well as edges of a level set are known
+// Of the absolute chord error: how far it is known. Measured on scans and random bodies with 3 000
+// nodes: it explains 93 % of what is lost or more.
+constexpr double kChordError = 0.15;
+constexpr double kFoundTo = 1e-6;  // of its resolution: as well as edges of a level set are known
 
 class Measuring : public VolumeNodeCheck {
  public:
@@ -82,7 +85,7 @@ class Measuring : public VolumeNodeCheck {
   // other side of them.
   void add_to_volume(ElementMeasure& measure) const {
     constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-    double enclosed = 0, rounding = 0, cut_off = 0;
+    double enclosed = 0, rounding = 0, cut_off = 0, chord = 0, absolute_chord = 0;
     p_.for_open_facets([&](const Three& places) {
       const std::array<Point<3>, 3> x = positions_at(places);
       const Point<3>& low = ground_.bounds().low;
@@ -93,10 +96,31 @@ class Measuring : public VolumeNodeCheck {
       // Gaps are about as wide as at the worst of these places, or a third less; twice as wide has
       // room for what lies between.
       cut_off += twice_area(x) * (max_gap(x) + kFoundTo * resolution_);
+      const auto [outwards, both_ways] = chord_error_at(x);
+      chord += outwards;
+      absolute_chord += both_ways;
     });
+    measure.chord_error = sum_over_ranks(chord, domain_);
+    measure.absolute_chord_error = sum_over_ranks(absolute_chord, domain_);
     measure.enclosed = sum_over_ranks(enclosed, domain_);
     measure.rounding = sum_over_ranks(rounding, domain_);
     measure.between = sum_over_ranks(cut_off, domain_);
+  }
+
+  // What lies between a face and the surfaces, outwards, and without regard to the side.
+  std::array<double, 2> chord_error_at(const std::array<Point<3>, 3>& corners) const {
+    const Point<3> normal =
+        cross(difference(corners[1], corners[0]), difference(corners[2], corners[0]));
+    std::array<double, 2> error{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point<3> x = middle_of<3>(corners[k], corners[(k + 1) % 3]);
+      const NearestPoint<3> nearest =
+          ground_.domain().index().nearest(x, std::numeric_limits<double>::infinity());
+      const double part = dot(difference(nearest.x, x), normal) / 6;
+      error[0] += part;
+      error[1] += std::fabs(part);
+    }
+    return error;
   }
 
   void add_to_area(ElementMeasure& measure) const {
@@ -146,9 +170,20 @@ class Measuring : public VolumeNodeCheck {
 
 double ElementMeasure::difference() const { return std::fabs(elements - domain); }
 
-bool ElementMeasure::far_off() const { return difference() > kSmall * domain && !agrees(); }
+bool ElementMeasure::far_off() const {
+  if (difference() <= kSmall * domain || domain <= rounding) return false;
+  if (absolute_chord_error == 0) return !agrees();  // nothing lies between, or surfaces alone
+  return std::fabs(domain - elements - chord_error) >
+         rounding + kSmall * domain + kChordError * absolute_chord_error;
+}
 
 ElementMeasure measure_of_elements(const Results<3>& results) { return Measuring(results).all(); }
+
+double volume_of_elements(const Results<2>&) { return 0; }
+
+double volume_of_elements(const Results<3>& results) {
+  return results.kind() == GeometryKind::body ? Measuring(results).of_elements().elements : 0;
+}
 
 ElementMeasure measure_if_far_off(const Results<3>& results) {
   const Measuring measuring(results);

@@ -9,6 +9,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
+#include "geometry/volume/triangle_samples.hpp"
 #include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
@@ -68,15 +69,8 @@ void VolumeNodeCheck::check_feature_nodes() const {
 }
 
 double VolumeNodeCheck::max_gap(const std::array<Point<3>, 3>& corners) const {
-  constexpr double kMiddles[][3] = {
-      {1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
   double gap = 0;
-  for (const auto& weights : kMiddles) {
-    Point<3> x{};
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      for (std::size_t k = 0; k < 3; ++k) x[k] += weights[corner] * corners[corner][k];
-    gap = std::max(gap, gap_to_surface(x));
-  }
+  for (const Point<3>& x : triangle_samples(corners)) gap = std::max(gap, gap_to_surface(x));
   // Nodes of a level set lie on it, and so off its triangles where these round its edges.
   if (resolution_ > 0)
     for (const Point<3>& corner : corners) gap = std::max(gap, gap_to_surface(corner));

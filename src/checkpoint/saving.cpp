@@ -295,7 +295,7 @@ Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
   s.rebalances = run.rebalances_before + level.rebalances;
   s.stop_reason = static_cast<int>(run.stop_reason);
   s.outcome = static_cast<int>(run.outcome);
-  s.missing_faces = run.surface_fit.missing_faces;
+  s.missing_faces = run.surface_fit.faces_off;
   s.left_out = level.left_out;
   s.spacing_saved = saved.patch != nullptr;
   s.max_speed = run.last_speeds.max;
@@ -385,7 +385,7 @@ void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
   run.stop_reason = static_cast<StopReason>(s.stop_reason);
   run.outcome = static_cast<Outcome>(s.outcome);
   run.edge_bands = edge_bands_in(s);
-  run.surface_fit.missing_faces = s.missing_faces;
+  run.surface_fit.faces_off = s.missing_faces;
   level.left_out = s.left_out;
   level.held_rounds = s.held_rounds;
   const std::vector<Warning> of_run = warnings_in(s.warnings);

@@ -284,6 +284,18 @@ inline constexpr double kVacancyBend = 0.3;
 // Places farther from all nodes that were taken over are filled before bubbles move: in a lattice
 // none is farther than 0.58 on a surface, 0.61 inside. [d] Chosen.
 inline constexpr double kGap = 0.8;
+// Walls thinner than that have the nodes of their two sides opposite each other. [d] Measured: in a
+// plate of 0.2 d, tetrahedra between other nodes fill the body, in one of 0.1 d they do not.
+inline constexpr double kThinWall = 0.25;
+// The same of gaps, whose tetrahedra are no elements and may have any angles. [d] Chosen.
+inline constexpr double kNarrowGap = 0.5;
+// How far such a node is from the place straight through a wall of thickness t. [t^2/d] Measured: a
+// stack of plates of 0.05 d and of gaps of 0.03 d conforms with 0.6, and not with 6.
+inline constexpr double kAsideInThinWall = 0.6;
+// How far it keeps off feature edges. [d] Chosen.
+inline constexpr double kPartnerClearance = 0.3;
+// How far it keeps off other nodes. [d] Chosen.
+inline constexpr double kPartnerGap = 0.5;
 // A node this near to the middle of a ball that is to get one stands for it. [radius of the ball]
 // Chosen.
 inline constexpr double kBallTaken = 0.3;
@@ -316,10 +328,14 @@ inline constexpr double kSmallAngle = 2;
 inline constexpr double kSmallAnglesLeft = 0.5;
 // Rounds that do not count, at most. [rounds] Chosen: each takes as long as a run.
 inline constexpr int kMaxRoundsInVain = 2;
+// The same in a row, of rounds after one whose elements do not conform. [rounds] Chosen.
+inline constexpr int kMaxRoundsInVainToConform = 3;
 // With more nodes than in the first round d is a mistake. [nodes of that round] Chosen.
 inline constexpr double kMaxGrowthOfNodes = 4;
-// Unless they are only so many more. [nodes] Chosen.
-inline constexpr double kFewNodesMore = 20000;
+// The same where the last round does not conform. [nodes of the first round] Chosen.
+inline constexpr double kMaxGrowthToConform = 10;
+// Unless they are so few in all. [nodes] Chosen.
+inline constexpr double kFewNodesToConform = 5000;
 // Layers of nodes that the option resolve wants in a wall: those of its sides count half. [layers]
 // Derived: one in the middle.
 inline constexpr double kLayersInWall = 2;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/warning.hpp"
+#include "check/boundary_distance.hpp"
 #include "checkpoint/option_changes.hpp"
 #include "comm/communicator.hpp"
 #include "estimate/node_estimate.hpp"
@@ -65,9 +66,14 @@ class Placement {
   std::int64_t deleted() const { return state_.deleted; }
   std::int64_t dropped() const { return state_.dropped; }
   std::int64_t unknown_uses() const { return state_.unknown_uses; }
-  std::int64_t missing_faces() const { return state_.surface_fit.missing_faces; }
+  std::int64_t missing_faces() const { return state_.surface_fit.faces_off; }
+  // Of a body; of other domains all are 0. Collective.
+  virtual double volume_of_elements() = 0;
+  virtual double volume_of_domain() const = 0;
+  virtual BoundaryDistance boundary_distance() = 0;
   virtual std::int64_t unresolved_places() const = 0;
-  virtual double unresolved_spacing() const = 0;  // the least there, before it was held down
+  virtual std::int64_t unresolved_nodes() const = 0;  // expected where it is held down
+  virtual double unresolved_spacing() const = 0;      // the least there, before it was held down
   // Of a body in space; of others all are 0.
   virtual RepairDistances repair_distances() const = 0;
   StopReason stop_reason() const { return state_.stop_reason; }

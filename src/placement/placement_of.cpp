@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "placement/placement_of.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -268,18 +269,23 @@ template <int Dim>
 Outcome PlacementOf<Dim>::rounds_with_spacing_held(Outcome first) {
   BestRound<Dim> best;
   Outcome outcome = first;
-  while (outcome != Outcome::stopped &&
-         best.asks_for_another(outcome, now_.unresolved.small_angles)) {
+  while (outcome != Outcome::stopped) {
+    FinishedRound<Dim> last{nullptr,
+                            now_.placed,
+                            state_,
+                            outcome,
+                            now_.unresolved.faults,
+                            now_.unresolved.small_angles};
+    if (!best.asks_for_another(last)) break;
     ++rounds_of_run_;
-    FinishedRound<Dim> last{nullptr, now_.placed, state_, outcome, now_.unresolved.small_angles};
     const Outcome begun = hold_spacing(outcome != Outcome::not_conforming, last.level);
     if (begun == Outcome::not_conforming) break;
     best.offer(std::move(last));
-    const Monitoring::Provisional turns(monitoring_, best.any_kept());
+    const Monitoring::Provisional turns(monitoring_, best.any_conforms());
     try {
       outcome = begun == Outcome::stopped ? begun : steps_and_finish();
     } catch (const Error& error) {
-      if (!best.any_kept() || !is_lack_of_room(error)) throw;
+      if (!best.any_conforms() || !is_lack_of_room(error)) throw;
       return return_to(best.take());
     }
   }
@@ -331,7 +337,11 @@ Outcome PlacementOf<Dim>::begin_held_round(PlacedSpacing<Dim> placed, bool confo
   LevelBuilder<Dim> builder = this->builder();
   std::shared_ptr<Level<Dim>> next = builder.empty_level(placed.d, settings);
   const double expected = expected_nodes(*next);
-  if (takes_too_many(expected, placed.held, conforms)) return Outcome::not_conforming;
+  if (takes_too_many(expected, placed.held, conforms)) {
+    if (!conforms) state_.warn(warning_of_too_many(expected, placed.held));
+    return Outcome::not_conforming;
+  }
+  placed.held.expected_nodes = std::max(static_cast<std::int64_t>(expected), global_count());
   settings.node_limit().require_memory_for(expected);
   return adopt(
       builder.with_first_nodes(std::move(next), std::move(placed), settings, nodes_before()),

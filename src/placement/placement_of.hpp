@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "check/boundary_distance.hpp"
+#include "check/element_measure.hpp"
 #include "checkpoint/saving.hpp"
 #include "level/finer_places.hpp"
 #include "level/level.hpp"
@@ -58,7 +60,25 @@ class PlacementOf : public Placement {
   const Results<Dim>& results() const override { return results_; }
   const Level<Dim>& level() const { return results_.level(); }
   std::int64_t unresolved_places() const override { return std::ssize(now_.placed.held.places); }
+  std::int64_t unresolved_nodes() const override { return now_.placed.held.expected_nodes; }
   double unresolved_spacing() const override { return now_.placed.held.least_before; }
+  double volume_of_elements() override {
+    results_.prepare_stars();
+    return pnpbs::volume_of_elements(results_);
+  }
+  double volume_of_domain() const override {
+    if constexpr (Dim == 3)
+      if (results_.has_nodes() && results_.kind() == GeometryKind::body)
+        return results_.level().ground.measure();
+    return 0;
+  }
+  BoundaryDistance boundary_distance() override {
+    results_.prepare_stars();
+    if (boundary_stamp_ == level().stamp()) return boundary_distance_;
+    boundary_distance_ = pnpbs::boundary_distance(results_);
+    boundary_stamp_ = level().stamp();
+    return boundary_distance_;
+  }
   RepairDistances repair_distances() const override {
     if constexpr (Dim == 3) return domain_->repair_distances();
     return {};
@@ -134,6 +154,8 @@ class PlacementOf : public Placement {
   PlacementState<Dim> now_;
   PlacementBefore<Dim>* before_ = nullptr;  // while a call that moves nodes is in progress
   Results<Dim> results_;
+  BoundaryDistance boundary_distance_;  // measured at this stamp of the level
+  LevelStamp boundary_stamp_;
   IncomingNodes<Dim> given_;  // nodes to start from instead of a fill
   bool start_from_given_ = false;
   int rounds_of_run_ = 0;  // in which d is held down, in the call in progress

@@ -101,8 +101,8 @@ const std::vector<StatisticRow>& statistic_table() {
           "nodes given by the user that lie outside or too close to the boundary"),
       integer(
           "missing_faces", [](P p) { return p.missing_faces(); },
-          "surface triangles missing from the boundary of the last run's tetrahedra, and its "
-          "faces that are on no surface"),
+          "faces of the boundary of the last run's tetrahedra with a point farther than d from the "
+          "surfaces of the body"),
       integer(
           "left_out", [](P p) { return p.results().level_figures().left_out; },
           "nodes of corners and sharp edges that the last run left out because no tetrahedra "
@@ -111,6 +111,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "unresolved_places", [](P p) { return p.unresolved_places(); },
           "places around which d is reduced because elements were missing there, or had angles "
           "below min_angle (option conforming_rounds)"),
+      integer(
+          "unresolved_nodes", [](P p) { return p.unresolved_nodes(); },
+          "nodes that were expected when d was last reduced at such places; 0 without them, and "
+          "after a restart"),
       real(
           "unresolved_spacing", [](P p) { return p.unresolved_spacing(); },
           "smallest d at the first of these places before it was reduced: a resolution for "
@@ -207,6 +211,21 @@ const std::vector<StatisticRow>& statistic_table() {
             return static_cast<std::int64_t>(p.communicator().allreduce_max(mine));
           },
           "largest memory.peak_bytes over the ranks")),
+      computed(real(
+          "volume.elements", [](P p) { return p.volume_of_elements(); },
+          "volume of the tetrahedra; 0 of domains that are no bodies in space")),
+      real(
+          "volume.domain", [](P p) { return p.volume_of_domain(); },
+          "volume of the body; 0 of domains that are none in space"),
+      computed(real(
+          "boundary.distance", [](P p) { return p.boundary_distance().of_faces; },
+          "largest distance over d of the boundary of the tetrahedra from the surfaces of the "
+          "body, "
+          "at the centroids of its faces and the middles of their sides")),
+      computed(real(
+          "boundary.given_distance", [](P p) { return p.boundary_distance().of_surfaces; },
+          "largest distance over d of the surfaces of the body from the boundary of the "
+          "tetrahedra, at points no farther apart than d/2")),
       computed(real(
           "d_error.mean", [](P p) { return p.results().spacing_error().mean; },
           "nearest-neighbour distance over d: mean")),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "level/volume/opposite_nodes.hpp"
 #include "quality/volume/small_angles.hpp"
 #include "quality/volume/tetrahedron_quality.hpp"
 #include "results/own_elements.hpp"
@@ -56,6 +57,14 @@ LeastAngles least_angles(const Level<3>& level, double of_all) {
           -level.comm->allreduce_max(-least.elsewhere)};
 }
 
+namespace {
+
+double least_spacing(const Tetrahedron& t) {
+  return std::ranges::min_element(t, {}, &VolumeNode::d)->d;
+}
+
+}  // namespace
+
 SmallAngleElements small_angle_elements(const Level<3>& level, double below) {
   const SmallAngles small(below);
   SmallAngleElements found;
@@ -64,7 +73,8 @@ SmallAngleElements small_angle_elements(const Level<3>& level, double below) {
     for_own_elements_where(
         "pnpbs::small_angle_elements", level,
         [&](const Tetrahedron& t, const std::array<std::int64_t, 4>& corners) {
-          return small.any(positions(t)) && !any_of(at_edge, corners);
+          return small.any(positions(t)) && !any_of(at_edge, corners) &&
+                 !connects_thin_wall(level, centroid(t), least_spacing(t));
         },
         [&](const Tetrahedron& t, const std::array<std::int64_t, 4>&) {
           found.all.add(1, t[0].id, t[0].x);

@@ -35,8 +35,9 @@ struct SmallAngleElements {
   std::vector<Point<3>> places;  // the corners of this rank's, each once
 };
 
-// Elements with an angle below so many degrees, but not those at sharp edges. From the stars there
-// are. Collective.
+// Elements with an angle below so many degrees, but neither those at sharp edges nor those that
+// connect the two sides of a wall much thinner than d, which cannot have larger ones. From the
+// stars there are. Collective.
 SmallAngleElements small_angle_elements(const Level<3>& level, double below);
 
 }  // namespace pnpbs

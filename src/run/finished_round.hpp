@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "check/conformity.hpp"
 #include "level/level.hpp"
 #include "method/constants.hpp"
 #include "run/monitoring.hpp"
@@ -25,34 +26,44 @@ struct FinishedRound {
   PlacedSpacing<Dim> placed;
   RunState state;
   Outcome outcome;
+  ElementFaults faults;
   std::int64_t small_angles;  // elements with one
+
+  bool conforms() const { return outcome != Outcome::not_conforming; }
 };
 
-// Which round counts: the first with elements that can be used, or a later one that leaves at most
-// half of its small angles, and so on from there.
+// Which round counts. Those whose elements conform are better than others. Of others the one with
+// fewer faults is better; of those that conform, the first, or a later one that leaves at most half
+// of its small angles, and so on from there.
 template <int Dim>
 class BestRound {
  public:
-  // Told of a round that has ended: is there anything to gain by another one?
-  bool asks_for_another(Outcome outcome, std::int64_t small_angles) {
-    const bool conforms = outcome != Outcome::not_conforming;
-    last_is_best_ = conforms && (!best_ || leaves_few(small_angles));
-    if (conforms && small_angles == 0) return false;
-    if (best_ && !last_is_best_) ++in_vain_;
-    return in_vain_ < method::kMaxRoundsInVain;
+  // Is there anything to gain by another round after the last one?
+  bool asks_for_another(const FinishedRound<Dim>& last) {
+    last_is_best_ = !best_ || is_better(last);
+    if (last.conforms() && last.small_angles == 0) return false;
+    const bool any_conforms = last.conforms() || (best_ && best_->conforms());
+    if (last_is_best_)
+      in_vain_ = any_conforms ? in_vain_ : 0;
+    else
+      ++in_vain_;
+    return in_vain_ < (any_conforms ? method::kMaxRoundsInVain : method::kMaxRoundsInVainToConform);
   }
   // That round, once another one has begun; what is not the best is let go.
   void offer(FinishedRound<Dim> last) {
     if (last_is_best_) best_ = std::move(last);
     last_is_best_ = false;
   }
-  bool any_kept() const { return best_.has_value(); }
+  // Is a round kept whose elements conform?
+  bool any_conforms() const { return best_ && best_->conforms(); }
   bool last_counts() const { return last_is_best_ || !best_; }
   FinishedRound<Dim> take() { return std::move(*best_); }
 
  private:
-  bool leaves_few(std::int64_t small_angles) const {
-    return static_cast<double>(small_angles) <=
+  bool is_better(const FinishedRound<Dim>& last) const {
+    if (last.conforms() != best_->conforms()) return last.conforms();
+    if (!last.conforms()) return last.faults < best_->faults;
+    return static_cast<double>(last.small_angles) <=
            method::kSmallAnglesLeft * static_cast<double>(best_->small_angles);
   }
 

@@ -73,6 +73,7 @@ bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresol
     run.warnings.emplace_back(WarningCode::not_conforming, text_of(conformity, results),
                               conformity.faults());
   unresolved = {};
+  unresolved.faults = conformity.element_faults();
   if (conformity.holds()) {
     find_small_angles(results.level(), run, unresolved);
     return true;

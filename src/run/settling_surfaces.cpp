@@ -13,6 +13,7 @@
 #include "level/expected_nodes.hpp"
 #include "level/numbering.hpp"
 #include "level/room.hpp"
+#include "level/volume/opposite_nodes.hpp"
 #include "level/volume/surface_level.hpp"
 #include "level/volume/vacancies.hpp"
 #include "method/constants.hpp"
@@ -67,6 +68,10 @@ void rest_on_surfaces(Level<3>& level, IncomingNodes<3> on_surfaces,
   simulation.remove_crowded();  // nodes that coincide have no star
   context.run.inserted += fill_vacancies(level);
   sweep_on_surfaces(level, settings.sweeps);
+  if (role != LevelRole::surfaces || level.ground.kind() != GeometryKind::body) return;
+  const PopulationCounts opposite = place_opposite_nodes(level);
+  context.run.inserted += opposite.inserted;
+  context.run.deleted += opposite.deleted;
 }
 
 }  // namespace

@@ -124,17 +124,17 @@ std::optional<Warning> warning_of_missed_spacing(const std::vector<EdgeBand>& ba
 }
 
 std::optional<Warning> warning_of_surface_fit(const SurfaceFit& fit, const Options& options) {
-  if (fit.missing_faces <= 0) return std::nullopt;
+  if (fit.faces_off <= 0) return std::nullopt;
   const std::string what_helps =
       std::string("make it smaller there") +
       (options.integer("resolve") == 0 ? ", or try the option resolve" : "");
   return Warning(WarningCode::boundary_not_followed,
                  "the boundary of the tetrahedra does not follow the surface at " +
-                     std::to_string(fit.missing_faces) +
-                     " triangles (statistic missing_faces), one of them at " +
-                     rounded_point_text<3>(fit.missing_at) +
+                     std::to_string(fit.faces_off) +
+                     " faces (statistic missing_faces), one of them at " +
+                     rounded_point_text<3>(fit.off_at) +
                      "; the spacing does not resolve the shape: " + what_helps,
-                 fit.missing_faces);
+                 fit.faces_off);
 }
 
 std::optional<Warning> warning_of_features_left_out(const Level<2>&) { return std::nullopt; }

@@ -122,7 +122,21 @@ template <int Dim>
 bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms) {
   const auto nodes = static_cast<double>(held.nodes_before);
   return expected_nodes >
-         std::max(method::kMaxGrowthOfNodes * nodes, conforms ? 0 : nodes + method::kFewNodesMore);
+         (conforms ? method::kMaxGrowthOfNodes * nodes
+                   : std::max(method::kMaxGrowthToConform * nodes, method::kFewNodesToConform));
+}
+
+template <int Dim>
+Warning warning_of_too_many(double expected_nodes, const Held<Dim>& held) {
+  const GrowthSource<Dim>& finest = *std::ranges::min_element(
+      held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
+  const auto nodes = static_cast<std::int64_t>(expected_nodes);
+  return {WarningCode::not_conforming,
+          "the shape takes about " + std::to_string(nodes) + " nodes or more, with a spacing of " +
+              rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) + ", and the " +
+              "spacing that is set asks for " + std::to_string(held.nodes_before) +
+              ": set the option resolve to place them, or a smaller spacing there",
+          nodes, finest.d};
 }
 
 template <int Dim>
@@ -143,10 +157,12 @@ template View<char> held_nodes(const Level<2>&, const PlacedSpacing<2>&);
 template bool add_unresolved_places<2>(const Level<2>&, const Unresolved<2>&, Held<2>&);
 template bool takes_too_many(double, const Held<2>&, bool);
 template Warning warning_of_held_spacing(const Held<2>&, std::int64_t);
+template Warning warning_of_too_many(double, const Held<2>&);
 template void hold_down(const Communicator&, PlacedSpacing<3>&, const Settings&);
 template View<char> held_nodes(const Level<3>&, const PlacedSpacing<3>&);
 template bool add_unresolved_places<3>(const Level<3>&, const Unresolved<3>&, Held<3>&);
 template bool takes_too_many(double, const Held<3>&, bool);
 template Warning warning_of_held_spacing(const Held<3>&, std::int64_t);
+template Warning warning_of_too_many(double, const Held<3>&);
 
 }  // namespace pnpbs

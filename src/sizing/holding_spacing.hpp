@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/warning.hpp"
+#include "check/conformity.hpp"
 #include "level/level.hpp"
 #include "sizing/placed_spacing.hpp"
 
@@ -29,6 +30,7 @@ template <int Dim>
 struct Unresolved {
   std::vector<Point<Dim>> places;  // of this rank
   std::int64_t small_angles = 0;   // elements with one, over all ranks, if they conform
+  ElementFaults faults;            // over all ranks
 };
 
 // Adds the places at which the last round asks for a smaller d, which left these places of this
@@ -37,10 +39,14 @@ template <int Dim>
 bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
                            Held<Dim>& held);
 
-// Would a round with so many nodes take far more than were asked for? More may come if the last one
-// does not conform.
+// Would a round with so many nodes take far more than the spacing asks for? More may come if the
+// last one does not conform.
 template <int Dim>
 bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms);
+
+// That a round with so many nodes was not begun, where elements do not conform.
+template <int Dim>
+Warning warning_of_too_many(double expected_nodes, const Held<Dim>& held);
 
 // That d is held down, of a run with so many nodes.
 template <int Dim>

@@ -19,6 +19,7 @@ struct Held {
   // Of the round before the first of these: its nodes, and the least d at the places it left.
   std::int64_t nodes_before = 0;
   double least_before = 0;
+  std::int64_t expected_nodes = 0;  // of the last of these rounds, before it began
 };
 
 // The spacing as it counts, the places where it is held down, and how steep it is without these

@@ -62,7 +62,7 @@ std::int32_t Progress::monitor(double fraction, std::int64_t step, std::int64_t 
                                double max_speed, void* user) {
   auto* const progress = static_cast<Progress*>(user);
   try {
-    progress->note_held_spacing();
+    progress->note_held_spacing(nodes);
     progress->update(fraction, step, nodes, max_speed);
   } catch (...) {
     // A run is worth more than its progress bar.
@@ -88,16 +88,29 @@ void Progress::update(double fraction, std::int64_t step, std::int64_t nodes, do
   draw(left + (room < narrowest_bar ? "" : bar(fraction, std::min(room, widest_bar))) + right);
 }
 
+// ", with about 5 000 nodes, for some 20 s": from the time that the nodes of the last round took.
+std::string Progress::expected_work(std::int64_t nodes) const {
+  std::int64_t expected = 0;
+  if (pnpbs_placement_get_int64(placement_, "unresolved_nodes", &expected) < 0 || expected <= 0)
+    return "";
+  std::string text = ", with about " + grouped(expected) + " nodes";
+  const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
+  if (nodes > 0)
+    text += ", for some " +
+            duration(elapsed * static_cast<double>(expected) / static_cast<double>(nodes));
+  return text;
+}
+
 // Where d is held down, a run takes several times as long: that is said before.
-void Progress::note_held_spacing() {
+void Progress::note_held_spacing(std::int64_t nodes) {
   std::int64_t places = 0;
   if (!wanted_ || pnpbs_placement_get_int64(placement_, "unresolved_places", &places) < 0) return;
   if (places > unresolved_places_) {
     clear();
     std::cerr << "pnpbs: note: the elements do not follow the shape, or have small angles, at "
               << grouped(places - unresolved_places_)
-              << " places; d is reduced around them, and the run continues (option "
-                 "conforming_rounds)\n";
+              << " places; d is reduced around them, and the run continues" << expected_work(nodes)
+              << " (option conforming_rounds)\n";
   }
   unresolved_places_ = places;
 }

@@ -34,7 +34,8 @@ class Progress {
   static std::int32_t monitor(double fraction, std::int64_t step, std::int64_t nodes,
                               double max_speed, void* user);
   void update(double fraction, std::int64_t step, std::int64_t nodes, double max_speed);
-  void note_held_spacing();
+  void note_held_spacing(std::int64_t nodes);
+  std::string expected_work(std::int64_t nodes) const;
   void draw(const std::string& line);
 
   Turn turn_;

@@ -98,12 +98,14 @@ std::string spacing_line(const Statistics& statistics) {
   return line + "\n";
 }
 
-std::string body_line(const std::optional<BodyFigures>& body) {
+std::string body_line(const Statistics* statistics, const std::optional<BodyFigures>& body) {
   if (!body) return "";
   const Point<3>& size = body->extent;
   std::string line = "body     " + short_number(size[0], 4) + " x " + short_number(size[1], 4) +
                      " x " + short_number(size[2], 4);
   if (body->volume > 0) line += ", volume " + measure(body->volume);
+  const auto* filled = statistics ? statistics->find<double>("volume.elements") : nullptr;
+  if (filled && *filled > 0) line += ", elements fill " + measure(*filled);
   if (body->area) line += ", surface " + measure(*body->area);
   return line + "\n";
 }
@@ -186,7 +188,7 @@ std::string estimate_text(const RunEstimate& run) {
   // Measured, with a million nodes and with 100 000.
   const double picture_bytes_per_node = run.body ? 340 : 115;
   const double nodes = static_cast<double>(run.nodes);
-  std::string text = body_line(run.body) + "nodes    about " + grouped(run.nodes) +
+  std::string text = body_line(nullptr, run.body) + "nodes    about " + grouped(run.nodes) +
                      "\nmemory   about " + size_in_bytes(static_cast<double>(run.bytes));
   if (run.processes > 1) text += " in each of " + grouped(run.processes) + " processes";
   if (run.picture)
@@ -210,8 +212,8 @@ std::string summary_text(const Statistics& statistics, const std::optional<BodyF
   else
     nodes = nodes_line(statistics) + spacing_line(statistics) + edge_line(statistics) +
             quality_line(statistics, body && body->volume > 0);
-  return body_line(body) + nodes + volume_line(volumes) + mass_line(volumes) +
-         stop_line(statistics) + memory_line(statistics) + files_line(files);
+  return body_line(particles ? nullptr : &statistics, body) + nodes + volume_line(volumes) +
+         mass_line(volumes) + stop_line(statistics) + memory_line(statistics) + files_line(files);
 }
 
 }  // namespace pnpbs::tool

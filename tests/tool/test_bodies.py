@@ -10,7 +10,7 @@ import unittest
 import numpy
 from vtk.util.numpy_support import vtk_to_numpy
 
-from command import DATA, LAKE, NOT_CONFORMING, CommandTest
+from command import DATA, LAKE, NOT_CONFORMING, SPACING_MISSED, CommandTest
 from readers import point_array, read_with_vtk
 
 BOX = "box(0,0,0, 1,1,1)"
@@ -67,7 +67,7 @@ class Files(CommandTest):
             3.5 + 0.03 * numpy.hypot(points[:, 0] - 62, points[:, 1] - 14) + 0.01 * points[:, 2],
             rtol=1e-6)
         self.assertTrue(report["edge"]["bands"])
-        self.assertRegex(out, r"(?m)^body     80 x 60 x 70, volume 86 524, surface 23 \d\d\d$")
+        self.assertRegex(out, r"(?m)^body     80 x 60 x 70, volume 86 524, elements fill 86 \d\d\d, surface 23 \d\d\d$")
         self.assertRegex(out, r"smallest dihedral angle \d")
         # Its holes are round: coarse triangles cut off a little.
         self.assertAlmostEqual(volume_of(points, tetrahedra_of(grid)) / 86524, 1, delta=0.01)
@@ -174,20 +174,19 @@ class Files(CommandTest):
         self.save_cube_without_lid("open.off")
         _, err = self.place_body("open.off", "0.2", "-o", "a.vtu", "--check", "--repair", "auto")
         self.assertIn("the body is repaired, as it is refused otherwise: ", err)
-        # A cube with a fin, which d loses, and which such a repair therefore removes.
-        self.save_cube_with_fin("fin.off", half_width=0.01)
-        torn = ["--domain", "fin.off", "--spacing", "0.3", "--set", "conforming_rounds=1",
+        # Roughness, which d does not resolve, and which such a repair therefore removes.
+        self.save_rough_globe("globe.off")
+        torn = ["--domain", "globe.off", "--spacing", "0.4", "--set", "conforming_rounds=1",
                 "-o", "a.vtu", "--report", "a.json"]
         self.run_command(*torn, code=NOT_CONFORMING)
         given = json.loads((self.folder / "a.json").read_text())
-        self.assertEqual(given["unresolved_spacing"], 0.3)
+        self.assertEqual(given["unresolved_spacing"], 0.4)
         self.assertEqual(given["repaired"]["resolution"], 0)
-        out, err = self.place_body("fin.off", "0.3", *torn[4:], "--check", "--repair", "auto")
-        self.assertIn("the elements do not conform: the body is repaired", err)
-        self.assertIn("volume 1, surface 6\n", out)
+        _, err = self.run_command(*torn, "--check", "--repair", "auto", code=SPACING_MISSED)
+        self.assertIn("the elements do not conform: the body is repaired", err.decode())
         found = json.loads((self.folder / "a.json").read_text())
         self.assertEqual(found["repair"], "auto")
-        self.assertEqual(found["repaired"]["resolution"], 0.3)
+        self.assertEqual(found["repaired"]["resolution"], 0.4)
         # One that is whole stays as it is.
         self.save_cube_with_fin("fin.off", half_width=0.1)
         out, err = self.place_body("fin.off", "0.2", "-o", "a.vtu", "--repair", "auto")

@@ -52,13 +52,13 @@ class CentredNodes(CommandTest):
         self.assertNotRegex(out, "(?m)^(edges|quality) ")
         self.assertLess(abs(report["volumes"]["ratio"]["mean"] - 1), 0.03)
 
-    # Whose elements do not conform at this d: they do not matter.
+    # Whose elements have small angles at this d: they do not matter.
     def test_in_a_bracket(self):
         for nodes_at, warned in (("centers", False), ("boundary", True)):
             _, err = self.run_command("--domain", DATA / "bracket.stl", "--spacing", "7",
                                       "--nodes-at", nodes_at, "-o", "a.csv", "--set",
-                                      "conforming_rounds=0")
-            self.assertEqual("missing_faces" in err.decode(), warned)
+                                      "conforming_rounds=0", "--set", "min_angle=10")
+            self.assertEqual("dihedral angles below" in err.decode(), warned)
 
     def test_no_elements_are_written(self):
         self.place_at_centres("-o", "a.vtu", spacing="0.1")

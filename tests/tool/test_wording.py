@@ -52,10 +52,10 @@ class Wording(CommandTest):
 
     def test_elements(self):
         bracket = ("--domain", DATA / "bracket.stl", "--spacing", "7", "-o", "a.csv", "--set",
-                   "conforming_rounds=0")
+                   "conforming_rounds=0", "--set", "min_angle=10")
         for nodes_at, warned in ("boundary", True), ("centers", False):
             true, _ = self.same(*bracket, "--nodes-at", nodes_at, code=DONE)
-            self.assertEqual("missing_faces" in true, warned)
+            self.assertEqual("dihedral angles below" in true, warned)
         self.same("--domain", "ball(0,0,0, 1)", "--spacing", "5", "--set", "conforming_rounds=0",
                   "-o", "a.csv", code=NOT_CONFORMING)
 

@@ -2,6 +2,7 @@
 #include "level/finish.hpp"
 
 #include <optional>
+#include <vector>
 
 #include "delaunay/volume/domain_rule.hpp"
 #include "level/exchange.hpp"
@@ -9,6 +10,7 @@
 #include "level/lists_and_stars.hpp"
 #include "level/node_digest.hpp"
 #include "level/reach.hpp"
+#include "level/volume/opposite_nodes.hpp"
 #include "level/volume/surface_level.hpp"
 #include "method/constants.hpp"
 #include "quality/volume/mean_sweep.hpp"
@@ -81,14 +83,18 @@ void repair_slivers(Level<3>& level) {
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
   // Those on a level set are where it is 0, and stay; so do those on inner surfaces, whose
-  // triangles no tetrahedron that goes would tell of.
-  const auto stays = [&](std::int32_t facet) {
-    return level.ground.domain().level_sets().at(facet) != nullptr ||
+  // triangles no tetrahedron that goes would tell of, and those opposite their partners.
+  std::vector<char> on_thin_wall;
+  agreed(*level.comm, [&] { on_thin_wall = nodes_on_thin_walls(level); });
+  const auto stays = [&](std::int64_t i) {
+    const std::int32_t facet = level.nodes.boundary_node(i);
+    return on_thin_wall[static_cast<std::size_t>(i)] != 0 ||
+           level.ground.domain().level_sets().at(facet) != nullptr ||
            !level.ground.bounds_domain(facet);
   };
   const AlongSurfaces along_surfaces{
       [&](std::int64_t i, const Point<3>& direction, double length) {
-        if (stays(level.nodes.boundary_node(i)))
+        if (stays(i))
           return AlongSurfaces::Place{level.nodes.position(i), level.nodes.boundary_node(i)};
         const SurfacePoint to = go_along_surface(level, i, direction, length);
         return AlongSurfaces::Place{to.position, to.facet};

@@ -35,15 +35,14 @@ bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double 
   return covered;
 }
 
-IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates) {
+IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates, double gap) {
   exchange(level, kStarHops);
   IncomingNodes<3> found;
   agreed(*level.comm, [&] {
     rebuild_lists(level, level.settings.list_radius);
     for (const IncomingNode<3>& candidate : candidates) {
       const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
-      if (level.tree->owns(leaf) && !is_covered(level, candidate, method::kGap))
-        found.push_back(candidate);
+      if (level.tree->owns(leaf) && !is_covered(level, candidate, gap)) found.push_back(candidate);
     }
   });
   return found;

@@ -8,6 +8,7 @@
 
 #include "initial/incoming_nodes.hpp"
 #include "level/level.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -15,9 +16,10 @@ namespace pnpbs {
 // buckets.
 bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double gap);
 
-// Of these new nodes, those that this rank owns and that are far from all that the level has.
-// Collective.
-IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates);
+// Of these new nodes, those that this rank owns and that are so many of their d away from all that
+// the level has. Collective.
+IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates,
+                         double gap = method::kGap);
 
 // Puts a fill of the inside into the gaps there. Returns how many nodes that is, of all ranks.
 // Collective.

@@ -29,15 +29,12 @@ std::int32_t neighbour_along(const Level<3>& level, std::int64_t i, const CurveD
   return found;
 }
 
-StarSide seen_on(const Level<3>& level, std::int64_t i, const SurfaceSide& side, bool all_listed) {
+StarSide seen_on(const Level<3>& level, std::int64_t i, const SurfaceSide& side) {
   const Nodes<3>& nodes = level.nodes;
   StarSide seen{
       side.normal, neighbour_along(level, i, side.begin), neighbour_along(level, i, side.end), {}};
-  const auto sees = [&](std::int64_t j) {
-    return all_listed || level.ground.surface().sees(side, level.ground.place(nodes, j));
-  };
   level.lists().for_neighbours(i, [&](std::int64_t j) {
-    if (nodes.carrier(j) != Carrier::free && sees(j))
+    if (nodes.carrier(j) != Carrier::free)
       seen.around.push_back({nodes.position(j), nodes.id(j), static_cast<std::int32_t>(j)});
   });
   return seen;
@@ -45,14 +42,13 @@ StarSide seen_on(const Level<3>& level, std::int64_t i, const SurfaceSide& side,
 
 }  // namespace
 
-std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i, bool bounding) {
+std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i) {
   const Nodes<3>& nodes = level.nodes;
   const Ground<3>& ground = level.ground;
   std::vector<StarSide> sides;
   bool known = true;
   ground.surface().for_sides(ground.place(nodes, i), [&](const SurfaceSide& side) {
-    if (bounding && !ground.patch_bounds_domain(side.patch)) return;
-    sides.push_back(seen_on(level, i, side, !bounding));
+    sides.push_back(seen_on(level, i, side));
     known = known && sides.back().first != kNotListed && sides.back().last != kNotListed;
   });
   std::vector<SurfaceStarEntry> star;

@@ -14,10 +14,8 @@ namespace pnpbs {
 bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j);
 
 // The star of a node of the boundary from the level's lists, side after side, each
-// counter-clockwise as seen from outside; empty if it is not known. Lists made while bubbles are on
-// surfaces hold just what is seen there. With `bounding`, from any lists: on surfaces that bound
-// the domain alone, and of nodes that these see.
-std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i,
-                                           bool bounding = false);
+// counter-clockwise as seen from outside; empty if it is not known. The lists are those made while
+// bubbles are on surfaces, which hold just what is seen there.
+std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i);
 
 }  // namespace pnpbs

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/boundary_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/space_vectors.hpp"
+#include "comm/records.hpp"
+#include "geometry/volume/nearest_triangles.hpp"
+#include "geometry/volume/triangle_samples.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+struct Face {
+  FacetCorners<3> corners;
+  double d;  // the least at its corners
+};
+
+std::vector<Face> own_faces(const Results<3>& results) {
+  const Nodes<3>& nodes = results.level().nodes;
+  std::vector<Face> faces;
+  results.for_open_facets([&](const std::array<std::int64_t, 3>& places) {
+    Face face{{}, std::numeric_limits<double>::infinity()};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t i = results.node_at(places[k]);
+      face.corners[k] = nodes.position(i);
+      face.d = std::min(face.d, nodes.d(i));
+    }
+    faces.push_back(face);
+  });
+  return faces;
+}
+
+double farthest_face(const std::vector<Face>& faces, const SurfaceIndex& surfaces) {
+  double farthest = 0;
+  for (const Face& face : faces)
+    for (const Point<3>& x : triangle_samples(face.corners))
+      farthest = std::max(farthest,
+                          surfaces.clearance(x, std::numeric_limits<double>::infinity()) / face.d);
+  return farthest;
+}
+
+// The largest distance over d of a triangle from the faces; it is halved until it is small.
+class SurfacePieces {
+ public:
+  explicit SurfacePieces(const std::vector<Face>& faces) : faces_(faces), tree_(corners(faces)) {}
+
+  double farthest(const FacetCorners<3>& piece) const {
+    constexpr double kLongest = 0.5;  // side of a piece, in d
+    const Point<3> middle = triangle_samples(piece).front();
+    const NearestTriangles::Nearest nearest = tree_.nearest(middle);
+    const double d = faces_[static_cast<std::size_t>(nearest.triangle)].d;
+    std::size_t longest = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (side(piece, k) > side(piece, longest)) longest = k;
+    if (side(piece, longest) <= kLongest * d) return std::sqrt(nearest.square) / d;
+    const std::size_t next = (longest + 1) % 3;
+    FacetCorners<3> first = piece, second = piece;
+    first[next] = second[longest] = halfway(piece[longest], piece[next]);
+    return std::max(farthest(first), farthest(second));
+  }
+
+ private:
+  static double side(const FacetCorners<3>& piece, std::size_t k) {
+    return distance<3>(piece[k], piece[(k + 1) % 3]);
+  }
+  static std::vector<FacetCorners<3>> corners(const std::vector<Face>& faces) {
+    std::vector<FacetCorners<3>> all;
+    for (const Face& face : faces) all.push_back(face.corners);
+    return all;
+  }
+
+  const std::vector<Face>& faces_;
+  NearestTriangles tree_;
+};
+
+double farthest_surface(const Level<3>& level, const std::vector<Face>& faces) {
+  const SurfacePieces pieces(faces);
+  const Surface& surface = level.ground.surface();
+  double farthest = 0;
+  for (std::int32_t f = level.comm->rank();
+       f < static_cast<std::int32_t>(level.ground.boundary().facets.size());
+       f += level.comm->size())
+    if (surface.patch(f) >= 0 && level.ground.bounds_domain(f))
+      farthest = std::max(farthest, pieces.farthest(surface.corners(f)));
+  return farthest;
+}
+
+}  // namespace
+
+BoundaryDistance boundary_distance(const Results<2>&) { return {}; }
+
+BoundaryDistance boundary_distance(const Results<3>& results) {
+  const Communicator& comm = results.communicator();
+  if (results.kind() != GeometryKind::body) return {};
+  BoundaryDistance distance;
+  std::vector<Face> own;
+  agreed(comm, [&] {
+    own = own_faces(results);
+    distance.of_faces = farthest_face(own, results.level().ground.domain().index());
+  });
+  const std::vector<Face> all = of_all_ranks(comm, own);
+  if (all.empty()) return {};
+  agreed(comm, [&] { distance.of_surfaces = farthest_surface(results.level(), all); });
+  return {comm.allreduce_max(distance.of_faces), comm.allreduce_max(distance.of_surfaces)};
+}
+
+}  // namespace pnpbs
