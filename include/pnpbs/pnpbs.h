@@ -681,9 +681,11 @@ PNPBS_API pnpbs_status pnpbs_placement_set_double(pnpbs_placement placement, con
  *  negative, not finite. */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d);
 
-/** Sets the spacing to a callback, which must stay valid as long as the placement uses it.
- *  Collective. Invalid values are detected when it is called, in initialise or run: the error names
- *  the point and the number of nodes it would have implied. */
+/** Sets the spacing to a callback, which must stay valid as long as the placement uses it. It is
+ *  sampled about as densely as nodes would lie. A feature that is smaller than the d around it may
+ *  be missed, unless a fixed node (pnpbs_domain_add_fixed_nodes) or a vertex of the boundary lies
+ *  in it: d is sampled at each of these. Collective. Invalid values are detected when it is called,
+ *  in initialise or run: the error names the point and the number of nodes it would have implied. */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                             pnpbs_spacing_fn spacing, void *user);
 
