@@ -1638,8 +1638,8 @@ contains
   end subroutine
 
   !> Sets the spacing to values at scattered points, which are copied. It equals the given value at
-  !> each point and elsewhere a plane fitted to the 8 (in space 16) nearest points by weighted least
-  !> squares, bounded by the smallest and largest of their values; on a sphere, with ways along it.
+  !> each point and elsewhere a weighted mean of the values of the 8 (in space 16) nearest points, of
+  !> which those behind others count less or not at all; on a sphere, with ways along it.
   !> Collective; every rank passes and stores the same arrays. Checks the domain first. Errors:
   !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for coincident points with
   !> different values, and, but for spheres, for points whose bounding box does not meet the

@@ -681,9 +681,11 @@ PNPBS_API pnpbs_status pnpbs_placement_set_double(pnpbs_placement placement, con
  *  negative, not finite. */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d);
 
-/** Sets the spacing to a callback, which must stay valid as long as the placement uses it.
- *  Collective. Invalid values are detected when it is called, in initialise or run: the error names
- *  the point and the number of nodes it would have implied. */
+/** Sets the spacing to a callback, which must stay valid as long as the placement uses it. It is
+ *  sampled about as densely as nodes would lie. A feature that is smaller than the d around it may
+ *  be missed, unless a fixed node (pnpbs_domain_add_fixed_nodes) or a vertex of the boundary lies
+ *  in it: d is sampled at each of these. Collective. Invalid values are detected when it is called,
+ *  in initialise or run: the error names the point and the number of nodes it would have implied. */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                             pnpbs_spacing_fn spacing, void *user);
 
@@ -729,19 +731,21 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placemen
                                                         int64_t elements, const int64_t *corners);
 
 /** Sets the spacing to values at scattered points, which are copied. It equals the given value at
- *  each point and elsewhere a plane fitted to the 8 (in space 16) nearest points by weighted least
- *  squares, bounded by the smallest and largest of their values. Linear functions are reproduced
- *  between the points; far from all of them d is close to the values of the nearest, and nodes far
- *  beyond the points' bounding box cause a warning. The weights are (1/r - 1/R)^2, with r the
- *  distance of a point and R that of the nearest unused one, so d is continuous (R. Franke, G.
- *  Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). On a sphere the plane is fitted to 8
- *  points in the azimuthal equidistant projection about each place, and nodes far beyond a cap that
- *  holds all points cause the warning. The order of the points has no effect. Collective; every
- *  rank passes and stores the same arrays. Checks the domain first. Errors: PNPBS_ERROR_SPACING for
- *  a value that is zero, negative or not finite, for coincident points with different values, and
- *  in the plane and in space for points whose bounding box does not meet the domain's;
- *  PNPBS_ERROR_ARGUMENT for arrays that differ between ranks; PNPBS_ERROR_DOMAIN as in
- *  pnpbs_domain_check.
+ *  each point and elsewhere a weighted mean of the values of the 8 (in space 16) nearest points,
+ *  with positive weights: it never leaves their range. Points that lie behind others count less or
+ *  not at all, so beside a dense group of points d is that of its rim, whatever the points within
+ *  it have. Linear functions are reproduced nearly between the points; far from all of them d is
+ *  close to the values of the nearest, and nodes far beyond the points' bounding box cause a
+ *  warning. The weights are 1/r - 1/R, with r the distance of a point and R that of the nearest
+ *  unused one, so d is continuous (compare R. Franke, G. Nielson, Int. J. Numer. Methods Eng. 15
+ *  (1980) 1691-1704); they are then changed, by factors of at most 3 and twice, to those of a plane
+ *  fitted to the values. On a sphere 8 points count, in the azimuthal equidistant projection about
+ *  each place, and nodes far beyond a cap that holds all points cause the warning. The order of the
+ *  points has no effect. Collective; every rank passes and stores the same arrays. Checks the
+ *  domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for
+ *  coincident points with different values, and in the plane and in space for points whose bounding
+ *  box does not meet the domain's; PNPBS_ERROR_ARGUMENT for arrays that differ between ranks;
+ *  PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
  *  @param[in] n            number of points, 1 .. 2^31 - 1
  *  @param[in] coordinates  [n][dim]
  *  @param[in] d            [n] */

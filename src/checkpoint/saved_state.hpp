@@ -23,7 +23,7 @@ struct SavedState {
                rebuilds = 0, rebalances = 0, stop_reason = 0, outcome = 0, missing_faces = 0,
                spacing_saved = 0, left_out = 0;
   std::int64_t held_rounds = 0, nodes_before_held = 0;
-  double max_speed = 0, mean_speed = 0, meeting_radius = 0, least_before_held = 0;
+  double max_speed = 0, mean_speed = 0, meeting_radius = 0, least_before_held = 0, count_factor = 1;
   std::uint64_t domain_fingerprint = 0;
   std::uint64_t checksum = 0;  // of the nodes, whatever their order, and of the tables
   std::string options;         // those that decide, "name = value" in lines
@@ -67,6 +67,7 @@ void for_fields(State& state, const Visit& visit) {
   visit("held_rounds", state.held_rounds);
   visit("nodes_before_held", state.nodes_before_held);
   visit("least_before_held", state.least_before_held);
+  visit("count_factor", state.count_factor);
   visit("max_speed", state.max_speed);
   visit("mean_speed", state.mean_speed);
   visit("meeting_radius", state.meeting_radius);

@@ -304,6 +304,7 @@ Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
   s.held_rounds = held.rounds;
   s.nodes_before_held = held.nodes_before;
   s.least_before_held = held.least_before;
+  s.count_factor = placed.count_factor;
   agreed(*level.comm, [&] {
     for (const GrowthSource<Dim>& place : held.places) append(s.held, place);
     save_finer_places(spacing.finer_places(), s);
@@ -348,6 +349,10 @@ std::shared_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<Sav
                                         const SpacingToPlace<Dim>& to_place,
                                         const Settings& settings, PlacedSpacing<Dim>& placed) {
   placed.held = held_in<Dim>(saved);
+  if (!(saved.count_factor > 0) || !is_usable(saved.count_factor))
+    damaged("the factor on d for the number of nodes is " + number_text(saved.count_factor) +
+            ": it is damaged");
+  placed.count_factor = saved.count_factor;
   for_rows(saved.steepest, Dim + 1, "the growth of the spacing", [&](const double* row) {
     placed.steepest.at = point_in<Dim>(row);
     placed.steepest.growth = row[Dim];

@@ -12,7 +12,7 @@
 
 namespace pnpbs::io {
 
-inline constexpr std::int64_t kCheckpointFormat = 3;
+inline constexpr std::int64_t kCheckpointFormat = 4;
 inline constexpr const char* kVtk = "/VTKHDF";
 inline constexpr const char* kOwn = "/PNPBS";
 inline constexpr const char* kSpacing = "/PNPBS/spacing";

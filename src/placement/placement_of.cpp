@@ -2,6 +2,7 @@
 #include "placement/placement_of.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -116,6 +117,7 @@ Outcome PlacementOf<Dim>::make_level() {
   const Settings settings = settings_for_new_level();
   PlacedSpacing<Dim> placed;
   if (now_.level) placed.held = now_.placed.held;
+  if (now_.level && !now_.spacing_replaced) placed.count_factor = now_.placed.count_factor;
   LevelBuilder<Dim> builder = this->builder();
   std::shared_ptr<Level<Dim>> next = builder.level_to_place(to_place(), settings, placed);
   return adopt(
@@ -234,13 +236,43 @@ Outcome PlacementOf<Dim>::run() {
 
 template <int Dim>
 Outcome PlacementOf<Dim>::run_to_end() {
-  const Outcome outcome = rounds_with_spacing_held(steps_and_finish());
+  Outcome outcome = rounds_with_spacing_held(steps_and_finish());
+  if (outcome == Outcome::stopped) return outcome;
+  if (now_.placed.count_factor == 1 && !state_.schedule.taken_over() && count_error() != 1)
+    outcome = run_with_corrected_number();
   if (outcome == Outcome::stopped) return outcome;
   state_.outcome = outcome;
   if (!now_.placed.held.places.empty())
     state_.warn(warning_of_held_spacing(now_.placed.held, global_count()));
   monitoring_.stops(1.0, results_.count());
   return outcome;
+}
+
+// The number of nodes over the requested one; 1 if none is requested, if they are so near that no
+// run would come nearer, if they are so far apart that the vertices of the boundary are the reason,
+// or if d was reduced for the elements, which takes more nodes on purpose.
+template <int Dim>
+double PlacementOf<Dim>::count_error() const {
+  constexpr double kNear = 0.01, kFar = 0.25;
+  const double wanted = options_.real("wanted_nodes");
+  if (wanted == 0 || !now_.placed.held.places.empty()) return 1;
+  const double error = static_cast<double>(global_count()) / wanted;
+  return std::fabs(error - 1) <= kNear || std::fabs(error - 1) > kFar ? 1 : error;
+}
+
+// Runs once more, from nothing, with d corrected by the error in the number of nodes: a slightly
+// different d would not change the number of the nodes there are. Collective.
+template <int Dim>
+Outcome PlacementOf<Dim>::run_with_corrected_number() {
+  const Settings settings = now_.level->settings;
+  PlacedSpacing<Dim> placed;
+  placed.count_factor = std::pow(count_error(), 1.0 / settings.bubble_dimension);
+  ++rounds_of_run_;
+  LevelBuilder<Dim> builder = this->builder();
+  std::shared_ptr<Level<Dim>> next = builder.level_to_place(to_place(), settings, placed);
+  const Outcome begun =
+      adopt(builder.with_first_nodes(std::move(next), std::move(placed), settings, {}));
+  return begun == Outcome::stopped ? begun : rounds_with_spacing_held(steps_and_finish());
 }
 
 // Ends with whether the elements are such as can be used.

@@ -141,6 +141,8 @@ class PlacementOf : public Placement {
   template <class Steps>
   Outcome taking_steps(const Steps& steps);
   Outcome run_to_end();
+  double count_error() const;
+  Outcome run_with_corrected_number();
   Outcome steps_and_finish();
   Outcome rounds_with_spacing_held(Outcome first);
   Outcome return_to(FinishedRound<Dim> round);
@@ -158,7 +160,8 @@ class PlacementOf : public Placement {
   LevelStamp boundary_stamp_;
   IncomingNodes<Dim> given_;  // nodes to start from instead of a fill
   bool start_from_given_ = false;
-  int rounds_of_run_ = 0;  // in which d is held down, in the call in progress
+  // In which d is held down or the number of nodes is corrected, in the call in progress.
+  int rounds_of_run_ = 0;
 };
 
 extern template class PlacementOf<2>;

@@ -64,7 +64,7 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPla
                                                               const Settings& settings,
                                                               PlacedSpacing<Dim>& placed) {
   context_.monitoring.watch("the spacing was made", context_.results.count(), [&] {
-    placed.d = to_place.spacing_to_place(settings);
+    placed.d = to_place.spacing_to_place(settings, placed.count_factor);
     if (settings.user_limits_growth()) limit_growth(to_place, placed.d, settings);
     hold_down(*comm_, placed, settings);
   });

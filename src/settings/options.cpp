@@ -158,7 +158,8 @@ const std::vector<OptionRow>& option_table() {
        "is sharper than 33 degrees there; 0: small angles do not count"},
       {"wanted_nodes", T::real, "0", nullptr, nullptr, 0, kMaxNodesInAll, nullptr,
        "requested number of nodes: d is multiplied by the factor with which a run is expected "
-       "to reach it; 0: d is unchanged"},
+       "to reach it. A run that ends more than 1 % off is repeated once from the start, with a "
+       "corrected factor. 0: d is unchanged"},
       {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
        "steps between exchanges of ghosts between ranks"},
       {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,

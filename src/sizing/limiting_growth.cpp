@@ -26,10 +26,11 @@ constexpr double kTooSteep = method::kTooSteep * method::kGrowthFollowed;
 }  // namespace
 
 template <int Dim>
-SizingField<Dim> SpacingToPlace<Dim>::spacing_to_place(const Settings& settings) const {
+SizingField<Dim> SpacingToPlace<Dim>::spacing_to_place(const Settings& settings,
+                                                       double count_factor) const {
   const double wanted = options_.real("wanted_nodes");
   if (wanted == 0) return bounded(spacing_, settings);
-  const double factor = factor_for(wanted, settings);
+  const double factor = count_factor * factor_for(wanted, settings);
   return bounded(spacing_.multiplied(factor), settings);
 }
 

@@ -35,8 +35,9 @@ class SpacingToPlace {
                  const Options& options)
       : comm_(std::move(comm)), domain_(std::move(domain)), spacing_(spacing), options_(options) {}
 
-  // No larger than makes sense, and with so many nodes as are wanted.
-  SizingField<Dim> spacing_to_place(const Settings& settings) const;
+  // No larger than makes sense, and with so many nodes as are wanted, by an estimate whose error
+  // `count_factor` corrects.
+  SizingField<Dim> spacing_to_place(const Settings& settings, double count_factor = 1) const;
   void limit_growth(SizingField<Dim>& spacing, const Settings& settings) const;
 
   const Communicator& comm() const { return *comm_; }

@@ -30,6 +30,7 @@ struct PlacedSpacing {
   Held<Dim> held;
   SteepestGrowth<Dim> steepest;
   bool steepest_is_known = false;  // from a checkpoint: it is not measured again
+  double count_factor = 1;         // on d, by the number of nodes that a run came to before
 };
 
 }  // namespace pnpbs

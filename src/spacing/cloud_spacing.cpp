@@ -20,15 +20,39 @@
 namespace pnpbs {
 namespace {
 
-// What counts at a place, from there.
+// A point near x, seen from there.
 template <int Dim>
 struct CloudSample {
   Point<Dim> way;
   double value, weight;
 };
 
-// Adds up to 1, where all weights are 0 with equal shares: then all are as far as the first that
-// does not count.
+// The part of the weight of a point that another one, from which it is seen in the direction
+// `onwards`, leaves to it: none if it lies behind that one, all if it lies beside or before it.
+template <int Dim>
+double part_not_hidden(const Point<Dim>& way, const Point<Dim>& onwards) {
+  constexpr double kHidden = 0.7;  // cosine of the angle from which on nothing is left
+  const double along = dot(way, onwards);
+  if (along <= 0) return 1;
+  const double cosine = along / std::sqrt(dot(way, way) * dot(onwards, onwards));
+  return std::max(0.0, 1 - cosine / kHidden);
+}
+
+// Samples are by increasing distance.
+template <int Dim>
+void weaken_hidden(std::span<CloudSample<Dim>> samples) {
+  for (std::size_t far = 1; far < samples.size(); ++far) {
+    double part = 1;
+    for (std::size_t near = 0; near < far && part > 0; ++near) {
+      Point<Dim> onwards = samples[far].way;
+      for (int i = 0; i < Dim; ++i) onwards[i] -= samples[near].way[i];
+      part = std::min(part, part_not_hidden<Dim>(samples[near].way, onwards));
+    }
+    samples[far].weight *= part;
+  }
+}
+
+// Makes the weights add up to 1; equal ones if all are 0.
 template <int Dim>
 void share_out(std::span<CloudSample<Dim>> samples) {
   double sum = 0;
@@ -37,37 +61,35 @@ void share_out(std::span<CloudSample<Dim>> samples) {
   for (CloudSample<Dim>& sample : samples) sample.weight = sum > 0 ? sample.weight / sum : equal;
 }
 
-// The value at the origin of the plane that fits the samples best: around their means, so that
-// what is solved for is the slope alone.
+// Changes the weights to those that the samples have in the value at the origin of the plane fitted
+// to them by weighted least squares, none of them by more than a factor: so all remain positive.
+// Where that bounds none, linear functions are met.
 template <int Dim>
-double fitted_at_origin(std::span<CloudSample<Dim>> samples) {
-  share_out(samples);
-  Point<Dim> mean_way{};
-  double mean_value = 0;
-  for (const CloudSample<Dim>& sample : samples) {
-    for (int i = 0; i < Dim; ++i) mean_way[i] += sample.weight * sample.way[i];
-    mean_value += sample.weight * sample.value;
-  }
+void fit_plane(std::span<CloudSample<Dim>> samples) {
+  Point<Dim> mean{};
+  for (const CloudSample<Dim>& sample : samples)
+    for (int i = 0; i < Dim; ++i) mean[i] += sample.weight * sample.way[i];
   SquareMatrix<Dim> normal{};
-  Point<Dim> slope{};
   double trace = 0;
   for (const CloudSample<Dim>& sample : samples) {
     Point<Dim> way = sample.way;
-    for (int i = 0; i < Dim; ++i) way[i] -= mean_way[i];
-    for (int i = 0; i < Dim; ++i) {
+    for (int i = 0; i < Dim; ++i) way[i] -= mean[i];
+    for (int i = 0; i < Dim; ++i)
       for (int j = 0; j <= i; ++j) normal[i][j] += sample.weight * way[i] * way[j];
-      slope[i] += sample.weight * way[i] * (sample.value - mean_value);
-      trace += sample.weight * way[i] * way[i];
-    }
+    trace += sample.weight * dot(way, way);
   }
-  if (!(trace > 0)) return mean_value;
+  if (!(trace > 0)) return;
   // Across points on a line the values tell no slope: it is 0 there.
   constexpr double kFlat = 1e-10;
   for (int i = 0; i < Dim; ++i) normal[i][i] += kFlat * trace;
-  if (!factor_cholesky(normal)) return mean_value;
-  solve_factored(normal, slope.data());
-  for (int i = 0; i < Dim; ++i) mean_value -= slope[i] * mean_way[i];
-  return mean_value;
+  if (!factor_cholesky(normal)) return;
+  constexpr double kMaxFactor = 3;
+  Point<Dim> tilt = mean;
+  solve_factored(normal, tilt.data());
+  const double at_mean = 1 + dot(tilt, mean);
+  for (CloudSample<Dim>& sample : samples)
+    sample.weight *= std::clamp(at_mean - dot(tilt, sample.way), 1 / kMaxFactor, kMaxFactor);
+  share_out(samples);
 }
 
 // From x to y: straight or, on a sphere, as far as it is along that, in the direction that it
@@ -149,25 +171,28 @@ double CloudSpacing<Dim, Across>::at(const Point<Dim>& x) const {
   const double nearest_square = near.nearest[0].square;
   if (nearest_square == 0) return value(0);
 
+  constexpr int kFits = 2;
   const int n = near.counting();
   const double beyond =
       near.found > n ? std::sqrt(nearest_square / near.nearest[kNeighbours].square) : 0;
   const double unit = std::sqrt(near.nearest[static_cast<std::size_t>(n - 1)].square);
-  std::array<CloudSample<Across>, kNeighbours> samples;
-  double min = value(0), max = value(0);
+  std::array<CloudSample<Across>, kNeighbours> around;
+  const std::span samples(around.data(), static_cast<std::size_t>(n));
   for (int k = 0; k < n; ++k) {
     const Neighbour& one = near.nearest[static_cast<std::size_t>(k)];
-    const double part = std::sqrt(nearest_square / one.square) - beyond;
-    CloudSample<Across>& sample = samples[static_cast<std::size_t>(k)];
-    sample.weight = part * part;
+    CloudSample<Across>& sample = around[static_cast<std::size_t>(k)];
+    sample.weight = std::sqrt(nearest_square / one.square) - beyond;
     sample.way = way_between<Dim, Across>(x, points_[static_cast<std::size_t>(one.point)]);
-    for (double& part : sample.way) part /= unit;
+    for (double& along : sample.way) along /= unit;
     sample.value = value(k) - value(0);
-    min = std::min(min, value(k));
-    max = std::max(max, value(k));
   }
-  const double rise = fitted_at_origin<Across>({samples.data(), static_cast<std::size_t>(n)});
-  return std::clamp(value(0) + rise, min, max);
+  share_out<Across>(samples);
+  weaken_hidden<Across>(samples);
+  share_out<Across>(samples);
+  for (int fit = 0; fit < kFits; ++fit) fit_plane<Across>(samples);
+  double rise = 0;
+  for (const CloudSample<Across>& sample : samples) rise += sample.weight * sample.value;
+  return value(0) + rise;
 }
 
 template <int Dim, int Across>

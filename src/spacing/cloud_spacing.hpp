@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing from values at scattered points, which every rank has whole: a plane through the
-// values of the points nearest to x, by least squares, held between the least and the largest of
-// them. A point counts by (1/r - 1/R)^2, r its distance from x and R that of the nearest one that
-// does not count any more (R. Franke, G. Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704):
-// so its own value is met at each point, and d is continuous where points begin and cease to count.
-// Values that are linear in space are met where the cloud surrounds x.
+// The spacing from values at scattered points, all of which every rank stores: a weighted mean of
+// the values of the points nearest to x, with positive weights, so that d never leaves their range.
 //
-// Not by a triangulation of the cloud, which has long thin elements along its hull and none where
-// all points are on a line, and needs more than stars of nodes in a domain.
+// - The weight of a point is 1/r - 1/R, with r its distance from x and R that of the nearest one
+//   that is not used any more (the square root of that of R. Franke, G. Nielson, Int. J. Numer.
+//   Methods Eng. 15 (1980) 1691-1704). So d equals the given value at each point and is continuous.
+// - A point that lies behind another one, as seen from x, has a smaller weight or none. So many
+//   points in one direction weigh no more than the first of them, and d beside a dense group of
+//   points is that of its rim.
+// - Twice the weights are changed to those of a plane fitted to the values, as far as they remain
+//   positive. So linear functions are reproduced nearly where points lie all around x.
 //
-// On a sphere the plane is that of two dimensions that touches it at x, onto which ways along the
-// sphere from x are laid in their directions.
+// The values of a fitted plane itself may leave the range of the values far from the points that it
+// is fitted to, where these are close to each other. A triangulation of the points has long thin
+// elements along its hull and none where all points are on a line, and natural neighbours take ten
+// times as long in space.
+//
+// On a sphere ways from x are those of the azimuthal equidistant projection about x.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +27,7 @@
 
 namespace pnpbs {
 
-// Points in Dim dimensions; planes over Across of them, which are fewer on a sphere.
+// Points in Dim dimensions; ways in Across of them, which are fewer on a sphere.
 template <int Dim, int Across = Dim>
 class CloudSpacing : public LocalSpacing<Dim> {
  public:
@@ -68,8 +74,7 @@ extern template class CloudSpacing<2>;
 extern template class CloudSpacing<3>;
 extern template class CloudSpacing<3, 2>;  // on a sphere
 
-// The spacing from values at scattered points of a sphere: that of a cloud, with the azimuthal
-// equidistant projection about each place in place of the plane.
+// The spacing from values at scattered points of a sphere.
 class SphereCloudSpacing : public CloudSpacing<3, 2> {
  public:
   // Of a checked field without triangles, whose points lie on the sphere. Throws as CloudSpacing.

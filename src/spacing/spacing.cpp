@@ -70,6 +70,43 @@ void GridSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) 
 }
 
 template <int Dim>
+Point<Dim> GridSpacing<Dim>::grid_point(std::int64_t index) const {
+  Point<Dim> x;
+  for (int k = 0; k < Dim; ++k) {
+    x[k] = origin_[k] + static_cast<double>(index % size_[k]) * step_[k];
+    index /= size_[k];
+  }
+  return x;
+}
+
+// Noise of a fine grid is steep, too, but changes d by a small part.
+template <int Dim>
+KnownValues<Dim> GridSpacing<Dim>::known_values() const {
+  constexpr double kMatters = 0.1;
+  KnownValues<Dim> known;
+  const auto count = static_cast<std::int64_t>(values_.size());
+  std::vector<char> is_low(values_.size(), 0);
+  std::int64_t next = 1;  // grid points from one to the next along an axis
+  for (int k = 0; k < Dim; ++k) {
+    for (std::int64_t i = 0; i + next < count; ++i) {
+      if (i / next % size_[k] + 1 == size_[k]) continue;
+      const std::int64_t j = i + next;
+      const double a = values_[static_cast<std::size_t>(i)],
+                   b = values_[static_cast<std::size_t>(j)];
+      if (!(std::fabs(a - b) > kMatters * std::min(a, b))) continue;
+      is_low[static_cast<std::size_t>(a < b ? i : j)] = 1;
+      known.slopes.push_back({std::fabs(a - b) / step_[k], std::min(a, b),
+                              middle_of<Dim>(grid_point(i), grid_point(j))});
+    }
+    next *= size_[k];
+  }
+  for (std::int64_t i = 0; i < count; ++i)
+    if (is_low[static_cast<std::size_t>(i)])
+      known.values.push_back({grid_point(i), values_[static_cast<std::size_t>(i)]});
+  return known;
+}
+
+template <int Dim>
 std::optional<GivenExtent<Dim>> GridSpacing<Dim>::extent() const {
   Box<Dim> box;
   for (int k = 0; k < Dim; ++k) {

@@ -98,10 +98,14 @@ class GridSpacing : public LocalSpacing<Dim> {
               const Point<Dim>& step, std::vector<double> values)
       : size_(size), origin_(origin), step_(step), values_(std::move(values)) {}
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+  // The ends of steps between grid points in which d changes by a part that matters, and their
+  // slopes. The least d of a cell is at one of its corners.
+  KnownValues<Dim> known_values() const override;
   std::optional<GivenExtent<Dim>> extent() const override;
 
  private:
   double at(const Point<Dim>& x) const;
+  Point<Dim> grid_point(std::int64_t index) const;
 
   std::array<std::int64_t, Dim> size_;
   Point<Dim> origin_, step_;

@@ -66,8 +66,8 @@ START_TEST(other_hdf5_files) {
 END_TEST
 
 START_TEST(other_formats) {
-  make_file([](io::hdf5::NewFile& file) { add_state(file, 4, 4); });
-  expect_refusal("format 4, and this PNPBS reads format 3: a newer one reads it");
+  make_file([](io::hdf5::NewFile& file) { add_state(file, 4, 5); });
+  expect_refusal("format 5, and this PNPBS reads format 4: a newer one reads it");
   make_file([](io::hdf5::NewFile& file) { file.add_group(io::kOwn); });
   expect_refusal("\"format\"");
   make_file([](io::hdf5::NewFile& file) {

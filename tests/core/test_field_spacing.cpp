@@ -208,8 +208,8 @@ void check_bounds_in_cloud(int n) {
       min = std::min(min, near[i].second);
       max = std::max(max, near[i].second);
     }
-    const double d = value_at<Dim>(*spacing, x);
-    ck_assert_msg(d >= min && d <= max, "%g is not in %g .. %g", d, min, max);
+    const double d = value_at<Dim>(*spacing, x), rounding = 1e-14;
+    ck_assert_msg(d >= min - rounding && d <= max + rounding, "%g is not in %g .. %g", d, min, max);
   }
 }
 
@@ -220,24 +220,130 @@ START_TEST(values_stay_between_those_of_neighbours) {
 END_TEST
 
 template <int Dim>
+void check_constant_cloud(int n) {
+  Random random(14);
+  Field<Dim> field = cloud<Dim>(random, n);
+  field.values.assign(field.values.size(), 0.3);
+  const auto spacing = spacing_from(field);
+  for (int k = 0; k < 500; ++k)
+    ck_assert_double_eq(value_at<Dim>(*spacing, random.point<Dim>(unit_box<Dim>())), 0.3);
+}
+
+START_TEST(a_constant_cloud) {
+  check_constant_cloud<2>(100);
+  check_constant_cloud<3>(100);
+}
+END_TEST
+
+// A linear function is met at most points, and elsewhere within a part of what it changes over the
+// distance to the nearest point.
+template <int Dim>
 void check_linear_in_cloud(int n) {
   Random random(8);
-  const auto spacing = spacing_from(cloud<Dim>(random, n));
+  const Field<Dim> field = cloud<Dim>(random, n);
+  const auto spacing = spacing_from(field);
   pnpbs::Box<Dim> amid;
   amid.low.fill(0.2);
   amid.high.fill(0.8);
   int met = 0, all = 2000;
+  double squares = 0;
   for (int k = 0; k < all; ++k) {
     const P<Dim> x = random.point<Dim>(amid);
-    met += std::fabs(value_at<Dim>(*spacing, x) - linear<Dim>(x)) < 1e-8;
+    const double error = std::fabs(value_at<Dim>(*spacing, x) - linear<Dim>(x));
+    met += error < 1e-8;
+    squares += error * error;
   }
-  // Elsewhere all neighbours are on one side, and bound it.
-  ck_assert_msg(met > 0.97 * all, "%d of %d", met, all);
+  const double apart = std::pow(1.0 / n, 1.0 / Dim), mean = std::sqrt(squares / all);
+  ck_assert_msg(met > 0.5 * all, "%d of %d", met, all);
+  ck_assert_msg(mean < 0.05 * apart, "%g, the points are %g apart", mean, apart);
 }
 
 START_TEST(a_linear_function_amid_a_cloud) {
   check_linear_in_cloud<2>(500);
   check_linear_in_cloud<3>(2000);
+}
+END_TEST
+
+// A smooth function is met the closer, the denser the cloud is.
+template <int Dim>
+double error_with_points(int n) {
+  Random random(15);
+  const auto wave = [](const P<Dim>& x) {
+    double value = 2;
+    for (int k = 0; k < Dim; ++k) value += 0.5 * std::sin(4 * x[k] + k);
+    return value;
+  };
+  Field<Dim> field = cloud<Dim>(random, n);
+  for (std::size_t i = 0; i < field.points.size(); ++i) field.values[i] = wave(field.points[i]);
+  const auto spacing = spacing_from(field);
+  double squares = 0;
+  const int all = 2000;
+  for (int k = 0; k < all; ++k) {
+    const P<Dim> x = random.point<Dim>(unit_box<Dim>());
+    const double error = value_at<Dim>(*spacing, x) - wave(x);
+    squares += error * error;
+  }
+  return std::sqrt(squares / all);
+}
+
+START_TEST(a_smooth_function_in_a_dense_cloud) {
+  ck_assert_double_lt(error_with_points<2>(30000), 2e-3);
+  ck_assert_double_lt(error_with_points<2>(30000), 0.1 * error_with_points<2>(300));
+  ck_assert_double_lt(error_with_points<3>(20000), 1e-2);
+  ck_assert_double_lt(error_with_points<3>(20000), 0.2 * error_with_points<3>(300));
+}
+END_TEST
+
+// Fine points within a shell of coarse ones, and coarse points far around: beyond the shell all
+// points that are not hidden are coarse, however many points of the group are among the nearest.
+template <int Dim>
+Field<Dim> group_within_a_shell() {
+  Field<Dim> field;
+  const auto add = [&](const P<Dim>& way, double distance, double d) {
+    P<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = 0.5 + distance * way[k];
+    field.points.push_back(x);
+    field.values.push_back(d);
+  };
+  for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
+    const std::array<int, 3> thirds{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+    P<Dim> way;
+    double square = 0;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      way[k] = thirds[k];
+      square += way[k] * way[k];
+    }
+    if (square == 0) continue;
+    if (square == Dim) add(way, 0.5, 0.1);
+    add(way, 0.004 / std::sqrt(square), 0.1);
+    add(way, 0.003 / std::sqrt(square), 0.001);
+  }
+  return field;
+}
+
+template <int Dim>
+void check_group_within_a_shell() {
+  Random random(16);
+  const auto spacing = spacing_from(group_within_a_shell<Dim>());
+  int beyond = 0;
+  for (int k = 0; k < 5000; ++k) {
+    P<Dim> x;
+    double square = 0;
+    for (double& c : x) {
+      const double along = random.between(-1, 1);
+      c = 0.5 + 0.5 * along * along * along;
+      square += (c - 0.5) * (c - 0.5);
+    }
+    if (square < 0.008 * 0.008) continue;
+    ++beyond;
+    ck_assert_double_eq_tol(value_at<Dim>(*spacing, x), 0.1, 1e-3);
+  }
+  ck_assert_int_gt(beyond, 2000);
+}
+
+START_TEST(what_is_behind_a_shell_does_not_count) {
+  check_group_within_a_shell<2>();
+  check_group_within_a_shell<3>();
 }
 END_TEST
 
@@ -386,7 +492,8 @@ TEST_SUITE(test_field_spacing) {
       "spacing from given values",
       {a_linear_function_on_a_mesh, beyond_a_mesh_its_nearest_point_counts,
        a_jump_between_parts_of_a_mesh, a_mesh_with_a_sliver, values_are_met_at_the_points,
-       values_stay_between_those_of_neighbours, a_linear_function_amid_a_cloud,
+       values_stay_between_those_of_neighbours, a_constant_cloud, a_linear_function_amid_a_cloud,
+       a_smooth_function_in_a_dense_cloud, what_is_behind_a_shell_does_not_count,
        the_order_of_a_cloud_changes_nothing, clouds_without_an_inside, slopes_of_a_mesh,
        slopes_of_a_cloud, what_is_refused});
 }

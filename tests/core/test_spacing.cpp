@@ -103,6 +103,35 @@ START_TEST(grids_are_linear_only_between_neighbours) {
 }
 END_TEST
 
+// Of a grid in space with noise of 1 % and a few low points, which samples of d may miss, those and
+// their slopes, found here by looking at all neighbours of each.
+START_TEST(grids_know_their_low_points) {
+  constexpr int kSize = 6;
+  const P3 origin{1, 2, 3}, step{0.5, 1, 2};
+  Random random(93);
+  std::vector<double> values;
+  for (int i = 0; i < kSize * kSize * kSize; ++i) values.push_back(random.between(1, 1.01));
+  for (const std::size_t low : {0, 50, 100, 215}) values[low] = 0.01;
+  const GridSpacing<3> grid({kSize, kSize, kSize}, origin, step, values);
+  const pnpbs::KnownValues<3> known = grid.known_values();
+  ck_assert_uint_eq(known.values.size(), 4);
+  for (const auto& value : known.values) {
+    ck_assert_double_eq(value.d, 0.01);
+    ck_assert_double_eq(value_at<3>(grid, value.x), 0.01);
+  }
+  std::size_t neighbours = 0;
+  for (const int low : {0, 50, 100, 215})
+    for (int k = 0, index = low; k < 3; ++k, index /= kSize)
+      neighbours += (index % kSize > 0) + (index % kSize + 1 < kSize);
+  ck_assert_uint_eq(known.slopes.size(), neighbours);
+  for (const auto& slope : known.slopes) {
+    ck_assert_double_eq(slope.d, 0.01);
+    ck_assert_double_ge(slope.growth, 0.99 / 2);
+    ck_assert_double_le(slope.growth, 1.01 / 0.5);
+  }
+}
+END_TEST
+
 START_TEST(grids_in_space_and_thin_ones) {
   const auto solid = [](double x, double y, double z) {
     return 1 + x + 2 * y + 3 * z + x * y - y * z + 0.5 * x * y * z;
@@ -460,9 +489,9 @@ TEST_SUITE(test_spacing) {
   return run_kernel_suite(
       "spacing",
       {grids_are_linear_in_each_direction, grids_are_linear_only_between_neighbours,
-       grids_in_space_and_thin_ones, values_beside_a_hole_in_the_grid, bad_values_are_named,
-       callbacks_that_fail, growth_limit_of_pits, growth_limit_of_jumps, steepest_growth_of_slopes,
-       steepest_growth_of_jumps, steepest_growth_of_two_sides,
+       grids_know_their_low_points, grids_in_space_and_thin_ones, values_beside_a_hole_in_the_grid,
+       bad_values_are_named, callbacks_that_fail, growth_limit_of_pits, growth_limit_of_jumps,
+       steepest_growth_of_slopes, steepest_growth_of_jumps, steepest_growth_of_two_sides,
        growth_limit_leaves_alone_what_grows_slowly, growth_limit_goes_through_the_domain,
        growth_limit_of_many_sources, growth_limit_around_a_hole, growth_limit_reports_bad_values});
 }

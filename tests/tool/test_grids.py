@@ -55,6 +55,22 @@ class Coverage(GridsTest):
         self.assertNotIn("covers only", err)
         self.assertFalse([w for w in report["warnings"] if "grid" in w])
 
+    def test_spots_between_samples(self):
+        """Low values at single points of a fine grid have nodes around them, however few they are."""
+        size = 161
+        values = np.full((size, size), 0.05)
+        spots = [(37, 22), (90, 131), (121, 68)]
+        for row, column in spots:
+            values[row, column] = 0.002
+        header = "ncols %d\nnrows %d\nxllcenter 0\nyllcenter 0\ncellsize %.9g\n" % (
+            size, size, 1 / (size - 1))
+        rows = "\n".join(" ".join("%g" % value for value in row) for row in values[::-1])
+        table, _, err = self.on_square("--spacing-grid", self.write(header + rows + "\n"))
+        self.assertIn("its growth is limited", err)
+        for row, column in spots:
+            away = np.hypot(table["x"] - column / (size - 1), table["y"] - row / (size - 1))
+            self.assertGreater(np.count_nonzero(away < 0.01), 10)
+
     def test_a_part_of_the_domain(self):
         _, report, err = self.on_square("--spacing-grid", self.write(grid(-0.7, -0.1)))
         self.assertRegex(err, r"the grid of the spacing covers only a part of the domain: of [0-9]+ "

@@ -44,6 +44,23 @@ class ShapeSpacing(CommandTest):
         (self.folder / "body.off").write_text("\n".join(lines) + "\n")
         return "body.off"
 
+    def test_a_spot_with_a_fixed_node(self):
+        """d is sampled at fixed nodes: a spot that no other sample meets is found by one in it."""
+        corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        spot = np.array([0.3712, 0.6283])
+        formula = f"hypot(x-{spot[0]},y-{spot[1]})<0.004 ? 0.001 : 0.1"
+
+        def nodes_in_spot(domain):
+            points, _, _ = self.nodes(domain, formula)
+            return np.count_nonzero(np.hypot(*(points - spot).T) < 0.004)
+
+        self.assertEqual(nodes_in_spot(self.write_polygons(corners)), 0)
+        text = (self.folder / "polygons.poly").read_text().splitlines()
+        text[0] = "5 2 0 0"
+        text.insert(5, f"4 {spot[0]} {spot[1]}")
+        (self.folder / "with_node.poly").write_text("\n".join(text) + "\n")
+        self.assertGreater(nodes_in_spot("with_node.poly"), 40)
+
     def test_curvature_of_a_circle(self):
         radius, middle = 2.5, np.array([10.0, -3.0])
         angles = np.arange(240) * 2 * np.pi / 240

@@ -152,9 +152,9 @@ class Placement(Results, Fields, Meshes, Tessellation):
 
     def set_spacing_points(self, points: ArrayLike, d: ArrayLike) -> Placement:
         """Sets the spacing to values `d` at scattered points, the rows of `points`. It equals the
-        given value at each point and elsewhere a plane fitted to the 8 (in space 16) nearest points
-        by weighted least squares, bounded by the smallest and largest of their values; on a sphere,
-        with ways along it. Collective; every rank passes the same arrays, and holds a copy."""
+        given value at each point and elsewhere a weighted mean of the values of the 8 (in space 16)
+        nearest points, of which those behind others count less or not at all; on a sphere, with
+        ways along it. Collective; every rank passes the same arrays, and holds a copy."""
         coordinates, values = self._field(points, d)
         self._call("set_spacing_points", len(values), coordinates, values)
         return self._keep_spacing(None)

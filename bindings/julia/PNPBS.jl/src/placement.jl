@@ -180,8 +180,8 @@ end
     set_spacing_points!(placement, points, d)
 
 Sets the spacing to values `d` at scattered points, the columns of `points`. It equals the given
-value at each point and elsewhere a plane fitted to the 8 (in space 16) nearest points by weighted
-least squares, bounded by the smallest and largest of their values; on a sphere, with ways along it.
+value at each point and elsewhere a weighted mean of the values of the 8 (in space 16) nearest points,
+of which those behind others count less or not at all; on a sphere, with ways along it.
 Collective; every rank passes the same arrays, and holds a copy.
 """
 function set_spacing_points!(placement::Placement, points::AbstractMatrix{<:Real},
