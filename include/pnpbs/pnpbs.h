@@ -365,10 +365,12 @@ PNPBS_API pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t rol
 
 /** Reads a surface from a file and adds it as pnpbs_domain_add_surface does: .stl (text or binary),
  *  .off, .obj, .ply, or TetGen's .poly and .smesh. Solids, groups, materials and facet markers
- *  become tags with their names (pnpbs_domain_get_tag_name); hole points become holes of the domain
- *  in space, and regions whose attribute is an integer other than 0 get it as their tag
- *  (pnpbs_domain_add_region). Local. Errors: PNPBS_ERROR_FILE with file, line and what was
- *  expected. */
+ *  become tags with their names (pnpbs_domain_get_tag_name). In TetGen's files with the role
+ *  PNPBS_BOUNDARY, all that the facets enclose is part of the domain, except for regions with a
+ *  hole point: a closed surface within another one divides the domain, and bounds a cavity only if
+ *  a hole point lies in it (or pnpbs_domain_set_role gives it that role). Regions whose attribute
+ *  is an integer other than 0 get it as their tag (pnpbs_domain_add_region). Local. Errors:
+ *  PNPBS_ERROR_FILE with file, line and what was expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role,
                                                  const char *path, double feature_angle);
 

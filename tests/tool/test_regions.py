@@ -177,6 +177,38 @@ class FilesOfTetGen(RegionTest):
         self.check_sizes({0: 1.0, 4: 1.0})
 
 
+    def cube_in_cube(self, rest):
+        """A cube of side 3 with one of side 1 in its middle, 10 and 20 their markers."""
+        corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        sides = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+        rows = ["16 3 0 0"]
+        for k, corner in enumerate([[3 * c for c in corner] for corner in corners] +
+                                   [[1 + c for c in corner] for corner in corners]):
+            rows.append(f"{k} {corner[0]} {corner[1]} {corner[2]}")
+        rows.append("12 1")
+        for first, marker in ((0, 10), (8, 20)):
+            rows += [f"4 {' '.join(str(first + k) for k in side)} {marker}" for side in sides]
+        return self.write("cubes.smesh", "\n".join(rows) + "\n" + rest)
+
+    def check_follows_inner_cube(self):
+        x = meshio.read(self.folder / "a.vtu").points
+        self.assertGreater(numpy.count_nonzero(abs(abs(x - 1.5).max(axis=1) - 0.5) < 1e-12), 20)
+
+    def test_closed_facets_divide(self):
+        self.fill(self.cube_in_cube("0\n2\n0 0.5 0.5 0.5 10\n1 1.5 1.5 1.5 20\n"), spacing="0.5")
+        self.check_sizes({10: 26.0, 20: 1.0})
+        self.check_follows_inner_cube()
+        self.fill(self.cube_in_cube("0\n0\n"), spacing="0.5")
+        mesh = meshio.read(self.folder / "a.vtu")
+        self.assertAlmostEqual(sizes(mesh.points, mesh.cells[0].data).sum(), 27, delta=1e-9)
+        self.check_follows_inner_cube()
+
+    def test_hole_points_make_cavities(self):
+        self.fill(self.cube_in_cube("1\n0 1.5 1.5 1.5\n1\n0 0.5 0.5 0.5 10\n"), spacing="0.5")
+        self.check_sizes({10: 26.0})
+        self.check_follows_inner_cube()
+
+
 class FilesOfGmsh(RegionTest):
     def there_and_back(self, expected, names, spacing):
         for name in ("a.msh", "a.msh2"):

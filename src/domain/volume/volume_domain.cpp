@@ -212,9 +212,12 @@ void VolumeDomain::add_surface(SurfaceRole role, const SurfaceTriangles& surface
   std::vector<std::int64_t> corners;
   for (const std::array<std::int32_t, 3>& triangle : surface.triangles)
     corners.insert(corners.end(), triangle.begin(), triangle.end());
+  if (surface.divides && role == SurfaceRole::boundary) role = SurfaceRole::dividing;
   add_surface(role, std::ssize(surface.vertices), surface.vertices.data()->data(),
               std::ssize(surface.triangles), corners.data(), surface.tags.data(), feature_angle);
-  for (const Point<3>& hole : surface.holes) add_hole(hole);
+  for (std::size_t k = 0; k < surface.holes.size(); ++k)
+    add_hole_of_file(surface.holes[k],
+                     "hole " + std::to_string(k) + " of " + surfaces_.back().name);
   for (const SurfaceRegion& region : surface.regions)
     add_region_of_file(region.point, region.tag, region.name);
   for (const Warning& warning : surface.warnings) add_warning(warning);

@@ -163,7 +163,10 @@ class Resolver {
     remove_thin_triangles(surface_, kSameVertex * size_, result_.warnings);
     remove_duplicate_triangles(surface_, result_.warnings);
     require_triangles_of_all();
-    if (filled_) find_roles_by_place(surface_);
+    if (filled_) {
+      find_roles_of_dividing(surface_);
+      find_roles_by_place(surface_);
+    }
     require_boundary();
     SurfaceEdges edges(surface_);
     require_closed_boundary(surface_, edges);
