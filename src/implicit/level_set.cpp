@@ -82,10 +82,12 @@ std::vector<LevelSetSlope> LevelSet::slopes(std::span<const Point<3>> x, double 
   return slopes;
 }
 
-void LevelSet::project(std::span<Point<3>> x, double reach) const {
+std::vector<char> LevelSet::project(std::span<Point<3>> x, double reach) const {
   const std::vector<LevelSetSlope> slope = slopes(x);
+  std::vector<char> found(x.size());
   std::vector<Search> open;
   for (std::size_t i = 0; i < x.size(); ++i) {
+    found[i] = slope[i].f == 0;
     const double f = slope[i].f, way = std::fabs(f) / length(slope[i].gradient);
     if (f == 0 || !(way <= reach)) continue;
     const Point<3> along = shifted({}, f < 0 ? 1 : -1, slope[i].normal());
@@ -111,7 +113,11 @@ void LevelSet::project(std::span<Point<3>> x, double reach) const {
     open = std::move(farther);
   }
   const std::vector<Point<3>> zeros = zeros_on(*this, segments);
-  for (std::size_t k = 0; k < crossing.size(); ++k) x[crossing[k]] = zeros[k];
+  for (std::size_t k = 0; k < crossing.size(); ++k) {
+    x[crossing[k]] = zeros[k];
+    found[crossing[k]] = 1;
+  }
+  return found;
 }
 
 namespace {

@@ -46,8 +46,9 @@ class LevelSet {
   static constexpr double kSlopeStep = 1e-4;
 
   // Moves points to where f = 0, along the gradient of f that is found by differences. One that
-  // does not come there within `reach` stays. What becomes of a point depends on it alone.
-  void project(std::span<Point<3>> x, double reach) const;
+  // does not come there within `reach` stays. What becomes of a point depends on it alone. Returns
+  // for each point whether f = 0 there now.
+  std::vector<char> project(std::span<Point<3>> x, double reach) const;
 
  private:
   Point<3> in_box(Point<3> x) const;
