@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <functional>
 #include <limits>
 #include <span>
@@ -45,46 +46,66 @@ double largest_distance(const std::vector<Point<3>>& from, const To& to) {
   return largest;
 }
 
-// In the middle of each triangle of the set and of each of its sides.
-std::vector<Point<3>> middles_of_triangles(const ResolvedVolume& volume, const LevelSet& set) {
+struct Middles {
+  std::vector<Point<3>> points, normals;  // unit
+};
+
+// In the middle of each triangle of the set and of each of its sides, where the normal is that of
+// one of the two triangles.
+Middles middles_of_triangles(const ResolvedVolume& volume, const LevelSet& set) {
+  struct Side {
+    std::array<std::int32_t, 2> ends;
+    std::int32_t facet;
+    auto operator<=>(const Side&) const = default;
+  };
   const BoundaryMesh<3>& mesh = volume.mesh;
-  std::vector<std::array<std::int32_t, 2>> sides;
-  std::vector<Point<3>> points;
+  const auto normal_of = [&](std::int32_t f) {
+    return unit_vector(area_normal(corners_of(mesh, mesh.facets[static_cast<std::size_t>(f)])));
+  };
+  std::vector<Side> sides;
+  Middles middles;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     if (volume.level_sets.at(static_cast<std::int32_t>(f)) != &set) continue;
-    points.push_back(centroid(corners_of(mesh, mesh.facets[f])));
+    middles.points.push_back(centroid(corners_of(mesh, mesh.facets[f])));
+    middles.normals.push_back(normal_of(static_cast<std::int32_t>(f)));
     const std::array<std::int32_t, 3>& nodes = mesh.facets[f].nodes;
     for (std::size_t k = 0; k < 3; ++k)
       sides.push_back(
-          {std::min(nodes[k], nodes[(k + 1) % 3]), std::max(nodes[k], nodes[(k + 1) % 3])});
+          {{std::min(nodes[k], nodes[(k + 1) % 3]), std::max(nodes[k], nodes[(k + 1) % 3])},
+           static_cast<std::int32_t>(f)});
   }
   std::ranges::sort(sides);
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end(),
+                          [](const Side& a, const Side& b) { return a.ends == b.ends; }),
+              sides.end());
   const auto at = [&](std::int32_t node) {
     return mesh.nodes[static_cast<std::size_t>(node)].position;
   };
-  for (const auto& [a, b] : sides) points.push_back(halfway(at(a), at(b)));
-  return points;
+  for (const Side& side : sides) {
+    middles.points.push_back(halfway(at(side.ends[0]), at(side.ends[1])));
+    middles.normals.push_back(normal_of(side.facet));
+  }
+  return middles;
 }
 
-// As the slope of f there tells it, which is not so where the slope jumps.
-std::vector<double> likely_distances(const LevelSet& set, std::span<const Point<3>> points) {
+// As the slope of f along the triangles' normals tells it, which is not so where the slope jumps.
+std::vector<double> likely_distances(const LevelSet& set, const Middles& middles) {
   std::vector<double> distances;
+  const std::span<const Point<3>> points = middles.points, normals = middles.normals;
   for (std::size_t begin = 0; begin < points.size(); begin += kPointsAtOnce) {
     const std::size_t n = std::min(kPointsAtOnce, points.size() - begin);
-    for (const LevelSetSlope& slope : set.slopes(points.subspan(begin, n))) {
-      const double way = std::fabs(slope.f) / length(slope.gradient);
+    for (const double way : set.ways_along(points.subspan(begin, n), normals.subspan(begin, n)))
       distances.push_back(way <= set.resolution() ? way
                                                   : set.resolution());  // where it is NaN, too
-    }
   }
   return distances;
 }
 
 double distance_to_triangles(const ResolvedVolume& volume, const LevelSet& set) {
-  const std::vector<Point<3>> points = middles_of_triangles(volume, set);
+  const Middles middles = middles_of_triangles(volume, set);
+  const std::vector<Point<3>>& points = middles.points;
   if (points.empty()) return 0;
-  const std::vector<double> likely = likely_distances(set, points);
+  const std::vector<double> likely = likely_distances(set, middles);
   const double farthest = *std::ranges::max_element(likely);
   std::vector<Point<3>> far;
   for (std::size_t k = 0; k < points.size(); ++k)
