@@ -165,8 +165,13 @@ class FilesOfTetGen(RegionTest):
         self.check_sizes({7: 1.0, 4: 1.0})
         self.fill(path, "--inner", "2", "--surfaces-only", spacing="0.3")
         self.assertNotIn("region", meshio.read(self.folder / "a.vtu").cell_data)
-        # A repaired body has no wall between them.
-        self.place_body(path, "0.3", "--repair", "0.1", "-o", "a.vtu", "--report", "a.json")
+        # Facets divide a body without being named as inner ones, and a body that is sound with them
+        # is not repaired. Made anew it has no wall between them.
+        self.fill(path, spacing="0.3")
+        self.check_sizes({7: 1.0, 4: 1.0})
+        self.fill(path, "--repair", "0.1", spacing="0.3", warning="not repaired: the body is sound")
+        self.check_sizes({7: 1.0, 4: 1.0})
+        self.place_body(path, "0.3", "--resurface", "0.1", "-o", "a.vtu", "--report", "a.json")
         self.assertEqual(set(meshio.read(self.folder / "a.vtu").cell_data["region"][0]), {7})
         warnings = " ".join(json.loads((self.folder / "a.json").read_text())["warnings"])
         self.assertIn("region 2 at (0.5, 0.5, 1.5) has the tag 4, but lies in the same", warnings)

@@ -298,10 +298,19 @@ void VolumeDomain::add_level_set(std::shared_ptr<const LevelSet> set, std::int32
   add_source(std::move(source), "level set", level_sets_given_);
 }
 
-void VolumeDomain::set_repair(double resolution) {
+void VolumeDomain::set_repair(double resolution, bool sound_too) {
   if (!(resolution >= 0 && std::isfinite(resolution)))
     reject("resolution is " + number_text(resolution) + ", expected a positive number, or 0");
   repair_ = resolution;
+  repair_sound_ = sound_too;
+  checked_ = false;
+}
+
+void VolumeDomain::take_repair_of(const VolumeDomain& body) {
+  taken_distances_ = body.repair_distances();
+  taken_warnings_.clear();
+  for (const Warning& warning : body.warnings())
+    if (warning.code == WarningCode::repaired) taken_warnings_.push_back(warning);
   checked_ = false;
 }
 
@@ -367,25 +376,61 @@ void VolumeDomain::set_filled(bool filled) {
   filled_ = filled;
 }
 
-void VolumeDomain::check() {
-  if (checked_) return;
-  static const std::map<std::int32_t, SurfaceRole> no_roles;  // they have them
-  std::vector<Warning> warnings = given_warnings_;
-  RepairDistances distances;
-  const std::vector<SurfaceSource> surfaces =
-      repair_ ? repaired_surfaces(warnings, distances) : surfaces_;
+std::unique_ptr<ResolvedVolume> VolumeDomain::resolve() const {
+  return resolve_volume({surfaces_, roles_, polylines_, region_points_, given_nodes_, filled_});
+}
+
+// Returns null if the surfaces are to be repaired. Surfaces alone are sound if they would bound a
+// body that is.
+std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_if_sound() const {
+  if (repair_sound_) return nullptr;
   std::unique_ptr<ResolvedVolume> resolved;
   try {
-    resolved = resolve_volume(
-        {surfaces, repair_ ? no_roles : roles_, polylines_, region_points_, given_nodes_, filled_});
-  } catch (const BrokenSurface& error) {
-    if (repair_ || !filled_) throw;
-    reject_domain(error.message() +
-                  "; pnpbs_domain_set_repair (in the command --repair) takes what such triangles "
-                  "enclose");
+    resolved = filled_ ? resolve() : resolve_volume({surfaces_, roles_, {}, {}, {}, true});
+  } catch (const BrokenSurface&) {
+    return nullptr;
   }
+  if (!resolved->wound_once) return nullptr;
+  if (!filled_) resolved = resolve();
+  resolved->warnings.emplace_back(
+      WarningCode::repaired,
+      "not repaired: the body is sound as it is given; pnpbs_domain_set_resurfaced (in the command "
+      "--resurface) replaces its surface all the same",
+      0);
+  return resolved;
+}
+
+std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_repaired() const {
+  static const std::map<std::int32_t, SurfaceRole> no_roles;  // they have them
+  std::vector<Warning> warnings;
+  RepairDistances distances;
+  const std::vector<SurfaceSource> surfaces = repaired_surfaces(warnings, distances);
+  std::unique_ptr<ResolvedVolume> resolved =
+      resolve_volume({surfaces, no_roles, polylines_, region_points_, given_nodes_, filled_});
   resolved->warnings.insert(resolved->warnings.begin(), warnings.begin(), warnings.end());
   resolved->repair = distances;
+  return resolved;
+}
+
+void VolumeDomain::check() {
+  if (checked_) return;
+  std::unique_ptr<ResolvedVolume> resolved;
+  if (repair_) {
+    resolved = resolve_if_sound();
+    if (!resolved) resolved = resolve_repaired();
+  } else {
+    try {
+      resolved = resolve();
+    } catch (const BrokenSurface& error) {
+      if (!filled_) throw;
+      reject_domain(error.message() +
+                    "; pnpbs_domain_set_repair (in the command --repair) takes what such triangles "
+                    "enclose");
+    }
+  }
+  if (resolved->repair.resolution == 0) resolved->repair = taken_distances_;
+  for (const std::vector<Warning>* more : {&taken_warnings_, &given_warnings_})
+    resolved->warnings.insert(resolved->warnings.begin(), more->begin(), more->end());
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
   resolved->mesh.node_distance = largest_node_distance(*resolved);
   resolved_ = std::move(resolved);
