@@ -222,7 +222,7 @@ template class FacetIndex<3>;
 
 template <int Dim>
 FacetIndex<Dim> index_facets(const BoundaryMesh<Dim>& mesh, const Box<Dim>& bounds) {
-  constexpr std::size_t kMaxFacets = 12;
+  constexpr std::size_t kMaxFacets = 32;
   constexpr int kMaxDepth = 16;  // where more meet in a node, no cell holds fewer
   FacetCells<Dim> facets(mesh);
   std::int32_t parents = 0;  // first cell of the depth above
