@@ -113,6 +113,7 @@ module pnpbs
     procedure :: add_pslg => domain_add_pslg
     procedure :: set_filled => domain_set_filled
     procedure :: set_repair => domain_set_repair
+    procedure :: set_resurfaced => domain_set_resurfaced
     procedure :: add_hole => domain_add_hole
     procedure :: add_region => domain_add_region
     procedure :: add_fixed_nodes => domain_add_fixed_nodes
@@ -1081,11 +1082,12 @@ contains
   end subroutine
 
   !> Repairs the triangulated boundary surfaces of a domain in space that enclose one body
-  !> imperfectly: open, crossing, folded or inconsistently oriented. The body is where they wind
-  !> around a point more than half a time, in either orientation. Holes are closed, overlapping
-  !> bodies are joined, and surfaces that enclose nothing are dropped. The surface of the body is
-  !> extracted as that of a level set, with its sharp edges; all of it has the tag of the first
-  !> triangle. A warning reports its distance from the given triangles. Local.
+  !> imperfectly: open, crossing, folded or inconsistently oriented. Sound surfaces are unchanged,
+  !> and a warning reports that nothing is repaired. The body is where they wind around a point more
+  !> than half a time, in either orientation. Holes are closed, overlapping bodies are joined, and
+  !> surfaces that enclose nothing are dropped. The surface of the body is extracted as that of a
+  !> level set, with its sharp edges; all of it has the tag of the first triangle. A warning reports
+  !> its distance from the given triangles. Local.
   !>   resolution  thinner features can be lost; > 0, no more than the spacing at the surface, or 0:
   !>               1/64 of the longest side of the bounding box of the triangles
   subroutine domain_set_repair(self, resolution, stat, errmsg)
@@ -1094,6 +1096,18 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call conclude('domain%set_repair', c_domain_set_repair(self%c, resolution), stat, errmsg)
+  end subroutine
+
+  !> Replaces the triangulated boundary surfaces of a domain in space as set_repair does, even if
+  !> they need no repair: this removes what is finer than the resolution from a body. Local.
+  !>   resolution  as of set_repair
+  subroutine domain_set_resurfaced(self, resolution, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: resolution
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%set_resurfaced', c_domain_set_resurfaced(self%c, resolution), stat, &
+                  errmsg)
   end subroutine
 
   !> Removes the region around a point from the domain, up to the next curves or surfaces of either

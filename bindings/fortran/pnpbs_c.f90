@@ -55,10 +55,10 @@ module pnpbs_c
   !> that they do not know. PNPBS_WARNING_UNKNOWN is none of the others. LEFT_OUT_OUTSIDE: curves or
   !> triangles outside of the domain are left out (their names). UNUSED_VERTICES: vertices are in no
   !> segment (vertices). REGION_POINTS: region points have no effect (points). SIMPLIFIED: vertices
-  !> were left out (vertices). REPAIRED: the body was repaired (triangles, resolution).
-  !> TRIANGLES_LEFT_OUT: they have no area, or are given twice (triangles). TRIANGLES_TURNED: to
-  !> agree with neighbours, or outwards (triangles). VERTICES_MERGED: they were closer than the
-  !> tolerance (vertices, tolerance). SURFACES_TOUCH: in single vertices (vertices).
+  !> were left out (vertices). REPAIRED: the body was repaired (triangles, resolution), or 0
+  !> triangles: it was sound. TRIANGLES_LEFT_OUT: they have no area, or are given twice (triangles).
+  !> TRIANGLES_TURNED: to agree with neighbours, or outwards (triangles). VERTICES_MERGED: they were
+  !> closer than the tolerance (vertices, tolerance). SURFACES_TOUCH: in single vertices (vertices).
   !> PIECES_LEFT_OUT: parts of a body are too thin (parts, mean thickness). EDGES_ROUNDED: edges of
   !> a level set are rounded by the resolution (triangle edges). CREASES_IGNORED: short creases are
   !> no features (edges). FEATURE_ANGLE: the smallest holds for all surfaces (-, degrees).
@@ -422,6 +422,15 @@ module pnpbs_c
       type(c_ptr), value :: domain
       real(c_double), value :: resolution
       integer(c_int) :: c_domain_set_repair
+    end function
+
+    function c_domain_set_resurfaced(domain, resolution) bind(C, &
+      name="pnpbs_domain_set_resurfaced")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), value :: resolution
+      integer(c_int) :: c_domain_set_resurfaced
     end function
 
     function c_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) &

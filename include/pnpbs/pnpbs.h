@@ -317,7 +317,9 @@ PNPBS_API pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t fill
 
 /** Repairs the triangulated boundary surfaces of a domain in space, including boxes, balls and
  *  cylinders, that enclose one body imperfectly: open, crossing, folded or inconsistently oriented,
- *  as in scans and assembled parts. The body is where they wind around a point more than half a
+ *  as in scans and assembled parts. Surfaces that pnpbs_domain_check accepts without a repair are
+ *  unchanged, unless one body lies within another one with the same orientation; a warning reports
+ *  that nothing is repaired. The body is where they wind around a point more than half a
  *  time (generalised winding number, Jacobson, Kavan and Sorkine-Hornung 2013), in either
  *  orientation. Holes are closed, surfaces inside the body or enclosing nothing are dropped, and
  *  overlapping bodies are joined; a cavity must be oriented against what surrounds it. The surface
@@ -330,6 +332,13 @@ PNPBS_API pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t fill
  *  @param[in] resolution  > 0, no more than the spacing at the surface; 0: 1/64 of the longest side
  *                         of the bounding box of the triangles */
 PNPBS_API pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resolution);
+
+/** Replaces the triangulated boundary surfaces of a domain in space as pnpbs_domain_set_repair
+ *  does, even if they need no repair: this removes what is finer than the resolution from a body.
+ *  Of this function and pnpbs_domain_set_repair the last call holds. Local. Errors: as there.
+ *  @param[in] resolution  > 0, no more than the spacing at the surface; 0: 1/64 of the longest side
+ *                         of the bounding box of the triangles */
+PNPBS_API pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution);
 
 /** Adds straight segments through n vertices. Local.
  *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
@@ -365,10 +374,12 @@ PNPBS_API pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t rol
 
 /** Reads a surface from a file and adds it as pnpbs_domain_add_surface does: .stl (text or binary),
  *  .off, .obj, .ply, or TetGen's .poly and .smesh. Solids, groups, materials and facet markers
- *  become tags with their names (pnpbs_domain_get_tag_name); hole points become holes of the domain
- *  in space, and regions whose attribute is an integer other than 0 get it as their tag
- *  (pnpbs_domain_add_region). Local. Errors: PNPBS_ERROR_FILE with file, line and what was
- *  expected. */
+ *  become tags with their names (pnpbs_domain_get_tag_name). In TetGen's files with the role
+ *  PNPBS_BOUNDARY, all that the facets enclose is part of the domain, except for regions with a
+ *  hole point: a closed surface within another one divides the domain, and bounds a cavity only if
+ *  a hole point lies in it (or pnpbs_domain_set_role gives it that role). Regions whose attribute
+ *  is an integer other than 0 get it as their tag (pnpbs_domain_add_region). Local. Errors:
+ *  PNPBS_ERROR_FILE with file, line and what was expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role,
                                                  const char *path, double feature_angle);
 
@@ -1202,14 +1213,14 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
  *  LEFT_OUT_OUTSIDE: curves or triangles outside of the domain are left out (their names).
  *  UNUSED_VERTICES: vertices are in no segment (vertices). REGION_POINTS: region points have no
  *  effect (points). SIMPLIFIED: vertices were left out (vertices). REPAIRED: the body was repaired
- *  (triangles, resolution). TRIANGLES_LEFT_OUT: they have no area, or are given twice (triangles).
- *  TRIANGLES_TURNED: to agree with neighbours, or outwards (triangles). VERTICES_MERGED: they were
- *  closer than the tolerance (vertices, tolerance). SURFACES_TOUCH: in single vertices (vertices).
- *  PIECES_LEFT_OUT: parts of a body are too thin (parts, mean thickness). EDGES_ROUNDED: edges of a
- *  level set are rounded by the resolution (triangle edges). CREASES_IGNORED: short creases are no
- *  features (edges). FEATURE_ANGLE: the smallest holds for all surfaces (-, degrees).
- *  CURVED_ELEMENTS: elements of a file are treated as straight (elements). GROUPS: entities of a
- *  file are in several groups (entities). */
+ *  (triangles, resolution), or 0 triangles: it was sound. TRIANGLES_LEFT_OUT: they have no area, or
+ *  are given twice (triangles). TRIANGLES_TURNED: to agree with neighbours, or outwards
+ *  (triangles). VERTICES_MERGED: they were closer than the tolerance (vertices, tolerance).
+ *  SURFACES_TOUCH: in single vertices (vertices). PIECES_LEFT_OUT: parts of a body are too thin
+ *  (parts, mean thickness). EDGES_ROUNDED: edges of a level set are rounded by the resolution
+ *  (triangle edges). CREASES_IGNORED: short creases are no features (edges). FEATURE_ANGLE: the
+ *  smallest holds for all surfaces (-, degrees). CURVED_ELEMENTS: elements of a file are treated as
+ *  straight (elements). GROUPS: entities of a file are in several groups (entities). */
 #define PNPBS_WARNING_UNKNOWN 0
 #define PNPBS_WARNING_LEFT_OUT_OUTSIDE 101
 #define PNPBS_WARNING_UNUSED_VERTICES 102

@@ -218,6 +218,10 @@ pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resolution) {
   return change_volume(domain, [&](VolumeDomain& volume) { volume.set_repair(resolution); });
 }
 
+pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution) {
+  return change_volume(domain, [&](VolumeDomain& volume) { volume.set_repair(resolution, true); });
+}
+
 pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled) {
   return change_volume(domain, [&](VolumeDomain& volume) { volume.set_filled(filled != 0); });
 }

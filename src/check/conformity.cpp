@@ -17,7 +17,8 @@ namespace {
 // Where the boundary of the tetrahedra is not that of the domain.
 constexpr const char* kWaysOut =
     "make it smaller there, try the option resolve, or repair the body to a resolution of the "
-    "spacing, which removes what is finer (pnpbs_domain_set_repair, in the command --repair auto)";
+    "spacing, which removes what is finer (pnpbs_domain_set_resurfaced, in the command --repair "
+    "auto)";
 
 bool in_no_element(const Level<2>& level, std::int64_t i) {
   bool none = true;

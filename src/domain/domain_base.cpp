@@ -29,6 +29,13 @@ void DomainBase<Dim>::add_hole(const Point<Dim>& point) {
 }
 
 template <int Dim>
+void DomainBase<Dim>::add_hole_of_file(const Point<Dim>& point, std::string name) {
+  require_point<Dim>("point", point);
+  region_points_.push_back({point, std::move(name), 0, true});
+  checked_ = false;
+}
+
+template <int Dim>
 void DomainBase<Dim>::add_region(const Point<Dim>& point, std::int32_t tag) {
   require_point<Dim>("point", point);
   require_tag("tag", tag);

@@ -25,10 +25,16 @@ template <int Dim, class PartOf>
 void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& part_of,
                   std::vector<char>& inside, std::vector<Warning>& warnings) {
   std::vector<const RegionPoint<Dim>*> hole_in(inside.size());
+  std::vector<MessageText> left_out;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!points[k].is_hole()) continue;
     const std::size_t part = index(part_of(k));
-    if (!inside[part]) reject_domain(name_and_place<Dim>(points[k]) + " lies outside the domain");
+    if (!inside[part]) {
+      const MessageText problem = name_and_place<Dim>(points[k]) + " lies outside the domain";
+      if (!points[k].from_file) reject_domain(problem);
+      left_out.push_back(problem);
+      continue;
+    }
     if (hole_in[part])
       warnings.emplace_back(
           WarningCode::region_points,
@@ -36,6 +42,9 @@ void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& par
     else
       hole_in[part] = &points[k];
   }
+  if (!left_out.empty())
+    warnings.emplace_back(WarningCode::region_points, "left out: " + list_text(left_out),
+                          std::ssize(left_out));
   for (std::size_t part = 0; part < inside.size(); ++part)
     if (hole_in[part]) inside[part] = 0;
   if (std::find(inside.begin(), inside.end(), 1) == inside.end())

@@ -28,6 +28,9 @@ struct SurfaceTriangles {
   std::vector<std::int32_t> tags;  // of triangles; 1 where the file has none
   // Where the file names what it tags: solids of an STL, groups, objects and materials of an OBJ.
   std::vector<std::pair<std::int32_t, std::string>> tag_names;
+  // True of TetGen's files: their facets divide what they enclose into regions, all of them part of
+  // the domain but those with a hole point.
+  bool divides = false;
   // From TetGen's files: a point in each cavity, and in regions with a tag.
   std::vector<Point<3>> holes;
   std::vector<SurfaceRegion> regions;

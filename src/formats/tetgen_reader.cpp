@@ -96,6 +96,7 @@ SurfaceTriangles parse_tetgen(std::string_view text, const std::string& name, Te
   const VertexSection<3> vertices = read_vertices<3>(fields, node_file);
   if (vertices.count() > kMaxVertices) fields.fail(kTooManyVertices);
   SurfaceTriangles surface;
+  surface.divides = true;
   surface.vertices = points(vertices.coordinates);
   FacetParser(fields, vertices, surface).parse(format);
   surface.holes = points(read_holes<3>(fields));

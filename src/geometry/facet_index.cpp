@@ -26,6 +26,7 @@ template <int Dim>
 FacetCells<Dim>::FacetCells(const BoundaryMesh<Dim>& mesh) : mesh_(mesh) {
   corners_.reserve(mesh.facets.size());
   for (const auto& facet : mesh.facets) corners_.push_back(corners_of(mesh, facet));
+  blocks_.build(corners_);
 }
 
 template <int Dim>
@@ -40,13 +41,37 @@ void FacetCells<Dim>::add_root(const BackgroundTree<Dim>& tree) {
   }
 }
 
-// The facets of the parent that may meet the box.
+namespace {
+
+template <std::size_t Dim, std::size_t N>
+Box<Dim> box_of(const std::array<std::array<double, Dim>, N>& corners) {
+  Box<Dim> box{corners[0], corners[0]};
+  for (std::size_t n = 1; n < N; ++n) include<Dim>(box, corners[n]);
+  return box;
+}
+
+template <int Dim>
+bool holds_corner(const Box<Dim>& box, const FacetCorners<Dim>& corners) {
+  return std::ranges::any_of(corners,
+                             [&](const Point<Dim>& x) { return in_closed_box<Dim>(box, x); });
+}
+
+}  // namespace
+
+// The facets of the parent that may meet the box. Boxes tell it of most of them.
 template <int Dim>
 void FacetCells<Dim>::inherit(std::int32_t parent, const Box<Dim>& box,
                               std::vector<std::int32_t>& facets,
                               std::vector<std::size_t>& offset) const {
-  for (std::size_t k = offset[index(parent)]; k < offset[index(parent) + 1]; ++k)
-    if (may_meet_box(corners_[index(facets[k])], box)) facets.push_back(facets[k]);
+  const std::vector<std::int32_t> row(
+      facets.begin() + static_cast<std::ptrdiff_t>(offset[index(parent)]),
+      facets.begin() + static_cast<std::ptrdiff_t>(offset[index(parent) + 1]));
+  blocks_.for_facets(
+      row, [&](const Box<Dim>& block) { return !boxes_meet(block, box); },
+      [&](std::int32_t f) {
+        const FacetCorners<Dim>& corners = corners_[index(f)];
+        if (holds_corner<Dim>(box, corners) || may_meet_box(corners, box)) facets.push_back(f);
+      });
   offset.push_back(facets.size());
 }
 
@@ -76,17 +101,24 @@ ReferencePoint<Dim> FacetCells<Dim>::reference_in(const Box<Dim>& box, std::int3
 
 template <int Dim>
 bool FacetCells<Dim>::on_facet_of(std::int32_t c, const Point<Dim>& x) const {
-  for (const std::int32_t f : facets(c))
-    if (on_facet(corners_[index(f)], x)) return true;
-  return false;
+  bool found = false;
+  blocks_.for_facets(
+      facets(c), [&](const Box<Dim>& block) { return !in_closed_box(block, x); },
+      [&](std::int32_t f) { found = found || on_facet(corners_[index(f)], x); });
+  return found;
 }
 
 template <int Dim>
 bool FacetCells<Dim>::inside(std::int32_t c, const Point<Dim>& x) const {
   const ReferencePoint<Dim>& from = reference(c);
   bool inside = from.inside;
-  for (const std::int32_t f : facets(c))
-    if (mesh_.facets[index(f)].bounds() && crosses(from.x, x, corners_[index(f)])) inside = !inside;
+  const Box<Dim> way = joined(Box<Dim>{x, x}, {from.x, from.x});
+  blocks_.for_facets(
+      facets(c), [&](const Box<Dim>& block) { return !boxes_meet(block, way); },
+      [&](std::int32_t f) {
+        if (mesh_.facets[index(f)].bounds() && crosses(from.x, x, corners_[index(f)]))
+          inside = !inside;
+      });
   return inside;
 }
 
@@ -97,13 +129,6 @@ namespace {
 
 constexpr double kRoom = 1e-12;  // of coordinates, for rounding
 
-template <std::size_t Dim, std::size_t N>
-Box<Dim> box_of(const std::array<std::array<double, Dim>, N>& corners) {
-  Box<Dim> box{corners[0], corners[0]};
-  for (std::size_t n = 1; n < N; ++n) include<Dim>(box, corners[n]);
-  return box;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -112,8 +137,8 @@ FacetIndex<Dim>::FacetIndex(BackgroundTree<Dim> tree, const FacetCells<Dim>& cel
       room_(kRoom * farthest_coordinate<Dim>(tree_.cell_box(0))),
       boundary_(&cells.mesh()),
       corners_(cells.corners()),
+      blocks_(cells.blocks()),
       offset_{0} {
-  blocks_.build(corners_);
   for (std::int32_t c = 0; c < cells.count(); ++c) cell_has_facets_.push_back(cells.crossed(c));
   for (std::int32_t leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
     const std::int32_t c = tree_.leaf_cell(leaf);
@@ -197,7 +222,7 @@ template class FacetIndex<3>;
 
 template <int Dim>
 FacetIndex<Dim> index_facets(const BoundaryMesh<Dim>& mesh, const Box<Dim>& bounds) {
-  constexpr std::size_t kMaxFacets = 12;
+  constexpr std::size_t kMaxFacets = 32;
   constexpr int kMaxDepth = 16;  // where more meet in a node, no cell holds fewer
   FacetCells<Dim> facets(mesh);
   std::int32_t parents = 0;  // first cell of the depth above

@@ -44,8 +44,34 @@ class FacetBlocks {
     return 0;
   }
 
+  // Calls visit(facet) for the facets of an ascending row, except for those in blocks for whose
+  // boxes is_off(box) is true.
+  template <class IsOff, class Visit>
+  void for_facets(std::span<const std::int32_t> row, const IsOff& is_off,
+                  const Visit& visit) const {
+    for (std::size_t k = 0; k < row.size();) {
+      const std::size_t off = facets_off(row, k, is_off);
+      k += off;
+      if (off == 0) visit(row[k++]);
+    }
+  }
+
  private:
   static constexpr std::array<std::size_t, 2> kSizes{256, 16};
+
+  template <class IsOff>
+  std::size_t facets_off(std::span<const std::int32_t> row, std::size_t k,
+                         const IsOff& is_off) const {
+    const auto first = static_cast<std::size_t>(row[k]);
+    for (std::size_t l = 0; l < kSizes.size(); ++l) {
+      const std::size_t last = k + kSizes[l] - 1;
+      if (first % kSizes[l] != 0 || last >= row.size()) continue;
+      if (static_cast<std::size_t>(row[last]) - first != kSizes[l] - 1)
+        continue;  // some are missing
+      if (is_off(boxes_[l][first / kSizes[l]])) return kSizes[l];
+    }
+    return 0;
+  }
 
   static bool is_block(std::span<const std::int32_t> facets) {
     bool consecutive = true;
@@ -113,6 +139,7 @@ class FacetCells {
 
   const BoundaryMesh<Dim>& mesh() const { return mesh_; }
   const std::vector<FacetCorners<Dim>>& corners() const { return corners_; }
+  const FacetBlocks<Dim>& blocks() const { return blocks_; }
 
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -123,6 +150,7 @@ class FacetCells {
 
   const BoundaryMesh<Dim>& mesh_;
   std::vector<FacetCorners<Dim>> corners_;
+  FacetBlocks<Dim> blocks_;
   std::vector<ReferencePoint<Dim>> references_;  // of the cells
   std::vector<std::size_t> offset_{0};
   std::vector<std::int32_t> facets_;  // of cell after cell

@@ -82,10 +82,27 @@ std::vector<LevelSetSlope> LevelSet::slopes(std::span<const Point<3>> x, double 
   return slopes;
 }
 
-void LevelSet::project(std::span<Point<3>> x, double reach) const {
+std::vector<double> LevelSet::ways_along(std::span<const Point<3>> x,
+                                         std::span<const Point<3>> directions) const {
+  const double step = kSlopeStep * resolution_;
+  std::vector<Point<3>> around;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (const double way : {0.0, -step, step})
+      around.push_back(in_box(shifted(x[i], way, directions[i])));
+  const std::vector<double> f = values(around);
+  std::vector<double> ways(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    ways[i] = std::fabs(f[3 * i]) * distance<3>(around[3 * i + 1], around[3 * i + 2]) /
+              std::fabs(f[3 * i + 2] - f[3 * i + 1]);
+  return ways;
+}
+
+std::vector<char> LevelSet::project(std::span<Point<3>> x, double reach) const {
   const std::vector<LevelSetSlope> slope = slopes(x);
+  std::vector<char> found(x.size());
   std::vector<Search> open;
   for (std::size_t i = 0; i < x.size(); ++i) {
+    found[i] = slope[i].f == 0;
     const double f = slope[i].f, way = std::fabs(f) / length(slope[i].gradient);
     if (f == 0 || !(way <= reach)) continue;
     const Point<3> along = shifted({}, f < 0 ? 1 : -1, slope[i].normal());
@@ -111,7 +128,11 @@ void LevelSet::project(std::span<Point<3>> x, double reach) const {
     open = std::move(farther);
   }
   const std::vector<Point<3>> zeros = zeros_on(*this, segments);
-  for (std::size_t k = 0; k < crossing.size(); ++k) x[crossing[k]] = zeros[k];
+  for (std::size_t k = 0; k < crossing.size(); ++k) {
+    x[crossing[k]] = zeros[k];
+    found[crossing[k]] = 1;
+  }
+  return found;
 }
 
 namespace {

@@ -45,9 +45,15 @@ class LevelSet {
   // of a hundredth of the size.
   static constexpr double kSlopeStep = 1e-4;
 
+  // How far it is from each point to where f = 0 along a unit direction or against it, by the slope
+  // of f there. This takes less than half of the values of f that slopes() takes.
+  std::vector<double> ways_along(std::span<const Point<3>> x,
+                                 std::span<const Point<3>> directions) const;
+
   // Moves points to where f = 0, along the gradient of f that is found by differences. One that
-  // does not come there within `reach` stays. What becomes of a point depends on it alone.
-  void project(std::span<Point<3>> x, double reach) const;
+  // does not come there within `reach` stays. What becomes of a point depends on it alone. Returns
+  // for each point whether f = 0 there now.
+  std::vector<char> project(std::span<Point<3>> x, double reach) const;
 
  private:
   Point<3> in_box(Point<3> x) const;

@@ -5,13 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "base/limits.hpp"
+#include "base/mixed_hash.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 #include "base/started_execution.hpp"
@@ -67,13 +70,31 @@ std::vector<Sample> samples_on(const TriangleList& triangles, double apart) {
   return samples;
 }
 
+struct PointHash {
+  std::size_t operator()(const Point<3>& x) const {
+    std::uint64_t hash = 0;
+    for (const double coordinate : x) hash = mixed_with(hash, coordinate);
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+// Corners are samples of all triangles around them, and are looked at once.
 std::vector<Nearest> nearest_to(const std::vector<Sample>& samples,
                                 const NearestTriangles& triangles) {
-  std::vector<Nearest> nearest(samples.size());
-  for_each_if_started("pnpbs::distances_of_repair", std::ssize(samples), [&](std::int64_t i) {
+  std::vector<Point<3>> points;
+  std::vector<std::size_t> point_of;  // of each sample
+  std::unordered_map<Point<3>, std::size_t, PointHash> corners;
+  for (const Sample& sample : samples) {
+    const bool is_new = sample.area > 0 || corners.try_emplace(sample.x, points.size()).second;
+    point_of.push_back(is_new ? points.size() : corners.at(sample.x));
+    if (is_new) points.push_back(sample.x);
+  }
+  std::vector<Nearest> of_points(points.size()), nearest;
+  for_each_if_started("pnpbs::distances_of_repair", std::ssize(points), [&](std::int64_t i) {
     const auto k = static_cast<std::size_t>(i);
-    nearest[k] = triangles.nearest(samples[k].x);
+    of_points[k] = triangles.nearest(points[k]);
   });
+  for (const std::size_t point : point_of) nearest.push_back(of_points[point]);
   return nearest;
 }
 

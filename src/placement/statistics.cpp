@@ -118,7 +118,8 @@ const std::vector<StatisticRow>& statistic_table() {
       real(
           "unresolved_spacing", [](P p) { return p.unresolved_spacing(); },
           "smallest d at the first of these places before it was reduced: a resolution for "
-          "pnpbs_domain_set_repair that removes what d does not resolve; 0 without such places"),
+          "pnpbs_domain_set_resurfaced that removes what d does not resolve; 0 without such "
+          "places"),
       real(
           "repaired.resolution", [](P p) { return p.repair_distances().resolution; },
           "resolution of the surface of a repaired body (pnpbs_domain_set_repair); the other "

@@ -167,6 +167,7 @@ void add_offset(VolumeDomain& domain, const VolumeDomain& body, const Offset<3>&
   const OffsetFunction<3> f(body, offset);
   domain.add_level_set(
       std::make_shared<const LevelSet>(name_of(offset), f, f.box(), f.resolution()), offset.tag);
+  domain.take_repair_of(body);
 }
 
 }  // namespace pnpbs

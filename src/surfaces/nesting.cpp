@@ -222,11 +222,43 @@ void give_roles(Triangulation& surface, const std::map<std::int32_t, SurfaceRole
     met.insert(triangle.tag);
     triangle.inner = role->second == SurfaceRole::inner;
     triangle.by_place = role->second == SurfaceRole::by_place;
+    triangle.dividing = role->second == SurfaceRole::dividing;
   }
   for (const auto& [tag, role] : roles)
     if (!met.contains(tag))
       throw Error(ErrorKind::domain, "no triangle of the surfaces has the tag " +
                                          std::to_string(tag) + ", which was given a role");
+}
+
+namespace {
+
+// Finds the roles of the dividing triangles of one source.
+void find_roles_of_source(Triangulation& surface, std::int32_t source) {
+  Triangulation alone{surface.sources, surface.vertices, surface.given, {}};
+  std::vector<std::size_t> number;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    if (surface.triangles[t].source == source) {
+      alone.triangles.push_back(surface.triangles[t]);
+      number.push_back(t);
+    }
+  const SurfaceEdges edges(alone);
+  const BoxTree<3> tree = tree_of(alone);
+  reject_crossings(alone, tree);
+  const SurfaceRegions regions(alone, edges, tree);
+  for (std::size_t k = 0; k < number.size(); ++k) {
+    SurfaceTriangle& triangle = surface.triangles[number[k]];
+    const auto t = static_cast<std::int32_t>(k);
+    if (triangle.dividing) triangle.inner = regions.front(t) != 0 && regions.back(t) != 0;
+  }
+}
+
+}  // namespace
+
+void find_roles_of_dividing(Triangulation& surface) {
+  std::set<std::int32_t> sources;
+  for (const SurfaceTriangle& triangle : surface.triangles)
+    if (triangle.dividing) sources.insert(triangle.source);
+  for (const std::int32_t source : sources) find_roles_of_source(surface, source);
 }
 
 void find_roles_by_place(Triangulation& surface) {

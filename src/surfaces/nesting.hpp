@@ -69,4 +69,10 @@ void give_roles(Triangulation& surface, const std::map<std::int32_t, SurfaceRole
 // cross.
 void find_roles_by_place(Triangulation& surface);
 
+// Finds the roles of dividing triangles, for each source by its own triangles alone: one bounds the
+// body if it has the source's unbounded region on one side only. A triangle with that region on
+// both sides stays a boundary, and the check of the boundary reports its open edges. Throws
+// Error(ErrorKind::domain) if triangles of such a source cross.
+void find_roles_of_dividing(Triangulation& surface);
+
 }  // namespace pnpbs

@@ -60,7 +60,8 @@ Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces) {
                                source,
                                static_cast<std::int32_t>(t),
                                surface.role == SurfaceRole::inner,
-                               surface.role == SurfaceRole::by_place});
+                               surface.role == SurfaceRole::by_place,
+                               surface.role == SurfaceRole::dividing});
     }
   }
   return all;

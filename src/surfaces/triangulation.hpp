@@ -19,7 +19,8 @@ namespace pnpbs {
 enum class SurfaceRole {
   boundary,  // closed, their normals pointing out of the domain: of a cavity, into it
   inner,     // nodes follow it, but the domain is on both sides
-  by_place   // as given: whichever of the two each triangle is where it lies
+  by_place,  // as given: whichever of the two each triangle is where it lies
+  dividing   // boundary where it bounds what its surface encloses, inner within that
 };
 
 // Adds nodes and triangles, whose corners are indices into the nodes given. A node has the tag of
@@ -59,6 +60,7 @@ struct SurfaceTriangle {
   std::int32_t number;  // in its source
   bool inner;
   bool by_place = false;  // whether it is inner is still to be found
+  bool dividing = false;  // likewise
 
   void turn_around() { std::swap(vertices[1], vertices[2]); }
   bool has(std::int32_t vertex) const {

@@ -58,6 +58,7 @@ void require_what_spheres_have(const Arguments& arguments) {
   refuse_if(arguments.surfaces_only, "--surfaces-only");
   refuse_if(arguments.at_centres, "--nodes-at");
   refuse_if(arguments.repair || arguments.repair_if_needed, "--repair");
+  refuse_if(arguments.resurface.has_value(), "--resurface");
   refuse_if(arguments.feature_angle.has_value(), "--feature-angle");
   refuse_if(!arguments.inner.empty(), "--inner");
   refuse_if(!arguments.cut.empty(), "--cut");
@@ -132,6 +133,8 @@ void require_arguments_that_fit(const Arguments& arguments) {
     refuse(
         "--repair auto may choose another body in every run, and a checkpoint belongs to one: name "
         "the resolution");
+  if (arguments.resurface && (arguments.repair || arguments.repair_if_needed))
+    refuse("--resurface and --repair exclude each other");
   if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
 }
 
@@ -150,6 +153,7 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
     refuse("--inner is for surfaces in space" + plane);
   if (dimension == 2 && (arguments.repair || arguments.repair_if_needed))
     refuse("--repair is for surfaces in space" + plane);
+  if (dimension == 2 && arguments.resurface) refuse("--resurface is for surfaces in space" + plane);
   if (dimension == 2 && arguments.surfaces_only)
     refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);

@@ -134,6 +134,13 @@ void take_repair(const std::vector<std::string>& text, Arguments& arguments) {
   arguments.repair = (*numbers)[0];
 }
 
+void take_resurfacing(const std::vector<std::string>& text, Arguments& arguments) {
+  const auto numbers = numbers_between_commas(text[0]);
+  if (!numbers || numbers->size() != 1 || !((*numbers)[0] > 0))
+    refuse("--resurface: expected a positive resolution, found '" + text[0] + "'");
+  arguments.resurface = (*numbers)[0];
+}
+
 void take_colour(const std::string& name, Arguments& arguments) {
   const std::vector<std::string> names = picture::element_colour_names();
   const auto colour = picture::element_colour_called(name);
@@ -341,10 +348,19 @@ void add_repair(CLI::App& app, Arguments& arguments) {
          [&arguments](const std::vector<std::string>& text) { take_repair(text, arguments); },
          "in space: the body that the triangles enclose, even if they are\n"
          "open, crossing or inconsistently oriented, to this resolution;\n"
-         "default: 1/64 of the longest side; auto: only if the body\n"
-         "is refused otherwise, or torn in the end: then to d")
+         "default: 1/64 of the longest side; a sound body stays as it is;\n"
+         "auto: only if the body is refused otherwise, or torn in the end:\n"
+         "then to d")
       ->expected(0, 1)
       ->type_name("[RESOLUTION|auto]")
+      ->group("What to fill");
+  app.add_option_function<std::vector<std::string>>(
+         "--resurface",
+         [&arguments](const std::vector<std::string>& text) { take_resurfacing(text, arguments); },
+         "in space: the same, even if the body is sound, to remove what is\n"
+         "finer than this resolution")
+      ->expected(1)
+      ->type_name("RESOLUTION")
       ->group("What to fill");
 }
 

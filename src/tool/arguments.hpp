@@ -59,8 +59,9 @@ struct Arguments {
   std::vector<Region> regions;
   std::optional<picture::ElementColour> colour;  // of elements in pictures
   std::optional<ViewWish> view;                  // of a sphere, in pictures
-  std::string cut;               // where pictures cut a body open; empty: through its middle
-  std::optional<double> repair;  // its resolution, 0 for the default
+  std::string cut;                  // where pictures cut a body open; empty: through its middle
+  std::optional<double> repair;     // its resolution, 0 for the default
+  std::optional<double> resurface;  // likewise
   bool repair_if_needed = false;
   bool surfaces_only = false;  // nothing inside them
   bool bubbles = false;

@@ -176,6 +176,7 @@ DomainSource::DomainSource(const Arguments& arguments)
       corner_angle_(arguments.corner_angle.value_or(0)),
       filled_(!arguments.surfaces_only),
       repair_(arguments.repair),
+      resurface_(arguments.resurface),
       repair_if_needed_(arguments.repair_if_needed),
       quiet_(arguments.quiet),
       inner_(arguments.inner),
@@ -214,7 +215,7 @@ bool DomainSource::may_be_repaired() const {
 }
 
 void DomainSource::repair(pnpbs_domain domain, double resolution, pnpbs_context context) const {
-  check(pnpbs_domain_set_repair(domain, resolution), context);
+  check(pnpbs_domain_set_resurfaced(domain, resolution), context);
   check(pnpbs_domain_check(domain), context);
 }
 
@@ -271,6 +272,7 @@ void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
   if (dimension_ == 2) return read_plane(domain, context);
   check(pnpbs_domain_set_filled(domain, filled_ ? 1 : 0), context);
   if (repair_) check(pnpbs_domain_set_repair(domain, *repair_), context);
+  if (resurface_) check(pnpbs_domain_set_resurfaced(domain, *resurface_), context);
   if (is_msh()) return read_msh(domain, context);
   if (level_set_) return level_set_->add_to(domain, context);
   if (primitive_) return add(*primitive_, domain, context);

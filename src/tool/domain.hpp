@@ -84,7 +84,7 @@ class DomainSource {
   double feature_angle_;
   double corner_angle_;  // in the plane
   bool filled_;
-  std::optional<double> repair_;  // its resolution
+  std::optional<double> repair_, resurface_;  // their resolutions
   bool repair_if_needed_, quiet_;
   std::vector<std::string> inner_;                           // groups
   std::vector<std::pair<std::int32_t, std::string>> names_;  // of tags

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -94,7 +95,21 @@ class BoxTree {
   // shrink on the way; nearer ones mostly come first.
   template <class Limit, class Visit>
   void for_near(const Point<Dim>& x, const Limit& limit, const Visit& visit) const {
-    if (!cells_.empty()) near_in_cell(0, squared_gap_to(cells_[0].box, x), x, limit, visit);
+    for_near(
+        x, limit, [](std::size_t) { return true; }, visit);
+  }
+  // The same without the boxes in cells, by their numbers, for which may_be_near(cell) is false.
+  template <class Limit, class MayBeNear, class Visit>
+  void for_near(const Point<Dim>& x, const Limit& limit, const MayBeNear& may_be_near,
+                const Visit& visit) const {
+    if (!cells_.empty())
+      near_in_cell(0, squared_gap_to(cells_[0].box, x), x, limit, may_be_near, visit);
+  }
+
+  std::size_t cell_count() const { return cells_.size(); }
+  // The boxes in a cell.
+  std::span<const std::int32_t> in_cell(std::size_t c) const {
+    return {order_.data() + cells_[c].begin, order_.data() + cells_[c].end};
   }
 
   // About this many boxes that hold all.
@@ -164,10 +179,10 @@ class BoxTree {
       if (enter(boxes_[index(order_[index(i)])])) visit(order_[index(i)]);
   }
 
-  template <class Limit, class Visit>
+  template <class Limit, class MayBeNear, class Visit>
   void near_in_cell(std::int32_t c, double square, const Point<Dim>& x, const Limit& limit,
-                    const Visit& visit) const {
-    if (square > limit()) return;
+                    const MayBeNear& may_be_near, const Visit& visit) const {
+    if (square > limit() || !may_be_near(index(c))) return;
     const Cell& cell = cells_[index(c)];
     if (cell.child < 0) {
       for (std::int32_t i = cell.begin; i < cell.end; ++i)
@@ -181,8 +196,8 @@ class BoxTree {
       std::swap(first, second);
       std::swap(to_first, to_second);
     }
-    near_in_cell(first, to_first, x, limit, visit);
-    near_in_cell(second, to_second, x, limit, visit);
+    near_in_cell(first, to_first, x, limit, may_be_near, visit);
+    near_in_cell(second, to_second, x, limit, may_be_near, visit);
   }
 
   std::vector<Box<Dim>> boxes_;

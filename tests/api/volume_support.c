@@ -141,7 +141,7 @@ job repaired_job(double depth, double waves, double d, double resolution) {
   MUST(pnpbs_context_create_serial(&it.context));
   MUST(pnpbs_domain_create(it.context, 3, &it.domain));
   MUST(volume_add_rough_globe(it.domain, depth, waves));
-  if (resolution > 0) MUST(pnpbs_domain_set_repair(it.domain, resolution));
+  if (resolution > 0) MUST(pnpbs_domain_set_resurfaced(it.domain, resolution));
   job_place(&it);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
   return it;

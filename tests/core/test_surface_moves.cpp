@@ -126,7 +126,7 @@ struct Pierced {
       for (std::size_t k = 0; k < 3; ++k) x[k] += length / whole * way[k];
       return pnpbs::AlongSurfaces::Place{x, 7};
     };
-    return {walk, rule()};
+    return {walk, rule(), {}};
   }
 
   // Slivers with a node on a side, by the present stars.
@@ -229,6 +229,51 @@ START_TEST(slivers_at_surfaces_are_mended) {
 }
 END_TEST
 
+// Where walks end beside the surface, nodes are put onto it, or do not move at all.
+START_TEST(nodes_are_settled_on_surfaces) {
+  for (const bool found : {true, false}) {
+    Pierced p(0.25, 0.25);
+    const auto nowhere = [](std::int64_t, const P&) { return false; };
+    const Places before = places_by_id(p.b.nodes);
+    pnpbs::AlongSurfaces ways = p.along_surfaces();
+    const auto on_surface = ways.walk;
+    ways.walk = [&](std::int64_t i, const P& direction, double length) {
+      pnpbs::AlongSurfaces::Place to = on_surface(i, direction, length);
+      const auto axis = static_cast<std::size_t>(p.lattice.axis.at(p.b.nodes.id(i)));
+      to.x[axis] += 0x1p-12;
+      return to;
+    };
+    std::size_t settled = 0;
+    ways.settle = [&](std::vector<pnpbs::AlongSurfaces::Place>& places) {
+      for (pnpbs::AlongSurfaces::Place& place : places) {
+        ++settled;
+        for (double& c : place.x)  // the places of surfaces are multiples of kUnit
+          if (std::fabs(c - 0x1p-12 - kUnit * std::round(c / kUnit)) < 1e-12) c -= 0x1p-12;
+        place.facet = found ? 9 : -1;
+      }
+    };
+    pnpbs::SliverRepair repair(p.b.nodes, p.stars, kSlivers, nowhere, ways);
+    std::int64_t moved = 0;
+    for (std::int64_t round = 50; round < 100; ++round) moved += one_round(repair, round);
+    ck_assert_uint_gt(settled, 10);
+    ck_assert_int_eq(moved > 10, found);
+    ck_assert_int_eq(moved == 0, !found);
+    for (std::int64_t i = 0; i < p.b.nodes.count; ++i) {
+      const P x = p.b.nodes.position(i), old = before.at(p.b.nodes.id(i));
+      if (x == old) continue;
+      const auto axis = static_cast<std::size_t>(p.lattice.axis.at(p.b.nodes.id(i)));
+      quick_assert(x[axis] == old[axis]);
+      ck_assert_int_eq(p.b.nodes.boundary_node(i), 9);
+    }
+    pnpbs::VolumeStars stars = p.stars;
+    repair.write_stars(stars);
+    const std::multiset<Ids> kept = in_stars(p.b.nodes, stars);
+    p.make_stars();
+    quick_assert(kept == in_stars(p.b.nodes, p.stars));
+  }
+}
+END_TEST
+
 // As long as others can mend it, nodes on surfaces stay; and always if nobody says how they go.
 START_TEST(free_nodes_come_first) {
   Pierced p(0.25, 0), alone(0.25, 0);
@@ -299,7 +344,8 @@ START_TEST(the_same_from_two_halves) {
 END_TEST
 
 TEST_SUITE(test_surface_moves) {
-  return run_kernel_suite("surface_moves",
-                          {stars_follow_nodes_on_surfaces, slivers_at_surfaces_are_mended,
-                           free_nodes_come_first, the_same_from_two_halves});
+  return run_kernel_suite(
+      "surface_moves",
+      {stars_follow_nodes_on_surfaces, slivers_at_surfaces_are_mended,
+       nodes_are_settled_on_surfaces, free_nodes_come_first, the_same_from_two_halves});
 }

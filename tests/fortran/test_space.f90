@@ -75,7 +75,9 @@ contains
                 'the area of surfaces alone')
     call domain%set_filled(.true.)
     call domain%set_repair(0.02d0)
-    call expect(abs(volume(domain) - 1d0 / 6) < 1d-3, 'a tetrahedron that is repaired')
+    call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'a sound tetrahedron is not repaired')
+    call domain%set_resurfaced(0.02d0)
+    call expect(abs(volume(domain) - 1d0 / 6) < 1d-3, 'a tetrahedron with a new surface')
     call domain%destroy
     call domain%create(context, 3)
     call domain%add_surface(PNPBS_BOUNDARY, vertices, faces, [1, 2, 3, 4], 30d0)

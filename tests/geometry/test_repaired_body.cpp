@@ -188,7 +188,7 @@ std::vector<Case> cases() {
 VolumeDomain repaired(const Soup& soup, double resolution) {
   VolumeDomain domain;
   soup.add_to(domain);
-  domain.set_repair(resolution);
+  domain.set_repair(resolution, true);  // those that are sound, too
   domain.check();
   return domain;
 }
@@ -341,6 +341,88 @@ START_TEST(crumbs_of_sheets_are_none) {
 }
 END_TEST
 
+VolumeDomain repaired_if_broken(const Soup& soup) {
+  VolumeDomain domain;
+  soup.add_to(domain);
+  domain.set_repair(0.1);
+  domain.check();
+  return domain;
+}
+
+bool is_repaired(const VolumeDomain& domain) {
+  const bool repaired = domain.repair_distances().resolution > 0;
+  std::int64_t told = 0, not_repaired = 0;
+  for (const pnpbs::Warning& warning : domain.warnings()) {
+    told += warning.code == pnpbs::WarningCode::repaired;
+    not_repaired += warning.message.text().find("not repaired: the body is sound") == 0;
+  }
+  ck_assert_int_eq(told, 1);
+  ck_assert_int_eq(not_repaired, repaired ? 0 : 1);
+  ck_assert_int_eq(domain.level_sets().sets.empty(), !repaired);
+  return repaired;
+}
+
+// Whatever the checks accept or mend themselves is as it would be without a repair.
+START_TEST(sound_bodies_stay) {
+  Soup whole = cube(4), turned = whole;
+  for (std::size_t t = 0; t < whole.tags.size(); ++t)
+    whole.tags[t] = turned.tags[t] = 1 + static_cast<std::int32_t>(t / 32);
+  for (std::int64_t t = 0; t < turned.triangles(); t += 3) turned.turn(t);
+  const Soup small = scaled(whole, 0.5).shifted(0.25, 0.25, 0.25);
+  for (const Soup& soup :
+       {whole, whole.torn(), whole.turned(), turned, both(whole, small.turned()),
+        both(whole, small.turned()).turned(), both(whole, whole.shifted(2, 0, 0).turned())}) {
+    const VolumeDomain domain = repaired_if_broken(soup);
+    ck_assert(!is_repaired(domain));
+    VolumeDomain ordinary;
+    soup.add_to(ordinary);
+    ordinary.check();
+    ck_assert(domain.volume() == ordinary.volume() && domain.area() == ordinary.area());
+    ck_assert_int_eq(domain.summary().patches, ordinary.summary().patches);
+    ck_assert(domain.mesh().facets.size() == ordinary.mesh().facets.size());
+    for (std::size_t f = 0; f < ordinary.mesh().facets.size(); ++f)
+      ck_assert_int_eq(domain.mesh().facets[f].tag, ordinary.mesh().facets[f].tag);
+  }
+}
+END_TEST
+
+START_TEST(bodies_that_are_not_sound_are_repaired) {
+  const Soup whole = cube(4), small = scaled(whole, 0.5).shifted(0.25, 0.25, 0.25);
+  for (const Soup& soup : {without(whole, 40, 1), both(whole, whole.shifted(0.55, 0.55, 0.55)),
+                           both(whole, small), both(whole, small).turned()})
+    ck_assert(is_repaired(repaired_if_broken(soup)));
+  ck_assert(is_repaired(repaired(whole, 0.1)));
+}
+END_TEST
+
+// Of surfaces alone what they would enclose counts.
+START_TEST(surfaces_alone_are_repaired_where_a_body_would_be) {
+  for (const bool open : {false, true}) {
+    VolumeDomain domain;
+    (open ? without(cube(4), 40, 1) : cube(4)).add_to(domain);
+    domain.set_filled(false);
+    domain.set_repair(0.1);
+    domain.check();
+    ck_assert_int_eq(is_repaired(domain), open);
+    ck_assert_double_eq_tol(domain.area(), 6, open ? 0.05 : 1e-12);
+  }
+}
+END_TEST
+
+// A domain that is made of a repaired body tells of the repair.
+START_TEST(repairs_of_other_bodies_are_taken) {
+  const VolumeDomain body = repaired_if_broken(without(cube(4), 40, 1));
+  VolumeDomain made;
+  made.add_box({0, 0, 0}, {1, 1, 1}, 1);
+  made.take_repair_of(body);
+  made.check();
+  ck_assert_double_eq(made.repair_distances().resolution, 0.1);
+  ck_assert(made.repair_distances().over_holes == body.repair_distances().over_holes);
+  ck_assert_int_eq(std::ssize(made.warnings()), 1);
+  ck_assert(made.warnings()[0].code == pnpbs::WarningCode::repaired);
+}
+END_TEST
+
 // What is not to be repaired stays as it is.
 START_TEST(other_surfaces_stay) {
   VolumeDomain domain;
@@ -373,6 +455,10 @@ TEST_SUITE(test_repaired_body) {
   tcase_add_test(tests, distances_are_those_of_large_triangles);
   tcase_add_test(tests, what_cannot_be_is_refused);
   tcase_add_test(tests, crumbs_of_sheets_are_none);
+  tcase_add_test(tests, sound_bodies_stay);
+  tcase_add_test(tests, bodies_that_are_not_sound_are_repaired);
+  tcase_add_test(tests, surfaces_alone_are_repaired_where_a_body_would_be);
+  tcase_add_test(tests, repairs_of_other_bodies_are_taken);
   tcase_add_test(tests, other_surfaces_stay);
   suite_add_tcase(suite, tests);
   return run_suite(suite);

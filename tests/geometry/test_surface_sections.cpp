@@ -123,6 +123,7 @@ START_TEST(tetgen_sections) {
                                      "1\n1 1.1 1.2 1.3\n1\n1 5 5 5 17 0.1\n");
   ck_assert(smesh.tags == (Tags{5, 1, -6, 7, 8, 8, 8, 8}));
   ck_assert(smesh.triangles[3] == (std::array{2, 0, 3}));
+  ck_assert(smesh.divides);
   ck_assert(smesh.holes == (std::vector<pnpbs::Point<3>>{{1.1, 1.2, 1.3}}));
   const SurfaceTriangles poly =
       read(SurfaceFormat::poly,
@@ -130,7 +131,7 @@ START_TEST(tetgen_sections) {
                "7 1\n1 0 5\n3 1 3 2\n1 0 0\n3 1 2 4\n1 0 -6\n3 2 3 4\n1 0 7\n3 3 1\n4\n"
                "2 0 8\n3 5 6 7\n3 5 8 6\n1 0 8\n3 6 8 7\n1 0 8\n3 7 8 5\n1\n1 1.1 1.2 1.3\n");
   expect_the_same(poly, smesh);
-  ck_assert(poly.holes == smesh.holes);
+  ck_assert(poly.holes == smesh.holes && poly.divides);
 }
 END_TEST
 

@@ -164,6 +164,88 @@ START_TEST(a_cavity_may_be_given_either_way_round) {
 }
 END_TEST
 
+// ---------------------------------------------------------------- TetGen's files
+// Cubes of sides 8, 2 and 1 within each other, with the tags 1, 2 and 3.
+pnpbs::SurfaceTriangles cubes_within_each_other() {
+  pnpbs::SurfaceTriangles all;
+  all.divides = true;
+  for (const double half : {4.0, 1.0, 0.5}) {
+    VolumeDomain box;
+    box.add_box({-half, -half, -half}, {half, half, half}, 1);
+    box.check();
+    const auto first = static_cast<std::int32_t>(all.vertices.size());
+    for (const auto& node : box.mesh().nodes) all.vertices.push_back(node.position);
+    for (const auto& facet : box.mesh().facets) {
+      const auto& [a, b, c] = facet.nodes;
+      all.triangles.push_back({first + a, first + b, first + c});
+      all.tags.push_back(1 + first / 8);
+    }
+  }
+  return all;
+}
+
+START_TEST(facets_that_divide_bound_regions) {
+  pnpbs::SurfaceTriangles cubes = cubes_within_each_other();
+  cubes.regions = {{{3, 3, 3}, "region a", 10}, {{0.75, 0, 0}, "region b", 20}};
+  VolumeDomain domain;
+  domain.add_surface(SurfaceRole::boundary, cubes);
+  domain.check();
+  ck_assert(domain.warnings().empty());
+  ck_assert_double_eq(domain.volume(), 512);
+  ck_assert_double_eq(domain.area(), 6 * 64);
+  ck_assert_uint_eq(inner_facets(domain), 24);
+  ck_assert_int_eq(domain.regions()->tag_at({-2, 0, 0}), 10);
+  ck_assert_int_eq(domain.regions()->tag_at({0, -0.75, 0.1}), 20);
+  ck_assert_int_eq(domain.regions()->tag_at({0.1, 0.2, 0.3}), 0);
+  domain.add_box({-8, -8, -8}, {8, 8, 8}, 4);  // then the file's body is a cavity of it
+  domain.check();
+  ck_assert_double_eq(domain.volume(), 4096 - 512);
+}
+END_TEST
+
+START_TEST(hole_points_make_cavities_of_facets_that_divide) {
+  pnpbs::SurfaceTriangles cubes = cubes_within_each_other();
+  cubes.holes = {{0.75, 0, 0}};
+  VolumeDomain domain;
+  domain.add_surface(SurfaceRole::boundary, cubes);
+  domain.check();
+  ck_assert(domain.warnings().empty());
+  ck_assert_double_eq(domain.volume(), 512 - 8 + 1);
+  ck_assert_double_eq(domain.area(), 6 * 64 + 6 * 4 + 6);
+  ck_assert_uint_eq(inner_facets(domain), 0);
+  // A role that is given to a tag holds: then the point is outside as it is.
+  domain.set_role(2, SurfaceRole::boundary);
+  domain.check();
+  ck_assert_double_eq(domain.volume(), 512 - 8);
+  ck_assert(warns(domain, "hole 0 of surface 0 at (0.75, 0, 0) lies outside the domain"));
+  cubes.holes = {{9, 0, 0}};
+  VolumeDomain whole;
+  whole.add_surface(SurfaceRole::boundary, cubes);
+  whole.check();
+  ck_assert_double_eq(whole.volume(), 512);
+  ck_assert(warns(whole, "left out: hole 0 of surface 0 at (9, 0, 0) lies outside the domain"));
+  whole.set_filled(false);
+  whole.check();
+  ck_assert_double_eq(whole.area(), 6 * 64 + 6 * 4 + 6);
+}
+END_TEST
+
+START_TEST(sheets_that_divide_are_inner) {
+  pnpbs::SurfaceTriangles box = cubes_within_each_other();
+  box.triangles.resize(12 + 2);  // the large cube, and a side of the next one
+  box.tags.resize(12 + 2);
+  VolumeDomain domain;
+  domain.add_surface(SurfaceRole::boundary, box);
+  domain.check();
+  ck_assert_double_eq(domain.volume(), 512);
+  ck_assert_uint_eq(inner_facets(domain), 2);
+  for (P& x : box.vertices) x[0] += 0.25 * (&x - box.vertices.data() >= 8 ? 40 : 0);
+  VolumeDomain outside;
+  outside.add_surface(SurfaceRole::boundary, box);
+  expect_domain_error(outside, {"the boundary is not closed"});
+}
+END_TEST
+
 // ---------------------------------------------------------------- holes, inner surfaces
 START_TEST(holes_take_out_what_lies_between_surfaces) {
   VolumeDomain domain;
@@ -457,7 +539,8 @@ TEST_SUITE(test_volume_shapes) {
       {a_box_has_its_volume_area_tags_and_bounds, a_ball_is_within_a_ten_thousandth_of_its_radius,
        cylinders_along_any_axis_have_their_volume, volumes_of_whole_number_surfaces_are_exact,
        every_second_surface_from_outside_bounds_a_cavity, a_cavity_may_be_given_either_way_round,
-       holes_take_out_what_lies_between_surfaces,
+       facets_that_divide_bound_regions, hole_points_make_cavities_of_facets_that_divide,
+       sheets_that_divide_are_inner, holes_take_out_what_lies_between_surfaces,
        an_inner_sheet_divides_a_body_where_it_is_joined_to_it,
        open_inner_surfaces_divide_nothing_and_are_left_out_outside,
        polylines_become_segments_of_the_mesh, polylines_that_meet_surfaces_or_each_other_are_told,

@@ -167,6 +167,23 @@ class Files(CommandTest):
         self.assertEqual(set(json.loads((self.folder / "b.json").read_text())["repaired"].values()),
                          {0})
         self.place_body("open.off", "0.1", "--repair", "--dry-run")
+        # A sound body stays as it is, with its tags, and can be made anew all the same.
+        (self.folder / "cube.poly").write_text(CUBE)
+        for option, resolution, tags in (("--repair", 0, set(range(7, 13))),
+                                         ("--resurface", 0.1, {7})):
+            _, err = self.place_body("cube.poly", "0.3", option, "0.1", "-o", "b.vtu",
+                                     "--report", "b.json")
+            self.assertEqual("not repaired: the body is sound" in err, resolution == 0)
+            report = json.loads((self.folder / "b.json").read_text())
+            self.assertEqual(report["repaired"]["resolution"], resolution)
+            self.assertEqual(report[option[2:]], 0.1)
+            grid = read_with_vtk(self.folder / "b.vtu")
+            points, found = points_of(grid), point_array(grid, "tag")
+            sides = (abs(points - 0.5) < 0.4).sum(axis=1) == 2
+            self.assertEqual(set(found[sides]), tags)
+        self.assertIn("exclude each other",
+                      self.refuse("--domain", "cube.poly", "--spacing", "0.3", "--repair",
+                                  "--resurface", "0.1", "-o", "a.vtu"))
         self.assertIn("found '0'", self.refuse("--domain", "open.off", "--spacing", "0.1",
                                                "--repair=0", "--dry-run"))
 

@@ -78,6 +78,15 @@ class CentredNodes(CommandTest):
         numpy.testing.assert_allclose(table["spacing"], 1.076 * d, rtol=0.01)
         self.assertAlmostEqual(sum(d ** 2), SQUARE_AREA, delta=0.03 * SQUARE_AREA)
 
+    def test_repairs_are_reported(self):
+        rows = (DATA / "kleopatra.obj").read_text().splitlines()
+        (self.folder / "open.obj").write_text("\n".join(rows[:-40]) + "\n")
+        _, report, _ = self.place_at_centres("--repair", "8", domain="open.obj", spacing="16")
+        self.assertEqual(report["repaired"]["resolution"], 8)
+        self.assertGreater(report["repaired"]["hole_distance"], 0)
+        self.assertEqual(sum("repaired, with a resolution of 8" in text
+                             for text in report["warnings"]), 1)
+
     def test_what_does_not_go_with_it(self):
         def refused(words, *arguments, code=BAD_INPUT):
             _, err = self.run_command(*arguments, "--nodes-at", "centers", "-o", "a.csv", code=code)

@@ -165,8 +165,13 @@ class FilesOfTetGen(RegionTest):
         self.check_sizes({7: 1.0, 4: 1.0})
         self.fill(path, "--inner", "2", "--surfaces-only", spacing="0.3")
         self.assertNotIn("region", meshio.read(self.folder / "a.vtu").cell_data)
-        # A repaired body has no wall between them.
-        self.place_body(path, "0.3", "--repair", "0.1", "-o", "a.vtu", "--report", "a.json")
+        # Facets divide a body without being named as inner ones, and a body that is sound with them
+        # is not repaired. Made anew it has no wall between them.
+        self.fill(path, spacing="0.3")
+        self.check_sizes({7: 1.0, 4: 1.0})
+        self.fill(path, "--repair", "0.1", spacing="0.3", warning="not repaired: the body is sound")
+        self.check_sizes({7: 1.0, 4: 1.0})
+        self.place_body(path, "0.3", "--resurface", "0.1", "-o", "a.vtu", "--report", "a.json")
         self.assertEqual(set(meshio.read(self.folder / "a.vtu").cell_data["region"][0]), {7})
         warnings = " ".join(json.loads((self.folder / "a.json").read_text())["warnings"])
         self.assertIn("region 2 at (0.5, 0.5, 1.5) has the tag 4, but lies in the same", warnings)
@@ -175,6 +180,38 @@ class FilesOfTetGen(RegionTest):
         path = self.write("m.poly", CUBES + "2\n1 0.5 0.5 0.5 0.1\n2 0.5 0.5 1.5 4\n")
         self.fill(path, "--inner", "2", spacing="0.3", warning="are skipped: '0.1' of region 1")
         self.check_sizes({0: 1.0, 4: 1.0})
+
+
+    def cube_in_cube(self, rest):
+        """A cube of side 3 with one of side 1 in its middle, 10 and 20 their markers."""
+        corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        sides = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+        rows = ["16 3 0 0"]
+        for k, corner in enumerate([[3 * c for c in corner] for corner in corners] +
+                                   [[1 + c for c in corner] for corner in corners]):
+            rows.append(f"{k} {corner[0]} {corner[1]} {corner[2]}")
+        rows.append("12 1")
+        for first, marker in ((0, 10), (8, 20)):
+            rows += [f"4 {' '.join(str(first + k) for k in side)} {marker}" for side in sides]
+        return self.write("cubes.smesh", "\n".join(rows) + "\n" + rest)
+
+    def check_follows_inner_cube(self):
+        x = meshio.read(self.folder / "a.vtu").points
+        self.assertGreater(numpy.count_nonzero(abs(abs(x - 1.5).max(axis=1) - 0.5) < 1e-12), 20)
+
+    def test_closed_facets_divide(self):
+        self.fill(self.cube_in_cube("0\n2\n0 0.5 0.5 0.5 10\n1 1.5 1.5 1.5 20\n"), spacing="0.5")
+        self.check_sizes({10: 26.0, 20: 1.0})
+        self.check_follows_inner_cube()
+        self.fill(self.cube_in_cube("0\n0\n"), spacing="0.5")
+        mesh = meshio.read(self.folder / "a.vtu")
+        self.assertAlmostEqual(sizes(mesh.points, mesh.cells[0].data).sum(), 27, delta=1e-9)
+        self.check_follows_inner_cube()
+
+    def test_hole_points_make_cavities(self):
+        self.fill(self.cube_in_cube("1\n0 1.5 1.5 1.5\n1\n0 0.5 0.5 0.5 10\n"), spacing="0.5")
+        self.check_sizes({10: 26.0})
+        self.check_follows_inner_cube()
 
 
 class FilesOfGmsh(RegionTest):

@@ -289,7 +289,8 @@ class Domain(Handle):
 
     def set_repair(self, resolution: float = 0.0) -> Domain:
         """Repairs the triangulated boundary surfaces of a domain in space that enclose one body
-        imperfectly: open, crossing, folded or inconsistently oriented. The body is where they wind
+        imperfectly: open, crossing, folded or inconsistently oriented. Sound surfaces are
+        unchanged, and a warning reports that nothing is repaired. The body is where they wind
         around a point more than half a time, in either orientation. Holes are closed, overlapping
         bodies are joined, and surfaces that enclose nothing are dropped. The surface of the body is
         extracted as that of a level set, with its sharp edges; all of it has the tag of the first
@@ -297,6 +298,11 @@ class Domain(Handle):
         resolution can be lost: it should be no more than the spacing at the surface; 0 is 1/64 of
         the longest side of the bounding box of the triangles."""
         return self._call("set_repair", float(resolution))
+
+    def set_resurfaced(self, resolution: float = 0.0) -> Domain:
+        """Replaces the triangulated boundary surfaces of a domain in space as set_repair() does,
+        even if they need no repair: this removes what is finer than the resolution from a body."""
+        return self._call("set_resurfaced", float(resolution))
 
     # ------------------------------------------------------------ files and tags ---------------
 

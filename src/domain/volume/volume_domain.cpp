@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <functional>
 #include <limits>
 #include <span>
@@ -45,46 +46,66 @@ double largest_distance(const std::vector<Point<3>>& from, const To& to) {
   return largest;
 }
 
-// In the middle of each triangle of the set and of each of its sides.
-std::vector<Point<3>> middles_of_triangles(const ResolvedVolume& volume, const LevelSet& set) {
+struct Middles {
+  std::vector<Point<3>> points, normals;  // unit
+};
+
+// In the middle of each triangle of the set and of each of its sides, where the normal is that of
+// one of the two triangles.
+Middles middles_of_triangles(const ResolvedVolume& volume, const LevelSet& set) {
+  struct Side {
+    std::array<std::int32_t, 2> ends;
+    std::int32_t facet;
+    auto operator<=>(const Side&) const = default;
+  };
   const BoundaryMesh<3>& mesh = volume.mesh;
-  std::vector<std::array<std::int32_t, 2>> sides;
-  std::vector<Point<3>> points;
+  const auto normal_of = [&](std::int32_t f) {
+    return unit_vector(area_normal(corners_of(mesh, mesh.facets[static_cast<std::size_t>(f)])));
+  };
+  std::vector<Side> sides;
+  Middles middles;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     if (volume.level_sets.at(static_cast<std::int32_t>(f)) != &set) continue;
-    points.push_back(centroid(corners_of(mesh, mesh.facets[f])));
+    middles.points.push_back(centroid(corners_of(mesh, mesh.facets[f])));
+    middles.normals.push_back(normal_of(static_cast<std::int32_t>(f)));
     const std::array<std::int32_t, 3>& nodes = mesh.facets[f].nodes;
     for (std::size_t k = 0; k < 3; ++k)
       sides.push_back(
-          {std::min(nodes[k], nodes[(k + 1) % 3]), std::max(nodes[k], nodes[(k + 1) % 3])});
+          {{std::min(nodes[k], nodes[(k + 1) % 3]), std::max(nodes[k], nodes[(k + 1) % 3])},
+           static_cast<std::int32_t>(f)});
   }
   std::ranges::sort(sides);
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end(),
+                          [](const Side& a, const Side& b) { return a.ends == b.ends; }),
+              sides.end());
   const auto at = [&](std::int32_t node) {
     return mesh.nodes[static_cast<std::size_t>(node)].position;
   };
-  for (const auto& [a, b] : sides) points.push_back(halfway(at(a), at(b)));
-  return points;
+  for (const Side& side : sides) {
+    middles.points.push_back(halfway(at(side.ends[0]), at(side.ends[1])));
+    middles.normals.push_back(normal_of(side.facet));
+  }
+  return middles;
 }
 
-// As the slope of f there tells it, which is not so where the slope jumps.
-std::vector<double> likely_distances(const LevelSet& set, std::span<const Point<3>> points) {
+// As the slope of f along the triangles' normals tells it, which is not so where the slope jumps.
+std::vector<double> likely_distances(const LevelSet& set, const Middles& middles) {
   std::vector<double> distances;
+  const std::span<const Point<3>> points = middles.points, normals = middles.normals;
   for (std::size_t begin = 0; begin < points.size(); begin += kPointsAtOnce) {
     const std::size_t n = std::min(kPointsAtOnce, points.size() - begin);
-    for (const LevelSetSlope& slope : set.slopes(points.subspan(begin, n))) {
-      const double way = std::fabs(slope.f) / length(slope.gradient);
+    for (const double way : set.ways_along(points.subspan(begin, n), normals.subspan(begin, n)))
       distances.push_back(way <= set.resolution() ? way
                                                   : set.resolution());  // where it is NaN, too
-    }
   }
   return distances;
 }
 
 double distance_to_triangles(const ResolvedVolume& volume, const LevelSet& set) {
-  const std::vector<Point<3>> points = middles_of_triangles(volume, set);
+  const Middles middles = middles_of_triangles(volume, set);
+  const std::vector<Point<3>>& points = middles.points;
   if (points.empty()) return 0;
-  const std::vector<double> likely = likely_distances(set, points);
+  const std::vector<double> likely = likely_distances(set, middles);
   const double farthest = *std::ranges::max_element(likely);
   std::vector<Point<3>> far;
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -212,9 +233,12 @@ void VolumeDomain::add_surface(SurfaceRole role, const SurfaceTriangles& surface
   std::vector<std::int64_t> corners;
   for (const std::array<std::int32_t, 3>& triangle : surface.triangles)
     corners.insert(corners.end(), triangle.begin(), triangle.end());
+  if (surface.divides && role == SurfaceRole::boundary) role = SurfaceRole::dividing;
   add_surface(role, std::ssize(surface.vertices), surface.vertices.data()->data(),
               std::ssize(surface.triangles), corners.data(), surface.tags.data(), feature_angle);
-  for (const Point<3>& hole : surface.holes) add_hole(hole);
+  for (std::size_t k = 0; k < surface.holes.size(); ++k)
+    add_hole_of_file(surface.holes[k],
+                     "hole " + std::to_string(k) + " of " + surfaces_.back().name);
   for (const SurfaceRegion& region : surface.regions)
     add_region_of_file(region.point, region.tag, region.name);
   for (const Warning& warning : surface.warnings) add_warning(warning);
@@ -274,10 +298,19 @@ void VolumeDomain::add_level_set(std::shared_ptr<const LevelSet> set, std::int32
   add_source(std::move(source), "level set", level_sets_given_);
 }
 
-void VolumeDomain::set_repair(double resolution) {
+void VolumeDomain::set_repair(double resolution, bool sound_too) {
   if (!(resolution >= 0 && std::isfinite(resolution)))
     reject("resolution is " + number_text(resolution) + ", expected a positive number, or 0");
   repair_ = resolution;
+  repair_sound_ = sound_too;
+  checked_ = false;
+}
+
+void VolumeDomain::take_repair_of(const VolumeDomain& body) {
+  taken_distances_ = body.repair_distances();
+  taken_warnings_.clear();
+  for (const Warning& warning : body.warnings())
+    if (warning.code == WarningCode::repaired) taken_warnings_.push_back(warning);
   checked_ = false;
 }
 
@@ -343,25 +376,61 @@ void VolumeDomain::set_filled(bool filled) {
   filled_ = filled;
 }
 
-void VolumeDomain::check() {
-  if (checked_) return;
-  static const std::map<std::int32_t, SurfaceRole> no_roles;  // they have them
-  std::vector<Warning> warnings = given_warnings_;
-  RepairDistances distances;
-  const std::vector<SurfaceSource> surfaces =
-      repair_ ? repaired_surfaces(warnings, distances) : surfaces_;
+std::unique_ptr<ResolvedVolume> VolumeDomain::resolve() const {
+  return resolve_volume({surfaces_, roles_, polylines_, region_points_, given_nodes_, filled_});
+}
+
+// Returns null if the surfaces are to be repaired. Surfaces alone are sound if they would bound a
+// body that is.
+std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_if_sound() const {
+  if (repair_sound_) return nullptr;
   std::unique_ptr<ResolvedVolume> resolved;
   try {
-    resolved = resolve_volume(
-        {surfaces, repair_ ? no_roles : roles_, polylines_, region_points_, given_nodes_, filled_});
-  } catch (const BrokenSurface& error) {
-    if (repair_ || !filled_) throw;
-    reject_domain(error.message() +
-                  "; pnpbs_domain_set_repair (in the command --repair) takes what such triangles "
-                  "enclose");
+    resolved = filled_ ? resolve() : resolve_volume({surfaces_, roles_, {}, {}, {}, true});
+  } catch (const BrokenSurface&) {
+    return nullptr;
   }
+  if (!resolved->wound_once) return nullptr;
+  if (!filled_) resolved = resolve();
+  resolved->warnings.emplace_back(
+      WarningCode::repaired,
+      "not repaired: the body is sound as it is given; pnpbs_domain_set_resurfaced (in the command "
+      "--resurface) replaces its surface all the same",
+      0);
+  return resolved;
+}
+
+std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_repaired() const {
+  static const std::map<std::int32_t, SurfaceRole> no_roles;  // they have them
+  std::vector<Warning> warnings;
+  RepairDistances distances;
+  const std::vector<SurfaceSource> surfaces = repaired_surfaces(warnings, distances);
+  std::unique_ptr<ResolvedVolume> resolved =
+      resolve_volume({surfaces, no_roles, polylines_, region_points_, given_nodes_, filled_});
   resolved->warnings.insert(resolved->warnings.begin(), warnings.begin(), warnings.end());
   resolved->repair = distances;
+  return resolved;
+}
+
+void VolumeDomain::check() {
+  if (checked_) return;
+  std::unique_ptr<ResolvedVolume> resolved;
+  if (repair_) {
+    resolved = resolve_if_sound();
+    if (!resolved) resolved = resolve_repaired();
+  } else {
+    try {
+      resolved = resolve();
+    } catch (const BrokenSurface& error) {
+      if (!filled_) throw;
+      reject_domain(error.message() +
+                    "; pnpbs_domain_set_repair (in the command --repair) takes what such triangles "
+                    "enclose");
+    }
+  }
+  if (resolved->repair.resolution == 0) resolved->repair = taken_distances_;
+  for (const std::vector<Warning>* more : {&taken_warnings_, &given_warnings_})
+    resolved->warnings.insert(resolved->warnings.begin(), more->begin(), more->end());
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
   resolved->mesh.node_distance = largest_node_distance(*resolved);
   resolved_ = std::move(resolved);

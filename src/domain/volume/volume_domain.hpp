@@ -71,6 +71,10 @@ struct ResolvedVolume {
   std::vector<FixedNode<3>> fixed_nodes;
   std::vector<Warning> warnings;
   RepairDistances repair;
+  // True if the boundary triangles, as turned when given, wind around the inside once and around
+  // the outside not at all, but for a sign: a body within another one makes it false, a cavity that
+  // is turned against its surroundings does not.
+  bool wound_once = true;
   VolumeSummary summary;
   std::unique_ptr<const RegionIndex<3>> regions;  // null if none has a tag
 };
@@ -96,9 +100,13 @@ class VolumeDomain : public DomainBase<3> {
   // The body where f < 0. It is asked now, and again where nodes are to lie on its surface.
   void add_level_set(LevelSetFunction f, const Box<3>& box, double resolution, std::int32_t tag);
   void add_level_set(std::shared_ptr<const LevelSet> set, std::int32_t tag);
-  // The surfaces given by triangles that bound the domain are taken for what encloses one body
-  // badly; resolution: 0 for the default (implicit/repaired_body.hpp).
-  void set_repair(double resolution);
+  // Surfaces given by triangles that bound the domain, and that are refused as they are or not
+  // wound once around it, are replaced by the surface of the body that they enclose badly;
+  // resolution: 0 for the default (implicit/repaired_body.hpp). With `sound_too` sound ones are
+  // replaced as well.
+  void set_repair(double resolution, bool sound_too = false);
+  // Reports the repair of a body that this domain is made of as its own.
+  void take_repair_of(const VolumeDomain& body);
   // A curve inside, with a tag for each segment.
   void add_polyline(bool closed, std::int64_t n, const double* xyz, const std::int32_t* tags);
   // Not filled, the domain is its surfaces alone, closed or open, of either role.
@@ -141,6 +149,9 @@ class VolumeDomain : public DomainBase<3> {
   double measure() const { return filled_ ? volume() : area(); }
 
  private:
+  std::unique_ptr<ResolvedVolume> resolve() const;
+  std::unique_ptr<ResolvedVolume> resolve_if_sound() const;
+  std::unique_ptr<ResolvedVolume> resolve_repaired() const;
   std::vector<SurfaceSource> repaired_surfaces(std::vector<Warning>& warnings,
                                                RepairDistances& distances) const;
   void add_source(SurfaceSource source, const char* kind, std::int64_t& given);
@@ -152,6 +163,10 @@ class VolumeDomain : public DomainBase<3> {
                level_sets_given_ = 0;
   bool filled_ = true;
   std::optional<double> repair_;  // its resolution
+  bool repair_sound_ = false;
+  // Those of another domain: see take_repair_of.
+  RepairDistances taken_distances_;
+  std::vector<Warning> taken_warnings_;
   // Shared by copies, and by all that points into it.
   std::shared_ptr<const ResolvedVolume> resolved_ = std::make_shared<ResolvedVolume>();
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -163,7 +165,10 @@ class Resolver {
     remove_thin_triangles(surface_, kSameVertex * size_, result_.warnings);
     remove_duplicate_triangles(surface_, result_.warnings);
     require_triangles_of_all();
-    if (filled_) find_roles_by_place(surface_);
+    if (filled_) {
+      find_roles_of_dividing(surface_);
+      find_roles_by_place(surface_);
+    }
     require_boundary();
     SurfaceEdges edges(surface_);
     require_closed_boundary(surface_, edges);
@@ -175,6 +180,7 @@ class Resolver {
     check_segments(segments_, surface_, tree_, kSamePlace * size_);
     regions_.emplace(surface_, edges, tree_);
     inside_ = inside_by_parity(surface_, *regions_);
+    result_.wound_once = is_wound_once();
     turn_outwards();
     heed_region_points();
     make_mesh();
@@ -268,12 +274,38 @@ class Resolver {
     for (const SurfaceTriangle& triangle : surface_.triangles) has_any[triangle.source] = 1;
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
       if (!has_any[s])
-        reject_domain("all triangles of " + surfaces_[s].name + " are smaller than " +
-                      rounded_text(kSameVertex * size_) +
-                      ", which is negligible in a domain of size " + number_text(size_));
+        throw BrokenSurface("all triangles of " + surfaces_[s].name + " are smaller than " +
+                            rounded_text(kSameVertex * size_) +
+                            ", which is negligible in a domain of size " + number_text(size_));
   }
 
   // ------------------------------------------------------------ the inside
+  // How many times the boundary triangles wind around each region follows from one region to the
+  // next: around what is behind a triangle once more than around what is in front of it.
+  bool is_wound_once() const {
+    constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
+    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> beside(inside_.size());
+    for (std::int32_t t = 0; t < triangle_count(); ++t) {
+      const std::int32_t front = regions_->front(t), back = regions_->back(t);
+      const std::int32_t step = surface_.triangles[t].inner ? 0 : 1;
+      if (front == back) continue;
+      beside[front].emplace_back(back, step);
+      beside[back].emplace_back(front, -step);
+    }
+    std::vector<std::int32_t> winding(inside_.size(), kUnknown), reached{0};
+    winding[0] = 0;
+    for (std::size_t next = 0; next < reached.size(); ++next)
+      for (const auto& [region, step] : beside[reached[next]])
+        if (winding[region] == kUnknown) {
+          winding[region] = winding[reached[next]] + step;
+          reached.push_back(region);
+        }
+    for (std::size_t region = 0; region < inside_.size(); ++region)
+      if (winding[region] != kUnknown && std::abs(winding[region]) != (inside_[region] ? 1 : 0))
+        return false;
+    return true;
+  }
+
   // With the domain behind them. A cavity may be given either way, a body that is inside out is
   // told of.
   void turn_outwards() {

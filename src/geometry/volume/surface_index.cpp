@@ -35,6 +35,32 @@ SurfaceIndex::SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds)
     boxes.push_back(joined(joined(Box<3>{a, a}, {b, b}), {c, c}));
   }
   boxes_ = BoxTree<3>(std::move(boxes));
+  for (std::size_t c = 0; c < boxes_.cell_count(); ++c)
+    slabs_.push_back(slab_around(boxes_.in_cell(c)));
+}
+
+double SurfaceIndex::Slab::gap_to(const Point<3>& x) const {
+  const double height = dot(normal, x);
+  return std::max(height - high, low - height);
+}
+
+// Across the mean normal. The facets of large cells have too many normals for that.
+SurfaceIndex::Slab SurfaceIndex::slab_around(std::span<const std::int32_t> facets) const {
+  constexpr std::size_t kMostFacets = 256;
+  Slab slab;
+  if (facets.size() > kMostFacets) return slab;
+  Point<3> sum{};
+  for (const std::int32_t f : facets) sum = shifted(sum, 1, area_normal(sides_.corners(f)));
+  const double size = length(sum);
+  if (!(size > 0)) return slab;
+  slab.normal = shifted({}, 1 / size, sum);
+  slab.low = slab.high = dot(slab.normal, sides_.corners(facets[0])[0]);
+  for (const std::int32_t f : facets)
+    for (const Point<3>& corner : sides_.corners(f)) {
+      slab.low = std::min(slab.low, dot(slab.normal, corner));
+      slab.high = std::max(slab.high, dot(slab.normal, corner));
+    }
+  return slab;
 }
 
 NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
@@ -43,6 +69,9 @@ NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
   NearestPoint<3> best{reach};
   boxes_.for_near(
       x, [&] { return kRounding * best.gap * best.gap; },
+      [&](std::size_t cell) {
+        return !(slabs_[cell].gap_to(x) > kSurely * best.gap + sides_.room());
+      },
       [&](std::int32_t f) {
         if (plane_is_beyond(sides_.corners(f), x, kSurely * best.gap + sides_.room())) return;
         const Point<3> q = nearest_on(sides_.corners(f), x);

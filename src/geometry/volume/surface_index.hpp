@@ -4,6 +4,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "geometry/facet_index.hpp"
 #include "tree/box_tree.hpp"
@@ -34,8 +36,19 @@ class SurfaceIndex {
   Hit first_hit(const Point<3>& x, const Point<3>& way, std::int32_t from) const;
 
  private:
-  FacetIndex<3> sides_;  // cells that hold few facets each, whatever d is
-  BoxTree<3> boxes_;     // of the facets
+  // Two planes between which the facets in a cell of boxes lie. Across a curved surface the slab
+  // between them is far thinner than the box, which stands out by as much as the cell is wide.
+  struct Slab {
+    Point<3> normal{};  // unit, or 0 where the cell has none
+    double low = 0, high = 0;
+
+    double gap_to(const Point<3>& x) const;
+  };
+  Slab slab_around(std::span<const std::int32_t> facets) const;
+
+  FacetIndex<3> sides_;      // cells that hold few facets each, whatever d is
+  BoxTree<3> boxes_;         // of the facets
+  std::vector<Slab> slabs_;  // of the cells of boxes
 };
 
 }  // namespace pnpbs

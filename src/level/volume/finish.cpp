@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/finish.hpp"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "base/space_vectors.hpp"
 #include "delaunay/volume/domain_rule.hpp"
+#include "domain/volume/surface.hpp"
+#include "geometry/volume/triangles.hpp"
+#include "implicit/level_set.hpp"
 #include "level/exchange.hpp"
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
@@ -46,6 +51,31 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   }
 }
 
+// Puts places near level sets where these are 0; those for which there is no such point within the
+// distance that nodes have from triangles get the facet -1.
+void settle_on_level_sets(const Ground<3>& ground, std::vector<AlongSurfaces::Place>& places) {
+  const LevelSetTriangles& triangles = ground.domain().level_sets();
+  const double reach = ground.boundary().node_distance;
+  for (const std::shared_ptr<const LevelSet>& set : triangles.sets) {
+    if (!set) continue;
+    std::vector<std::size_t> on_set;
+    std::vector<Point<3>> x;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (places[k].facet >= 0 && triangles.at(places[k].facet) == set.get()) {
+        on_set.push_back(k);
+        x.push_back(places[k].x);
+      }
+    const std::vector<char> found = set->project(x, reach);
+    for (std::size_t k = 0; k < on_set.size(); ++k) {
+      AlongSurfaces::Place& place = places[on_set[k]];
+      const FacetCorners<3> facet = ground.surface().corners(place.facet);
+      const bool near = distance<3>(nearest_on(facet, x[k]), x[k]) <= reach;
+      place.x = x[k];
+      if (!found[k] || !near) place.facet = -1;
+    }
+  }
+}
+
 // Those with an angle below so many degrees, until none is left, or too much is done in vain: in a
 // wall thinner than d, nearly all tetrahedra are thin, whatever is done. Ghosts follow.
 void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule, double below) {
@@ -73,6 +103,36 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   }
 }
 
+// Nodes on inner surfaces stay: no tetrahedron that goes would tell of the triangles there. So do
+// those on thin walls, opposite their partners. Those on a level set keep their distance from its
+// triangles on the way.
+AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input,
+                                  const std::vector<char>& on_thin_wall) {
+  const auto walk = [&level, &on_thin_wall](std::int64_t i, const Point<3>& direction,
+                                            double length) {
+    const Ground<3>& ground = level.ground;
+    const AlongSurfaces::Place from{level.nodes.position(i), level.nodes.boundary_node(i)};
+    if (!ground.bounds_domain(from.facet) || on_thin_wall[static_cast<std::size_t>(i)] != 0)
+      return from;
+    const SurfacePoint to = go_along_surface(level, i, direction, length);
+    if (!ground.domain().level_sets().at(to.facet))
+      return AlongSurfaces::Place{to.position, to.facet};
+    const Surface& surface = ground.surface();
+    const double off =
+        dot(surface.normal(from.facet), difference(from.x, surface.corners(from.facet)[0]));
+    return AlongSurfaces::Place{shifted(to.position, off, surface.normal(to.facet)), to.facet};
+  };
+  const auto rule = [&input](const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners) {
+    return in_domain(input, nodes, corners);
+  };
+  AlongSurfaces ways{walk, rule, {}};
+  if (!level.ground.domain().level_sets().sets.empty())
+    ways.settle = [&level](std::vector<AlongSurfaces::Place>& places) {
+      settle_on_level_sets(level.ground, places);
+    };
+  return ways;
+}
+
 // The worst first: else they would rarely have their turn where nearly all have small angles. With
 // the stars of the owned nodes as they are then.
 void repair_slivers(Level<3>& level) {
@@ -82,26 +142,8 @@ void repair_slivers(Level<3>& level) {
   const SliverRule rule{level.settings.sliver_angle};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
-  // Those on a level set are where it is 0, and stay; so do those on inner surfaces, whose
-  // triangles no tetrahedron that goes would tell of, and those opposite their partners.
-  std::vector<char> on_thin_wall;
-  agreed(*level.comm, [&] { on_thin_wall = nodes_on_thin_walls(level); });
-  const auto stays = [&](std::int64_t i) {
-    const std::int32_t facet = level.nodes.boundary_node(i);
-    return on_thin_wall[static_cast<std::size_t>(i)] != 0 ||
-           level.ground.domain().level_sets().at(facet) != nullptr ||
-           !level.ground.bounds_domain(facet);
-  };
-  const AlongSurfaces along_surfaces{
-      [&](std::int64_t i, const Point<3>& direction, double length) {
-        if (stays(i))
-          return AlongSurfaces::Place{level.nodes.position(i), level.nodes.boundary_node(i)};
-        const SurfacePoint to = go_along_surface(level, i, direction, length);
-        return AlongSurfaces::Place{to.position, to.facet};
-      },
-      [&](const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners) {
-        return in_domain(input, nodes, corners);
-      }};
+  const std::vector<char> on_thin_wall = nodes_on_thin_walls(level);
+  const AlongSurfaces along_surfaces = ways_along_surfaces(level, input, on_thin_wall);
   std::optional<SliverRepair> repair;
   agreed(*level.comm,
          [&] { repair.emplace(level.nodes, level.stars, rule, may_go(level), along_surfaces); });

@@ -150,10 +150,13 @@ Replacement replacement_on(const Level<3>& level) {
 }  // namespace
 
 std::vector<char> nodes_on_thin_walls(const Level<3>& level) {
-  const ThinWalls walls(level);
-  std::vector<char> on_thin_wall(static_cast<std::size_t>(level.nodes.count));
-  for_each("pnpbs::nodes_on_thin_walls", level.nodes.count, [&](std::int64_t i) {
-    on_thin_wall[static_cast<std::size_t>(i)] = walls.is_on_thin_wall(i);
+  std::vector<char> on_thin_wall;
+  agreed(*level.comm, [&] {
+    const ThinWalls walls(level);
+    on_thin_wall.resize(static_cast<std::size_t>(level.nodes.count));
+    for_each("pnpbs::nodes_on_thin_walls", level.nodes.count, [&](std::int64_t i) {
+      on_thin_wall[static_cast<std::size_t>(i)] = walls.is_on_thin_wall(i);
+    });
   });
   return on_thin_wall;
 }

@@ -22,7 +22,7 @@ namespace pnpbs {
 PopulationCounts place_opposite_nodes(Level<3>& level);
 
 // By memory index, ghosts too: is this a node on a surface with another sheet that near? Such a
-// node stays where it is, opposite its partner. Local.
+// node stays where it is, opposite its partner. Collective.
 std::vector<char> nodes_on_thin_walls(const Level<3>& level);
 
 // Does a tetrahedron with its centroid here connect the two sides of such a wall? d is the spacing

@@ -331,13 +331,44 @@ void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
     const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
     const AlongSurfaces::Place to =
         along_surfaces_.walk(i, direction_to_try(attempt, trial, bits), way_to_try(attempt, bits));
-    if (to.x == nodes_.position(i) || too_far(i, to.x) || crowded(i, to.x)) continue;
-    move.go_to(to.x, to.facet);
-    if (!within_reach(i, move.change().made) || !may_help(move.change())) continue;
-    if (!move.complete() || !helps(move.change())) continue;
-    attempt.success.push_back(move.change());
-    return;
+    if (try_place(move, to, attempt)) return;
   }
+}
+
+bool SliverRepair::try_place(SurfaceNodeMove& move, const AlongSurfaces::Place& to,
+                             Attempt& attempt) const {
+  const std::int32_t i = attempt.node;
+  if (to.x == nodes_.position(i) || too_far(i, to.x) || crowded(i, to.x)) return false;
+  move.go_to(to.x, to.facet);
+  if (!within_reach(i, move.change().made) || !may_help(move.change())) return false;
+  if (!move.complete() || !helps(move.change())) return false;
+  attempt.success.push_back(move.change());
+  return true;
+}
+
+// Puts the nodes that have moved along surfaces onto these, where a walk ends beside them, and
+// keeps the moves that still help there. The function of a level set is evaluated for all of them
+// at once and on this thread, as the user's function need not be safe on several.
+void SliverRepair::settle_moves() {
+  std::vector<std::size_t> moved;
+  std::vector<AlongSurfaces::Place> places;
+  for (std::size_t a = 0; a < attempts_.size(); ++a)
+    for (const StarChange& change : attempts_[a].success)
+      if (change.on >= 0) {
+        moved.push_back(a);
+        places.push_back({change.x, change.on});
+      }
+  const std::vector<AlongSurfaces::Place> before = places;
+  along_surfaces_.settle(places);
+  for_each("pnpbs::SliverRepair::settle", std::ssize(moved), [&](std::int64_t m) {
+    const auto k = static_cast<std::size_t>(m);
+    if (places[k].x == before[k].x && places[k].facet == before[k].facet) return;
+    Attempt& attempt = attempts_[moved[k]];
+    attempt.success.clear();
+    if (places[k].facet < 0) return;
+    SurfaceNodeMove move(nodes_, stars_, attempt.node, along_surfaces_.in_domain);
+    try_place(move, places[k], attempt);
+  });
 }
 
 std::int64_t SliverRepair::move() {
@@ -347,6 +378,7 @@ std::int64_t SliverRepair::move() {
     Attempt& attempt = attempts_[static_cast<std::size_t>(a)];
     nodes_.moves(attempt.node) ? try_moves(attempt) : try_moves_along_surface(attempt);
   });
+  if (along_surfaces_.settle) settle_moves();
   changes_.clear();
   in_vain_ = 0;
   for (std::size_t a = 0; a < attempts_.size(); ++a) {

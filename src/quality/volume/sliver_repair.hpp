@@ -54,6 +54,10 @@ struct AlongSurfaces {
   // Where node i comes to in that direction, as far as that length; where it is if it may not.
   std::function<Place(std::int64_t i, const Point<3>& direction, double length)> walk;
   SurfaceNodeMove::InDomain in_domain;
+  // Moves places that lie near their surface only onto it, those of this rank at once and outside
+  // of parallel regions. A place that cannot be moved there gets the facet -1. Null if all walks
+  // end on the surface.
+  std::function<void(std::vector<Place>& places)> settle;
 };
 
 class SliverRepair {
@@ -122,6 +126,8 @@ class SliverRepair {
   std::vector<char> winners() const;
   void try_moves(Attempt& attempt) const;
   void try_moves_along_surface(Attempt& attempt) const;
+  bool try_place(SurfaceNodeMove& move, const AlongSurfaces::Place& to, Attempt& attempt) const;
+  void settle_moves();
   Point<3> direction_to_try(const Attempt& attempt, int trial, std::uint64_t bits) const;
   double way_to_try(const Attempt& attempt, std::uint64_t bits) const;
   bool may_help(const StarChange& change) const;

@@ -270,6 +270,10 @@ pnpbs_domain_set_repair(domain, resolution) =
     @ccall $(symbol(:pnpbs_domain_set_repair))(
         domain::pnpbs_domain, resolution::Cdouble)::pnpbs_status
 
+pnpbs_domain_set_resurfaced(domain, resolution) =
+    @ccall $(symbol(:pnpbs_domain_set_resurfaced))(
+        domain::pnpbs_domain, resolution::Cdouble)::pnpbs_status
+
 pnpbs_domain_add_hole(domain, point) =
     @ccall $(symbol(:pnpbs_domain_add_hole))(
         domain::pnpbs_domain, point::Ptr{Cdouble})::pnpbs_status

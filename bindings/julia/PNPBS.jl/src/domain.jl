@@ -385,16 +385,27 @@ end
     set_repair!(domain, resolution = 0)
 
 Repairs the triangulated boundary surfaces of a domain in space that enclose one body imperfectly:
-open, crossing, folded or inconsistently oriented. The body is where they wind around a point more
-than half a time, in either orientation. Holes are closed, overlapping bodies are joined, and
-surfaces that enclose nothing are dropped. The surface of the body is extracted as that of a level
-set, with its sharp edges; all of it has the tag of the first triangle. A warning reports its
-distance from the given triangles. Features thinner than the resolution can be lost: it should be no
-more than the spacing at the surface; 0 is 1/64 of the longest side of the bounding box of the
-triangles.
+open, crossing, folded or inconsistently oriented. Sound surfaces are unchanged, and a warning
+reports that nothing is repaired. The body is where they wind around a point more than half a time,
+in either orientation. Holes are closed, overlapping bodies are joined, and surfaces that enclose
+nothing are dropped. The surface of the body is extracted as that of a level set, with its sharp
+edges; all of it has the tag of the first triangle. A warning reports its distance from the given
+triangles. Features thinner than the resolution can be lost: it should be no more than the spacing
+at the surface; 0 is 1/64 of the longest side of the bounding box of the triangles.
 """
 function set_repair!(domain::Domain, resolution::Real = 0)
     check(domain.context, LibPNPBS.pnpbs_domain_set_repair(live(domain), resolution))
+    return domain
+end
+
+"""
+    set_resurfaced!(domain, resolution = 0)
+
+Replaces the triangulated boundary surfaces of a domain in space as [`set_repair!`](@ref) does, even
+if they need no repair: this removes what is finer than the resolution from a body.
+"""
+function set_resurfaced!(domain::Domain, resolution::Real = 0)
+    check(domain.context, LibPNPBS.pnpbs_domain_set_resurfaced(live(domain), resolution))
     return domain
 end
 

@@ -66,7 +66,8 @@ end
         @test measure(set_filled!(body, false)) ≈ (1 + 0.25^2) * (1.5 + sqrt(0.75))
         set_filled!(body, true)
         broken = add_surface!(Domain(context; dim = 3), VERTICES, FACES)
-        @test measure(set_repair!(broken, 0.02)) ≈ 1 / 6 atol = 1e-3
+        @test measure(set_repair!(broken, 0.02)) ≈ 1 / 6
+        @test measure(set_resurfaced!(broken, 0.02)) ≈ 1 / 6 atol = 1e-3
         add_hole!(body, (0.15, 0.15, 0.15))
         @test measure(body) ≈ (1 - 0.25^3) / 6
         mktempdir() do folder
