@@ -696,7 +696,8 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement plac
  *  sampled about as densely as nodes would lie. A feature that is smaller than the d around it may
  *  be missed, unless a fixed node (pnpbs_domain_add_fixed_nodes) or a vertex of the boundary lies
  *  in it: d is sampled at each of these. Collective. Invalid values are detected when it is called,
- *  in initialise or run: the error names the point and the number of nodes it would have implied. */
+ *  in initialise or run: the error names the point and the number of nodes it would have
+ *  implied. */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                             pnpbs_spacing_fn spacing, void *user);
 
@@ -706,12 +707,13 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement plac
  *  point the value holds everywhere. On a sphere the grid has two directions, longitude and
  *  latitude in degrees. Longitudes 360 degrees apart are the same: columns all around the sphere
  *  are joined, with or without the first one again at the end. A pole that is a step or less from
- *  the grid has the mean of the row beside it. Collective. Checks the domain first. Errors:
- *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and in the plane and in
- *  space for a grid that does not meet the domain's bounding box, which on a sphere is an error in
- *  initialise or run; PNPBS_ERROR_ARGUMENT for a step that is not positive, and on a sphere for
- *  longitudes over more than 360 degrees and latitudes beyond a pole; PNPBS_ERROR_DOMAIN as in
- *  pnpbs_domain_check.
+ *  the grid has the mean of the row beside it. Where d changes by a tenth or more from one grid
+ *  point to the next, the lower one is a sample of d whatever the size of its surroundings.
+ *  Collective. Checks the domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero,
+ *  negative or not finite, and in the plane and in space for a grid that does not meet the domain's
+ *  bounding box, which on a sphere is an error in initialise or run; PNPBS_ERROR_ARGUMENT for a
+ *  step that is not positive, and on a sphere for longitudes over more than 360 degrees and
+ *  latitudes beyond a pole; PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
  *  @param[in] size    [dim], on a sphere [2]: number of grid points in each direction, >= 1
  *  @param[in] origin  [dim], on a sphere [2]: the first grid point
  *  @param[in] step    [dim], on a sphere [2]: > 0, distance between grid points

@@ -71,6 +71,40 @@ void SphereGridSpacing::join_at_pole(double pole, std::int64_t row, std::optiona
   if (away <= kRounding) std::fill_n(begin, grid_.columns, *value);
 }
 
+KnownValues<3> SphereGridSpacing::known_values() const {
+  constexpr double kMatters = 0.1;
+  KnownValues<3> known;
+  std::vector<char> is_low(grid_.values.size(), 0);
+  const auto point = [&](std::int64_t row, std::int64_t column) {
+    return shifted({}, radius_, direction_at({grid_.longitude(column), grid_.latitude(row)}));
+  };
+  const auto index = [&](std::int64_t row, std::int64_t column) {
+    return static_cast<std::size_t>(row * grid_.columns + column);
+  };
+  const auto compare = [&](std::int64_t row, std::int64_t column, std::int64_t to_row,
+                           std::int64_t to_column) {
+    const double a = grid_.values[index(row, column)], b = grid_.values[index(to_row, to_column)];
+    if (!(std::fabs(a - b) > kMatters * std::min(a, b))) return;
+    const Point<3> x = point(row, column), y = point(to_row, to_column);
+    const double along = radius_ * angle_between(x, y);
+    if (!(along > 0)) return;
+    is_low[a < b ? index(row, column) : index(to_row, to_column)] = 1;
+    known.slopes.push_back({std::fabs(a - b) / along, std::min(a, b),
+                            shifted({}, radius_, unit_vector(halfway(x, y)))});
+  };
+  for (std::int64_t row = 0; row < grid_.rows; ++row)
+    for (std::int64_t column = 0; column < columns_; ++column) {
+      if (row + 1 < grid_.rows) compare(row, column, row + 1, column);
+      if (column + 1 < columns_) compare(row, column, row, column + 1);
+      if (column + 1 == columns_ && closed_) compare(row, column, row, 0);
+    }
+  for (std::int64_t row = 0; row < grid_.rows; ++row)
+    for (std::int64_t column = 0; column < columns_; ++column)
+      if (is_low[index(row, column)])
+        known.values.push_back({point(row, column), grid_.values[index(row, column)]});
+  return known;
+}
+
 SphereGridSpacing::Between SphereGridSpacing::columns_at(double longitude) const {
   if (columns_ == 1) return {0, 0, 0};
   const std::int64_t last = columns_ - 1;

@@ -156,6 +156,34 @@ START_TEST(a_grid_has_as_many_nodes_as_its_function) {
 }
 END_TEST
 
+/* A single low value in the middle of the sphere, beside the meridian where the grid begins, and in
+ * the row next to a pole: samples of d meet none of them. */
+START_TEST(a_low_value_of_a_grid) {
+  static const int64_t size[2] = {360, 181}, spots[3][2] = {{77, 121}, {0, 40}, {211, 179}};
+  static const double origin[2] = {-180, -90}, step[2] = {1, 1};
+  double* values = malloc((size_t)(size[0] * size[1]) * sizeof *values);
+  double *x, *d, degrees[2], spot[3];
+  int64_t n, i, near = 0;
+  job it = globe_from(20, -30);
+  ck_assert(values);
+  for (i = 0; i < size[0] * size[1]; ++i) values[i] = 600;
+  values[spots[_i][1] * size[0] + spots[_i][0]] = 15;
+  MUST(pnpbs_placement_set_spacing_grid(it.placement, size, origin, step, values));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  degrees[0] = origin[0] + (double)spots[_i][0];
+  degrees[1] = origin[1] + (double)spots[_i][1];
+  MUST(pnpbs_sphere_points(R, 1, degrees, spot));
+  n = nodes_of(it.placement, &x, &d);
+  for (i = 0; i < n; ++i)
+    near += hypot(hypot(x[3 * i] - spot[0], x[3 * i + 1] - spot[1]), x[3 * i + 2] - spot[2]) < 60;
+  ck_assert_int_gt(near, 6);
+  free(values);
+  free(x);
+  free(d);
+  job_end(&it);
+}
+END_TEST
+
 /* Rows that have different values at a pole mean one there: their mean. */
 START_TEST(a_pole_has_one_spacing) {
   const int64_t size[2] = {4, 3};
@@ -724,6 +752,7 @@ TEST_SUITE(test_sphere_fields) {
   TCase *grids = tcase_create("grids"), *fields = tcase_create("fields");
   tcase_add_loop_test(grids, a_grid_around_the_sphere, 0, 7);
   tcase_add_test(grids, a_grid_has_as_many_nodes_as_its_function);
+  tcase_add_loop_test(grids, a_low_value_of_a_grid, 0, 3);
   tcase_add_test(grids, a_pole_has_one_spacing);
   tcase_add_test(grids, a_grid_beside_the_domain);
   tcase_add_test(grids, a_grid_of_some_latitudes);
