@@ -45,7 +45,7 @@ class DomainBase {
   void add_hole(const Point<Dim>& point);
   // Gives a tag to the same.
   void add_region(const Point<Dim>& point, std::int32_t tag);
-  // Those of a file, with a name for messages: see RegionPoint.
+  // Add points of a file, with a name for messages: see RegionPoint.
   void add_hole_of_file(const Point<Dim>& point, std::string name);
   void add_region_of_file(const Point<Dim>& point, std::int32_t tag, std::string name);
   // To be told with those that check() finds.

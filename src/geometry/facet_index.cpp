@@ -58,7 +58,7 @@ bool holds_corner(const Box<Dim>& box, const FacetCorners<Dim>& corners) {
 
 }  // namespace
 
-// The facets of the parent that may meet the box. Boxes tell it of most of them.
+// Appends the facets of the parent that may meet the box. Corners and boxes decide most cases.
 template <int Dim>
 void FacetCells<Dim>::inherit(std::int32_t parent, const Box<Dim>& box,
                               std::vector<std::int32_t>& facets,

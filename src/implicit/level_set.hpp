@@ -45,8 +45,8 @@ class LevelSet {
   // of a hundredth of the size.
   static constexpr double kSlopeStep = 1e-4;
 
-  // How far it is from each point to where f = 0 along a unit direction or against it, by the slope
-  // of f there. This takes less than half of the values of f that slopes() takes.
+  // Estimates the distance of each point from where f = 0, along a unit direction or against it, by
+  // the slope of f in that direction. It takes less than half of the values that slopes() takes.
   std::vector<double> ways_along(std::span<const Point<3>> x,
                                  std::span<const Point<3>> directions) const;
 

@@ -78,7 +78,8 @@ struct PointHash {
   }
 };
 
-// Corners are samples of all triangles around them, and are looked at once.
+// Finds the nearest point of the triangles for each sample. A corner is a sample of every triangle
+// around it, and is searched for once.
 std::vector<Nearest> nearest_to(const std::vector<Sample>& samples,
                                 const NearestTriangles& triangles) {
   std::vector<Point<3>> points;

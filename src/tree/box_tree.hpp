@@ -98,7 +98,7 @@ class BoxTree {
     for_near(
         x, limit, [](std::size_t) { return true; }, visit);
   }
-  // The same without the boxes in cells, by their numbers, for which may_be_near(cell) is false.
+  // Likewise, but passes over the cells, by their numbers, for which may_be_near(cell) is false.
   template <class Limit, class MayBeNear, class Visit>
   void for_near(const Point<Dim>& x, const Limit& limit, const MayBeNear& may_be_near,
                 const Visit& visit) const {
@@ -107,7 +107,7 @@ class BoxTree {
   }
 
   std::size_t cell_count() const { return cells_.size(); }
-  // The boxes in a cell.
+  // Returns the boxes in a cell.
   std::span<const std::int32_t> in_cell(std::size_t c) const {
     return {order_.data() + cells_[c].begin, order_.data() + cells_[c].end};
   }

@@ -119,7 +119,7 @@ START_TEST(torn_bodies_are_told) {
   ck_assert_ptr_nonnull(which);
   ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_NOT_CONFORMING);
   ck_assert_ptr_nonnull(strstr(MESSAGE(), which));
-  ck_assert_ptr_nonnull(strstr(MESSAGE(), "pnpbs_domain_set_repair"));
+  ck_assert_ptr_nonnull(strstr(MESSAGE(), "pnpbs_domain_set_resurfaced"));
   job_end(&it);
 }
 END_TEST

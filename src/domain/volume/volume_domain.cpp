@@ -50,8 +50,8 @@ struct Middles {
   std::vector<Point<3>> points, normals;  // unit
 };
 
-// In the middle of each triangle of the set and of each of its sides, where the normal is that of
-// one of the two triangles.
+// Returns the middles of the triangles of the set and of their sides. The normal of a side is that
+// of one of its two triangles.
 Middles middles_of_triangles(const ResolvedVolume& volume, const LevelSet& set) {
   struct Side {
     std::array<std::int32_t, 2> ends;
@@ -88,7 +88,8 @@ Middles middles_of_triangles(const ResolvedVolume& volume, const LevelSet& set) 
   return middles;
 }
 
-// As the slope of f along the triangles' normals tells it, which is not so where the slope jumps.
+// Estimates distances by the slope of f along the triangles' normals. The estimate is wrong where
+// the slope jumps.
 std::vector<double> likely_distances(const LevelSet& set, const Middles& middles) {
   std::vector<double> distances;
   const std::span<const Point<3>> points = middles.points, normals = middles.normals;

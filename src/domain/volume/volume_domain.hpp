@@ -164,7 +164,7 @@ class VolumeDomain : public DomainBase<3> {
   bool filled_ = true;
   std::optional<double> repair_;  // its resolution
   bool repair_sound_ = false;
-  // Those of another domain: see take_repair_of.
+  // The repair of another domain's body: see take_repair_of.
   RepairDistances taken_distances_;
   std::vector<Warning> taken_warnings_;
   // Shared by copies, and by all that points into it.

@@ -280,8 +280,9 @@ class Resolver {
   }
 
   // ------------------------------------------------------------ the inside
-  // How many times the boundary triangles wind around each region follows from one region to the
-  // next: around what is behind a triangle once more than around what is in front of it.
+  // Returns whether the boundary triangles wind once around the inside, and not around the outside,
+  // but for a sign. The winding number of the region behind a triangle is one more than that of the
+  // region in front of it.
   bool is_wound_once() const {
     constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> beside(inside_.size());

@@ -44,7 +44,8 @@ double SurfaceIndex::Slab::gap_to(const Point<3>& x) const {
   return std::max(height - high, low - height);
 }
 
-// Across the mean normal. The facets of large cells have too many normals for that.
+// Returns the slab across the mean normal of the facets. Cells of many facets have none, as their
+// normals differ too much.
 SurfaceIndex::Slab SurfaceIndex::slab_around(std::span<const std::int32_t> facets) const {
   constexpr std::size_t kMostFacets = 256;
   Slab slab;

@@ -51,8 +51,8 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   }
 }
 
-// Puts places near level sets where these are 0; those for which there is no such point within the
-// distance that nodes have from triangles get the facet -1.
+// Moves points near level sets to where these are 0. A point gets the facet -1 if there is none
+// within the distance that nodes have from triangles.
 void settle_on_level_sets(const Ground<3>& ground, std::vector<AlongSurfaces::Place>& places) {
   const LevelSetTriangles& triangles = ground.domain().level_sets();
   const double reach = ground.boundary().node_distance;
@@ -103,9 +103,9 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   }
 }
 
-// Nodes on inner surfaces stay: no tetrahedron that goes would tell of the triangles there. So do
-// those on thin walls, opposite their partners. Those on a level set keep their distance from its
-// triangles on the way.
+// Returns how nodes move along surfaces. Those on inner surfaces stay, as the removed tetrahedra
+// would not account for the triangles there. So do those on thin walls, opposite their partners.
+// Those on a level set keep their distance from its triangles on the way.
 AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input,
                                   const std::vector<char>& on_thin_wall) {
   const auto walk = [&level, &on_thin_wall](std::int64_t i, const Point<3>& direction,
