@@ -18,6 +18,7 @@
 #include "quality/volume/small_angles.hpp"
 #include "quality/volume/star_changes.hpp"
 #include "quality/volume/surface_node_move.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
@@ -54,6 +55,8 @@ struct AlongSurfaces {
   // Where node i comes to in that direction, as far as that length; where it is if it may not.
   std::function<Place(std::int64_t i, const Point<3>& direction, double length)> walk;
   SurfaceNodeMove::InDomain in_domain;
+  // Do these nodes of the boundary lie on one sheet of a surface?
+  std::function<bool(std::int64_t i, std::int64_t j)> on_one_sheet;
 };
 
 class SliverRepair {
@@ -122,6 +125,8 @@ class SliverRepair {
   std::vector<char> winners() const;
   void try_moves(Attempt& attempt) const;
   void try_moves_along_surface(Attempt& attempt) const;
+  void find_boundary_nodes();
+  std::vector<std::int32_t> boundary_nodes_around(std::int32_t i) const;
   Point<3> direction_to_try(const Attempt& attempt, int trial, std::uint64_t bits) const;
   double way_to_try(const Attempt& attempt, std::uint64_t bits) const;
   bool may_help(const StarChange& change) const;
@@ -143,7 +148,10 @@ class SliverRepair {
   Allowed allowed_;
   AlongSurfaces along_surfaces_;
   StarChanges stars_;
-  std::vector<Point<3>> before_;           // where the nodes were when the repair began
+  std::vector<Point<3>> before_;  // where the nodes were when the repair began
+  // Nodes of the boundary, and boxes that they stay in.
+  std::vector<std::int32_t> boundary_nodes_;
+  BoxTree<3> boundary_boxes_;
   std::vector<char> is_affected_;          // while a change is accepted
   std::vector<TetrahedronNodes> slivers_;  // in no order that matters
   std::vector<Attempt> attempts_;          // of this round
