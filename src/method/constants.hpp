@@ -254,6 +254,9 @@ inline constexpr double kPenaltyAbove = 5;
 inline constexpr int kSliverRounds = 100;
 // A repair ends where more attempts have been in vain. [share of the nodes] Chosen.
 inline constexpr double kMaxInVain = 0.1;
+// An attempt to move a node along a surface counts as so many of these, as all stars around are
+// made anew for each place. [attempts] Chosen.
+inline constexpr int kWorkOfSurfaceMove = 3;
 // Places that are tried for a node whose turn it is. [trials] Chosen.
 inline constexpr int kSliverTrials = 8;
 // How far these are at least. [d] docs/volumes.md.

@@ -293,6 +293,10 @@ void ElementLabels::search(std::int64_t euler_change, std::int64_t pieces_change
     change_at_one_of(round % 2 == 0 && !without_disks_.empty() ? without_disks_ : with_defects_);
     walk(least.without_disks);
     if (without_disks_.size() <= least.without_disks) descend();
+    if (round_.empty()) {  // no label could be changed
+      ++in_vain;
+      continue;
+    }
     const Faults now = faults(euler_change, pieces_change);
     in_vain = now < least ? 0 : in_vain + 1;
     if (now <= least)

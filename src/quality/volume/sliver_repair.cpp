@@ -379,7 +379,8 @@ std::int64_t SliverRepair::move() {
   changes_.clear();
   in_vain_ = 0;
   for (std::size_t a = 0; a < attempts_.size(); ++a) {
-    in_vain_ += wins[a] && attempts_[a].success.empty();
+    if (wins[a] && attempts_[a].success.empty())
+      in_vain_ += nodes_.moves(attempts_[a].node) ? 1 : method::kWorkOfSurfaceMove;
     for (StarChange& change : attempts_[a].success) changes_.push_back(std::move(change));
   }
   accept(changes_);

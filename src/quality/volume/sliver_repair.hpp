@@ -90,7 +90,8 @@ class SliverRepair {
 
   // Those left, with an owned node that can move.
   std::int64_t slivers(double below = 90) const;
-  // Of this rank's attempts in the last round: those that found no better place.
+  // Of this rank's attempts in the last round: those that found no better place. One along a
+  // surface counts as often as it takes the time of another.
   std::int64_t in_vain() const { return in_vain_; }
   // So far: stars in which slivers were looked for, at first and after each change.
   NodesWorkedFor stars_looked_at() const { return stars_looked_at_; }
