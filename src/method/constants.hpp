@@ -290,11 +290,16 @@ inline constexpr double kShortEdge = 0.5;
 inline constexpr double kBesideCosine = 0.94;
 // And if both edges are longer than this. [d] Chosen.
 inline constexpr double kBesideLength = 0.5;
+// An edge shorter than this loses a node even there: so little makes no curve ragged. [d] Chosen.
+inline constexpr double kRagged = 0.05;
+// Elements with a smaller dihedral angle whose label is open to choice are made none where the
+// boundary stays closed. [degrees] Chosen.
+inline constexpr double kThinLabel = 10;
 // A node that is inserted in a flat element has at least this distance to the nodes of the element.
 // [d] Chosen.
-inline constexpr double kRoomInSliver = 0.4;
+inline constexpr double kRoomInSliver = 0.2;
 // The same to the surface. [d] Chosen.
-inline constexpr double kSliverClearance = 0.25;
+inline constexpr double kSliverClearance = 0.12;
 // Nodes that are inserted in flat elements at the same time are no nearer to each other. [d]
 // Chosen.
 inline constexpr double kSliversApart = 1;

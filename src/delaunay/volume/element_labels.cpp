@@ -306,4 +306,22 @@ void ElementLabels::search(std::int64_t euler_change, std::int64_t pieces_change
   }
 }
 
+// Each change leaves one thin element less, so it ends.
+void ElementLabels::drop_thin_elements() {
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
+      if (!tetrahedra_[t].thin || !is_element(t) || !may_change(t, kMaxDepth)) continue;
+      const auto state = [&] { return std::tuple(without_disks_.size(), defects_); };
+      const auto before = state();
+      const std::int64_t euler = euler_change_;
+      change(t);
+      if (state() <= before && euler_change_ == euler)
+        any = true;
+      else
+        change(t);
+    }
+  }
+}
+
 }  // namespace pnpbs

@@ -97,10 +97,22 @@ std::optional<ShortEdge> short_edge_of(const Level<3>& level, std::int64_t i, st
   return edge;
 }
 
+// Are two dihedral angles wide, at edges without a common end? Then two edges cross, nearly.
+bool is_flat(const Tetrahedron& t) {
+  constexpr double kWide = -0.866;  // cosine: 150 degrees
+  const std::array<Point<3>, 4> n = face_normals({t[0].x, t[1].x, t[2].x, t[3].x});
+  int wide = 0;
+  for (std::size_t f = 0; f < 4; ++f)
+    for (std::size_t g = f + 1; g < 4; ++g)
+      wide += -dot(n[f], n[g]) < kWide * length(n[f]) * length(n[g]);
+  return wide >= 2;
+}
+
 std::optional<SliverMiddle> middle_of_sliver(const Level<3>& level, const Corners& by_id) {
   const Nodes<3>& nodes = level.nodes;
   if (std::ranges::any_of(by_id, [&](std::int64_t i) { return is_inner(level, i); })) return {};
   const Tetrahedron t = tetrahedron_of(nodes, by_id);
+  if (!is_flat(t)) return {};
   SliverMiddle middle{{t[0].id, t[1].id, t[2].id, t[3].id}, centroid(t), t[0].d};
   for (const VolumeNode& corner : t) middle.d = std::min(middle.d, corner.d);
   for (const VolumeNode& corner : t)
@@ -146,11 +158,9 @@ ThinElements own_thin_elements(const Level<3>& level) {
       if (!is_thin(corners) || at_sharp_edge(corners)) return;
       ++found.count;
       const auto [length, a, b] = shortest_edge(level, corners);
-      if (length >= method::kShortEdge) {
-        if (const auto middle = middle_of_sliver(level, corners)) found.middles.push_back(*middle);
-      } else if (const auto edge = short_edge_of(level, a, b, length)) {
-        found.edges.push_back(*edge);
-      }
+      if (length < method::kShortEdge)
+        if (const auto edge = short_edge_of(level, a, b, length)) found.edges.push_back(*edge);
+      if (const auto middle = middle_of_sliver(level, corners)) found.middles.push_back(*middle);
     });
   return found;
 }
@@ -225,7 +235,7 @@ class Leaving {
   void choose(const ShortEdge& edge) {
     const auto& [a, b] = edge.ends;
     if (ids_.contains(a.id) || ids_.contains(b.id)) return;
-    if (edge.on_features() &&
+    if (edge.on_features() && edge.length > method::kRagged &&
         neighbours_.run_beside(a.boundary_node, b.boundary_node, std::min(a.d, b.d)))
       return;
     const bool a_first = rank(b) < rank(a);
@@ -262,17 +272,19 @@ class Leaving {
   std::int64_t on_features_ = 0;
 };
 
-// Returns how many nodes of this rank were removed.
-std::int64_t remove_nodes_of(Level<3>& level, const std::vector<ShortEdge>& edges) {
+// Returns how many nodes of this rank were removed, and the ids of all.
+std::int64_t remove_nodes_of(Level<3>& level, const std::vector<ShortEdge>& edges,
+                             std::set<std::int64_t>& ids) {
   if (edges.empty()) return 0;
   Leaving leaving(level);
   for (const ShortEdge& edge : edges) leaving.choose(edge);
-  if (leaving.ids().empty()) return 0;
+  ids = leaving.ids();
+  if (ids.empty()) return 0;
   level.left_out += leaving.on_features();
   std::vector<std::int32_t> nodes;  // ghosts among them
   std::int64_t own = 0;
   for (std::int32_t i = 0; i < level.nodes.count; ++i) {
-    if (!leaving.ids().contains(level.nodes.id(i))) continue;
+    if (!ids.contains(level.nodes.id(i))) continue;
     nodes.push_back(i);
     own += level.nodes.owned(i) != 0;
   }
@@ -282,11 +294,14 @@ std::int64_t remove_nodes_of(Level<3>& level, const std::vector<ShortEdge>& edge
 
 // ------------------------------------------------------------------ nodes that come ------------
 
-// Chooses middles that are apart from each other, and returns nodes for those in this rank's part.
-IncomingNodes<3> nodes_in(const Level<3>& level, const std::vector<SliverMiddle>& middles) {
+// Chooses middles that are apart from each other, of elements whose nodes stay, and returns nodes
+// for those in this rank's part.
+IncomingNodes<3> nodes_in(const Level<3>& level, const std::vector<SliverMiddle>& middles,
+                          const std::set<std::int64_t>& removed) {
   std::vector<SliverMiddle> kept;
   for (const SliverMiddle& middle : middles)
-    if (std::ranges::none_of(kept, [&](const SliverMiddle& other) {
+    if (std::ranges::none_of(middle.ids, [&](std::int64_t id) { return removed.contains(id); }) &&
+        std::ranges::none_of(kept, [&](const SliverMiddle& other) {
           return distance<3>(other.x, middle.x) < method::kSliversApart * middle.d;
         }))
       kept.push_back(middle);
@@ -308,9 +323,10 @@ ThinElementChanges change_nodes_of_thin_elements(Level<3>& level) {
     const ThinElements thin = thin_elements(level);
     changes.thin = thin.count;
     if (thin.count == 0) break;
-    const std::int64_t removed = remove_nodes_of(level, thin.edges);
+    std::set<std::int64_t> ids;
+    const std::int64_t removed = remove_nodes_of(level, thin.edges, ids);
     IncomingNodes<3> more;
-    if (round == 0) agreed(*level.comm, [&] { more = nodes_in(level, thin.middles); });
+    if (round == 0) agreed(*level.comm, [&] { more = nodes_in(level, thin.middles, ids); });
     const std::int64_t inserted = std::ssize(more);
     add_nodes(level, std::move(more));
     changes.counts.deleted += removed;
