@@ -297,9 +297,11 @@ inline constexpr double kRagged = 0.05;
 inline constexpr double kThinLabel = 10;
 // A node that is inserted in a flat element has at least this distance to the nodes of the element.
 // [d] Chosen.
-inline constexpr double kRoomInSliver = 0.2;
-// The same to the surface. [d] Chosen.
-inline constexpr double kSliverClearance = 0.12;
+inline constexpr double kRoomInSliver = 0.4;
+// The same where three of these are on features, and do not move. [d] Chosen.
+inline constexpr double kRoomInHeldSliver = 0.2;
+// And so much of that to the surface. [share] Chosen.
+inline constexpr double kSliverClearance = 0.6;
 // Nodes that are inserted in flat elements at the same time are no nearer to each other. [d]
 // Chosen.
 inline constexpr double kSliversApart = 1;

@@ -108,16 +108,22 @@ bool is_flat(const Tetrahedron& t) {
   return wide >= 2;
 }
 
-std::optional<SliverMiddle> middle_of_sliver(const Level<3>& level, const Corners& by_id) {
+// Returns the middle of a flat element between nodes of the boundary if a node has room there.
+std::optional<SliverMiddle> middle_of_sliver(const Level<3>& level, const Corners& by_id,
+                                             double shortest) {
   const Nodes<3>& nodes = level.nodes;
   if (std::ranges::any_of(by_id, [&](std::int64_t i) { return is_inner(level, i); })) return {};
   const Tetrahedron t = tetrahedron_of(nodes, by_id);
   if (!is_flat(t)) return {};
+  const auto on_feature = [&](std::int64_t i) { return nodes.carrier(i) != Carrier::surface; };
+  const bool held = std::ranges::count_if(by_id, on_feature) >= 3;
+  if (!held && shortest < method::kShortEdge) return {};
+  const double room = held ? method::kRoomInHeldSliver : method::kRoomInSliver;
   SliverMiddle middle{{t[0].id, t[1].id, t[2].id, t[3].id}, centroid(t), t[0].d};
   for (const VolumeNode& corner : t) middle.d = std::min(middle.d, corner.d);
   for (const VolumeNode& corner : t)
-    if (distance<3>(corner.x, middle.x) < method::kRoomInSliver * middle.d) return {};
-  const double clearance = method::kSliverClearance * middle.d;
+    if (distance<3>(corner.x, middle.x) < room * middle.d) return {};
+  const double clearance = method::kSliverClearance * room * middle.d;
   const SurfaceIndex& index = level.ground.domain().index();
   if (!index.inside(middle.x) || index.clearance(middle.x, clearance) < clearance) return {};
   return middle;
@@ -160,7 +166,8 @@ ThinElements own_thin_elements(const Level<3>& level) {
       const auto [length, a, b] = shortest_edge(level, corners);
       if (length < method::kShortEdge)
         if (const auto edge = short_edge_of(level, a, b, length)) found.edges.push_back(*edge);
-      if (const auto middle = middle_of_sliver(level, corners)) found.middles.push_back(*middle);
+      if (const auto middle = middle_of_sliver(level, corners, length))
+        found.middles.push_back(*middle);
     });
   return found;
 }
