@@ -254,6 +254,9 @@ inline constexpr double kPenaltyAbove = 5;
 inline constexpr int kSliverRounds = 100;
 // A repair ends where more attempts have been in vain. [share of the nodes] Chosen.
 inline constexpr double kMaxInVain = 0.1;
+// An attempt to move a node along a surface counts as so many of these, as all stars around are
+// made anew for each place. [attempts] Chosen.
+inline constexpr int kWorkOfSurfaceMove = 3;
 // Places that are tried for a node whose turn it is. [trials] Chosen.
 inline constexpr int kSliverTrials = 8;
 // How far these are at least. [d] docs/volumes.md.
@@ -271,8 +274,44 @@ inline constexpr double kSliverEdge = 0.9;
 // How many neighbours away a move looks at stars, and one more since nodes come to be neighbours.
 // [rings] Derived.
 inline constexpr int kSliverRings = 4;
-// Nodes on the surface come no nearer to each other in a repair. [d] Chosen.
+// Nodes on one sheet of the surface come no nearer to each other in a repair. [d] Chosen.
 inline constexpr double kSliverRoom = 0.7;
+// A repair that moves a node along the surface takes all nodes of the boundary up to this distance
+// into account. [d] Derived: no more than are known to the node's rank.
+inline constexpr double kSliverSight = 2.5;
+// Elements with a smaller dihedral angle that the repairs leave may have a node removed or
+// inserted. [degrees] Chosen.
+inline constexpr double kThinElement = 15;
+// An element with a shorter edge than this between two nodes of the boundary has one of these
+// removed. [d] Derived: with the other edges d, the angle opposite to it is 29 degrees at most.
+inline constexpr double kShortEdge = 0.5;
+// Two curves that leave the ends of a short edge run beside each other if the angle between their
+// next edges has a larger cosine: 20 degrees. [1] Chosen.
+inline constexpr double kBesideCosine = 0.94;
+// And if both edges are longer than this. [d] Chosen.
+inline constexpr double kBesideLength = 0.5;
+// An edge shorter than this loses a node even there: so little makes no curve ragged. [d] Chosen.
+inline constexpr double kRagged = 0.05;
+// Elements with a smaller dihedral angle whose label is open to choice are made none where the
+// boundary stays closed. [degrees] Chosen.
+inline constexpr double kThinLabel = 10;
+// A node that is inserted in a flat element has at least this distance to the nodes of the element.
+// [d] Chosen.
+inline constexpr double kRoomInSliver = 0.4;
+// The same where three of these are on features, and do not move. [d] Chosen.
+inline constexpr double kRoomInHeldSliver = 0.2;
+// And so much of that to the surface. [share] Chosen.
+inline constexpr double kSliverClearance = 0.6;
+// Nodes that are inserted in flat elements at the same time are no nearer to each other. [d]
+// Chosen.
+inline constexpr double kSliversApart = 1;
+// Rounds in which nodes are removed and inserted before the next repair, at most. [rounds] Chosen.
+inline constexpr int kThinRounds = 3;
+// Repairs of the elements that are still thin, at most. [repairs] Chosen.
+inline constexpr int kThinRepairs = 2;
+// These are omitted where more elements are thin: walls and steps much smaller than d, where no
+// repair helps. [share of the nodes] Chosen.
+inline constexpr double kManyThin = 0.02;
 
 // ---- The surface in space ----
 

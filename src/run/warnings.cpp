@@ -145,8 +145,8 @@ std::optional<Warning> warning_of_features_left_out(const Level<3>& level) {
                  "left out: " + std::to_string(features.count) +
                      " nodes of corners and sharp edges, one of them at " +
                      rounded_point_text<3>(features.at) +
-                     ": the body is thinner than the spacing there, and no tetrahedra held on to "
-                     "them; make the spacing smaller there to keep them",
+                     ": they are nearer to others than the spacing resolves; make the spacing "
+                     "smaller there to keep them",
                  features.count);
 }
 

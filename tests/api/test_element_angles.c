@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Small dihedral angles: those at sharp edges of the body are told apart, the others are told to
- * the user, and enlarged by a smaller d as the option min_angle asks for it.
+ * the user, and enlarged by a smaller d as the option min_angle asks for it. Where nodes stand too
+ * near to each other, or in a plane across a bar, one is removed or inserted.
  */
 #include "volume_support.h"
 
@@ -104,6 +105,88 @@ START_TEST(in_the_plane_there_are_no_sharp_edges) {
   ck_assert_double_eq(real_of(it.placement, "quality.min_angle_at_sharp_edges"), 180);
   ck_assert_double_eq(real_of(it.placement, "quality.min_angle_elsewhere"),
                       real_of(it.placement, "quality.min_angle"));
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- nodes that come and go - */
+
+/* A roof over a square, with a ridge of a tenth of d. */
+static pnpbs_status roof(pnpbs_domain domain, const char* data) {
+  const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.495, 0.5, 0.5, 0.505, 0.5, 0.5};
+  static const int faces[][4] = {
+      {0, 3, 2, 1}, {0, 1, 5, 4}, {2, 3, 4, 5}, {1, 2, 5, 1}, {3, 0, 4, 3}};
+  (void)data;
+  return volume_add_quads(domain, PNPBS_BOUNDARY, 6, xyz, 5, faces);
+}
+
+/* The same, with both ends of the ridge given as nodes. */
+static pnpbs_status roof_with_nodes(pnpbs_domain domain, const char* data) {
+  const double xyz[] = {0.495, 0.5, 0.5, 0.505, 0.5, 0.5};
+  const pnpbs_status status = roof(domain, data);
+  return status < 0 ? status : pnpbs_domain_add_fixed_nodes(domain, 2, xyz, NULL);
+}
+
+START_TEST(one_end_of_a_short_edge_leaves) {
+  job it = body_job(roof), given = body_job(roof_with_nodes);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(integer_of(it.placement, "left_out"), 1);
+  ck_assert_int_eq(warnings_with(it.placement, "left out: 1 nodes of corners"), 1);
+  ck_assert_int_eq(elements_below(&it, 15), 0);
+  ck_assert_int_eq(integer_of(it.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_OK);
+  MUST(pnpbs_placement_set_spacing_constant(given.placement, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(given.placement));
+  ck_assert_int_eq(integer_of(given.placement, "left_out"), 0);
+  job_end(&given);
+  job_end(&it);
+}
+END_TEST
+
+/* Of a plate of a quarter of d, no nodes leave: its upper and lower edges run beside each other. */
+static pnpbs_status plate(pnpbs_domain domain, const char* data) {
+  const double low[] = {0, 0, 0}, high[] = {1, 1, 0.025};
+  (void)data;
+  return pnpbs_domain_add_box(domain, low, high, 1);
+}
+
+START_TEST(edges_beside_each_other_keep_their_nodes) {
+  job it = body_job(plate);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_gt(elements_below(&it, 15), 0);
+  ck_assert_int_eq(integer_of(it.placement, "left_out"), 0);
+  job_end(&it);
+}
+END_TEST
+
+/* A bar as thick as d, with ends askew: four nodes on its edges lie nearly in a plane across it. */
+static pnpbs_status bar(pnpbs_domain domain, const char* data) {
+  const double xyz[] = {0,   0, 0, 0,    0.08, 0, 0,   0.08, 0.08, 0,    0, 0.08,
+                        0.5, 0, 0, 0.54, 0.08, 0, 0.5, 0.08, 0.08, 0.54, 0, 0.08};
+  static const int faces[][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                 {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  (void)data;
+  return volume_add_quads(domain, PNPBS_BOUNDARY, 8, xyz, 6, faces);
+}
+
+START_TEST(a_flat_element_across_a_bar_gets_a_node) {
+  job it = body_job(bar);
+  int64_t inner = 0, t;
+  volume v;
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(elements_below(&it, 15), 0);
+  ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_OK);
+  v = volume_of(it.placement);
+  for (t = 0; t < v.n; ++t) {
+    const double* x = v.xyz + 3 * t;
+    inner += x[1] > 0.01 && x[1] < 0.07 && x[2] > 0.01 && x[2] < 0.07 && x[0] > 0.01 && x[0] < 0.49;
+  }
+  volume_free(&v);
+  ck_assert_int_ge(inner, 1);
+  ck_assert_int_le(inner, 2);
   job_end(&it);
 }
 END_TEST
@@ -227,14 +310,19 @@ END_TEST
 
 TEST_SUITE(test_element_angles) {
   Suite* suite = suite_create("element angles");
-  TCase* angles = tcase_create("angles");
+  TCase *angles = tcase_create("angles"), *changes = tcase_create("changes");
   tcase_set_timeout(angles, 0);
   tcase_add_test(angles, those_at_sharp_edges_are_told_apart);
   tcase_add_test(angles, in_the_plane_there_are_no_sharp_edges);
+  tcase_add_test(changes, one_end_of_a_short_edge_leaves);
+  tcase_add_test(changes, edges_beside_each_other_keep_their_nodes);
+  tcase_add_test(changes, a_flat_element_across_a_bar_gets_a_node);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(angles, they_are_enlarged);
   tcase_add_test(angles, the_best_round_counts);
   tcase_add_test(angles, a_stop_in_a_round_leaves_the_best_one);
   tcase_add_test(angles, a_user_is_told);
   suite_add_tcase(suite, angles);
+  tcase_set_timeout(changes, 0);
+  suite_add_tcase(suite, changes);
   return run_suite(suite);
 }

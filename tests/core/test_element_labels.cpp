@@ -116,6 +116,25 @@ START_TEST(one_wrong_label_is_mended) {
 }
 END_TEST
 
+START_TEST(thin_elements_go_where_the_boundary_stays_whole) {
+  const Plate whole = plate();
+  int gone = 0, kept = 0;
+  for (std::size_t t = 0; t < whole.tetrahedra.size(); ++t) {
+    if (!whole.tetrahedra[t].is_element) continue;
+    std::vector<LabelledTetrahedron> without = whole.tetrahedra, marked = whole.tetrahedra;
+    without[t].is_element = false;
+    marked[t].thin = true;
+    const bool may_go = defects(ElementLabels(without, whole.nodes), whole.nodes) == 0;
+    ElementLabels labels(marked, whole.nodes);
+    labels.drop_thin_elements();
+    ck_assert_uint_eq(labels.changed().size(), may_go ? 1 : 0);
+    ck_assert_int_eq(defects(labels, whole.nodes), 0);
+    ++(may_go ? gone : kept);
+  }
+  ck_assert(gone >= 10 && kept >= 10);
+}
+END_TEST
+
 START_TEST(settled_labels_are_those_of_any_order) {
   const Plate whole = plate();
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -270,6 +289,7 @@ END_TEST
 
 TEST_SUITE(test_element_labels) {
   return run_suite("element_labels", {what_is_whole_stays, one_wrong_label_is_mended,
+                                      thin_elements_go_where_the_boundary_stays_whole,
                                       settled_labels_are_those_of_any_order, disks_around_a_node,
                                       feature_edges_stay_on_the_boundary, what_is_sure_stays,
                                       the_search_finds_a_sphere});

@@ -126,7 +126,8 @@ struct Pierced {
       for (std::size_t k = 0; k < 3; ++k) x[k] += length / whole * way[k];
       return pnpbs::AlongSurfaces::Place{x, 7};
     };
-    return {walk, rule(), {}};
+    const auto on_one_sheet = [](std::int64_t, std::int64_t) { return true; };
+    return {walk, rule(), {}, on_one_sheet};
   }
 
   // Slivers with a node on a side, by the present stars.
@@ -174,7 +175,7 @@ START_TEST(stars_follow_nodes_on_surfaces) {
     pnpbs::StarChange change{i, x, {}, {}};
     if (p.on_side(i)) {
       ++on_sides;
-      pnpbs::SurfaceNodeMove move(nodes, changes, i, rule);
+      pnpbs::SurfaceNodeMove move(nodes, changes, i, {}, rule);
       move.go_to(x, 5);
       const pnpbs::StarChange bounds = move.change();
       if (!move.complete()) {

@@ -293,12 +293,34 @@ void ElementLabels::search(std::int64_t euler_change, std::int64_t pieces_change
     change_at_one_of(round % 2 == 0 && !without_disks_.empty() ? without_disks_ : with_defects_);
     walk(least.without_disks);
     if (without_disks_.size() <= least.without_disks) descend();
+    if (round_.empty()) {  // no label could be changed
+      ++in_vain;
+      continue;
+    }
     const Faults now = faults(euler_change, pieces_change);
     in_vain = now < least ? 0 : in_vain + 1;
     if (now <= least)
       least = now;
     else
       take_back();
+  }
+}
+
+// Each change leaves one thin element less, so it ends.
+void ElementLabels::drop_thin_elements() {
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
+      if (!tetrahedra_[t].thin || !is_element(t) || !may_change(t, kMaxDepth)) continue;
+      const auto state = [&] { return std::tuple(without_disks_.size(), defects_); };
+      const auto before = state();
+      const std::int64_t euler = euler_change_;
+      change(t);
+      if (state() <= before && euler_change_ == euler)
+        any = true;
+      else
+        change(t);
+    }
   }
 }
 

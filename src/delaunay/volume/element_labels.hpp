@@ -49,6 +49,9 @@ class ElementLabels {
   // has been tried for so many rounds. Nothing, if that is so
   // already.
   void search(std::int64_t euler_change, std::int64_t pieces_change, int rounds);
+  // Makes thin elements none where that leaves no more defects and the same topology: two faces of
+  // the boundary are exchanged for the two others of the tetrahedron.
+  void drop_thin_elements();
   // Those whose label is now another.
   std::vector<LabelledTetrahedron> changed() const;
   // By how much Euler's characteristic of the boundary is larger for that.
@@ -81,6 +84,7 @@ class ElementLabels {
   bool may_help(const std::vector<std::size_t>& free, std::uint64_t since) const;
   std::vector<std::size_t> best_changes(const Node& node, const std::vector<std::size_t>& free);
   bool improve(Node& node);
+  bool is_element(std::size_t t) const { return tetrahedra_[t].is_element != (changed_[t] != 0); }
   void change(std::size_t t);
   int euler_times_six(std::size_t t) const;
 

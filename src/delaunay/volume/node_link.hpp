@@ -19,6 +19,7 @@ struct LabelledTetrahedron {
   bool may_change;
   double depth;               // of its centroid below or above the surface, over its longest edge
   std::array<bool, 4> along;  // does its face opposite to each lie along one surface?
+  bool thin = false;          // has it a dihedral angle that elements should not have?
 
   auto operator<=>(const LabelledTetrahedron&) const = default;
 };

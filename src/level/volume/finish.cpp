@@ -17,6 +17,7 @@
 #include "level/reach.hpp"
 #include "level/volume/opposite_nodes.hpp"
 #include "level/volume/surface_level.hpp"
+#include "level/volume/thin_elements.hpp"
 #include "method/constants.hpp"
 #include "quality/volume/mean_sweep.hpp"
 #include "quality/volume/sliver_repair.hpp"
@@ -125,7 +126,11 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
   const auto rule = [&input](const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners) {
     return in_domain(input, nodes, corners);
   };
-  AlongSurfaces ways{walk, rule, {}};
+  const auto on_one_sheet = [&level](std::int64_t i, std::int64_t j) {
+    return level.ground.surface().sees(level.ground.place(level.nodes, i),
+                                       level.ground.place(level.nodes, j));
+  };
+  AlongSurfaces ways{walk, rule, {}, on_one_sheet};
   if (!level.ground.domain().level_sets().sets.empty())
     ways.settle = [&level](std::vector<AlongSurfaces::Place>& places) {
       settle_on_level_sets(level.ground, places);
@@ -135,11 +140,11 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
 
 // The worst first: else they would rarely have their turn where nearly all have small angles. With
 // the stars of the owned nodes as they are then.
-void repair_slivers(Level<3>& level) {
+void repair_slivers(Level<3>& level, double repair_below) {
   make_finish_stars(level, {method::kSliverRings,
                             method::kSliverReach + method::kSliverDrift + method::kSliverEdge});
   const PhaseTimer timer(level.timers, Phase::sweeps);
-  const SliverRule rule{level.settings.sliver_angle};
+  const SliverRule rule{repair_below};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
   const std::vector<char> on_thin_wall = nodes_on_thin_walls(level);
@@ -157,6 +162,26 @@ void repair_slivers(Level<3>& level) {
   level.stars_digest = repair->unknown_uses() == 0 ? digest : 0;
 }
 
+// What the repairs leave: nodes come and go, and after that only the thinnest elements count.
+// Returns the counts of this rank, or nothing if it is stopped.
+std::optional<PopulationCounts> repair_thin_elements(Level<3>& level, const StopTest& stops) {
+  ThinElementChanges changes = change_nodes_of_thin_elements(level);
+  PopulationCounts counts = changes.counts;
+  sweep_to_means(level, method::kSweepsBetweenRepairs);
+  repair_slivers(level, level.settings.sliver_angle);
+  const auto nodes = static_cast<double>(
+      level.comm->allreduce_sum(static_cast<std::uint64_t>(level.owned_count())));
+  for (int repair = 0; repair < method::kThinRepairs; ++repair) {
+    changes = change_nodes_of_thin_elements(level);
+    counts.inserted += changes.counts.inserted;
+    counts.deleted += changes.counts.deleted;
+    if (changes.thin == 0 || static_cast<double>(changes.thin) > method::kManyThin * nodes) break;
+    if (stops()) return std::nullopt;
+    repair_slivers(level, method::kThinElement);
+  }
+  return counts;
+}
+
 }  // namespace
 
 FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps, const StopTest& stops) {
@@ -171,12 +196,14 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps, const StopT
   sweep_to_means(level, sweeps);
   if (level.settings.repair.rounds == 0) return {};
   if (stops()) return stopped;
-  repair_slivers(level);
+  repair_slivers(level, level.settings.sliver_angle);
   if (sweeps == 0) return {};
   if (stops()) return stopped;
-  sweep_to_means(level, method::kSweepsBetweenRepairs);
-  repair_slivers(level);
-  return {};
+  const std::optional<PopulationCounts> counts = repair_thin_elements(level, stops);
+  if (!counts) return stopped;
+  FinishResults results;
+  results.counts = *counts;
+  return results;
 }
 
 }  // namespace pnpbs

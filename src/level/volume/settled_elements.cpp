@@ -15,6 +15,8 @@
 #include "level/volume/boundary_pieces.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/surface_stars.hpp"
+#include "method/constants.hpp"
+#include "quality/volume/small_angles.hpp"
 
 namespace pnpbs {
 
@@ -129,6 +131,7 @@ LabelledTetrahedron labelled(const Level<3>& level, const VolumeStarInput& input
   for (std::size_t k = 0; k < 4; ++k)
     result.along[k] =
         lies_along_surface(level, {by_id[(k + 1) % 4], by_id[(k + 2) % 4], by_id[(k + 3) % 4]});
+  result.thin = SmallAngles(method::kThinLabel).any({t[0].x, t[1].x, t[2].x, t[3].x});
   if (result.may_change) result.depth = input.nearest(centroid(t), longest).gap / longest;
   return result;
 }
@@ -216,6 +219,7 @@ std::int64_t settle_elements(Level<3>& level, int rounds) {
     ElementLabels labels(tetrahedra, by_node(nodes));
     labels.settle();
     labels.search(euler_of_surfaces(level) - euler, pieces_of_surfaces(level) - pieces, rounds);
+    labels.drop_thin_elements();
     const std::vector<LabelledTetrahedron> changed = labels.changed();
     level.changed_labels = ChangedLabels(changed);
     const KnownRegion<3> everywhere;

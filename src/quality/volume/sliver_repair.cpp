@@ -311,7 +311,8 @@ bool SliverRepair::too_far(std::int32_t i, const Point<3>& x) const {
   return distance<3>(before_[static_cast<std::size_t>(i)], x) > method::kSliverDrift * nodes_.d(i);
 }
 
-// Would it come nearer to another node on the boundary than suits the surface's triangles?
+// Would it come nearer to another node of its sheet than suits the surface's triangles? (Nodes on
+// the far side of a wall or a gap are as near as these are.)
 bool SliverRepair::crowded(std::int32_t i, const Point<3>& x) const {
   bool crowded = false;
   stars_.for_neighbours(i, [&](std::int64_t j) {
@@ -323,10 +324,36 @@ bool SliverRepair::crowded(std::int32_t i, const Point<3>& x) const {
   return crowded;
 }
 
+// Finds the nodes of the boundary, once the first of them is to move.
+void SliverRepair::find_boundary_nodes() {
+  if (!boundary_nodes_.empty()) return;
+  std::vector<Box<3>> boxes;
+  for (std::int32_t i = 0; i < nodes_.count; ++i) {
+    if (nodes_.carrier(i) == Carrier::free) continue;
+    boundary_nodes_.push_back(i);
+    boxes.push_back(
+        box_around<3>(before_[static_cast<std::size_t>(i)], method::kSliverDrift * nodes_.d(i)));
+  }
+  boundary_boxes_ = BoxTree<3>(std::move(boxes));
+}
+
+// Returns the nodes of the boundary around node i, whether edges lead there or not: across a gap
+// none do.
+std::vector<std::int32_t> SliverRepair::boundary_nodes_around(std::int32_t i) const {
+  const Point<3> x = nodes_.position(i);
+  const double reach = method::kSliverSight * nodes_.d(i);
+  std::vector<std::int32_t> around;
+  boundary_boxes_.for_meeting(box_around<3>(x, reach), [&](std::int32_t b) {
+    const std::int32_t j = boundary_nodes_[static_cast<std::size_t>(b)];
+    if (distance<3>(nodes_.position(j), x) < reach) around.push_back(j);
+  });
+  return around;
+}
+
 void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
   const std::int32_t i = attempt.node;
   if (!star_within_reach(i)) return;
-  SurfaceNodeMove move(nodes_, stars_, i, along_surfaces_.in_domain);
+  SurfaceNodeMove move(nodes_, stars_, i, boundary_nodes_around(i), along_surfaces_.in_domain);
   for (int trial = 0; trial < method::kSliverTrials; ++trial) {
     const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
     const AlongSurfaces::Place to =
@@ -373,6 +400,8 @@ void SliverRepair::settle_moves() {
 
 std::int64_t SliverRepair::move() {
   const std::vector<char> wins = winners();
+  for (std::size_t a = 0; a < attempts_.size(); ++a)
+    if (wins[a] && !nodes_.moves(attempts_[a].node)) find_boundary_nodes();
   for_each("pnpbs::SliverRepair::move", std::ssize(attempts_), [&](std::int64_t a) {
     if (!wins[static_cast<std::size_t>(a)]) return;
     Attempt& attempt = attempts_[static_cast<std::size_t>(a)];
@@ -382,7 +411,8 @@ std::int64_t SliverRepair::move() {
   changes_.clear();
   in_vain_ = 0;
   for (std::size_t a = 0; a < attempts_.size(); ++a) {
-    in_vain_ += wins[a] && attempts_[a].success.empty();
+    if (wins[a] && attempts_[a].success.empty())
+      in_vain_ += nodes_.moves(attempts_[a].node) ? 1 : method::kWorkOfSurfaceMove;
     for (StarChange& change : attempts_[a].success) changes_.push_back(std::move(change));
   }
   accept(changes_);

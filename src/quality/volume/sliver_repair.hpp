@@ -18,6 +18,7 @@
 #include "quality/volume/small_angles.hpp"
 #include "quality/volume/star_changes.hpp"
 #include "quality/volume/surface_node_move.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
@@ -58,6 +59,8 @@ struct AlongSurfaces {
   // of parallel regions. A place that cannot be moved there gets the facet -1. Null if all walks
   // end on the surface.
   std::function<void(std::vector<Place>& places)> settle;
+  // Do these nodes of the boundary lie on one sheet of a surface?
+  std::function<bool(std::int64_t i, std::int64_t j)> on_one_sheet;
 };
 
 class SliverRepair {
@@ -91,7 +94,8 @@ class SliverRepair {
 
   // Those left, with an owned node that can move.
   std::int64_t slivers(double below = 90) const;
-  // Of this rank's attempts in the last round: those that found no better place.
+  // Of this rank's attempts in the last round: those that found no better place. One along a
+  // surface counts as often as it takes the time of another.
   std::int64_t in_vain() const { return in_vain_; }
   // So far: stars in which slivers were looked for, at first and after each change.
   NodesWorkedFor stars_looked_at() const { return stars_looked_at_; }
@@ -128,6 +132,8 @@ class SliverRepair {
   void try_moves_along_surface(Attempt& attempt) const;
   bool try_place(SurfaceNodeMove& move, const AlongSurfaces::Place& to, Attempt& attempt) const;
   void settle_moves();
+  void find_boundary_nodes();
+  std::vector<std::int32_t> boundary_nodes_around(std::int32_t i) const;
   Point<3> direction_to_try(const Attempt& attempt, int trial, std::uint64_t bits) const;
   double way_to_try(const Attempt& attempt, std::uint64_t bits) const;
   bool may_help(const StarChange& change) const;
@@ -149,7 +155,10 @@ class SliverRepair {
   Allowed allowed_;
   AlongSurfaces along_surfaces_;
   StarChanges stars_;
-  std::vector<Point<3>> before_;           // where the nodes were when the repair began
+  std::vector<Point<3>> before_;  // where the nodes were when the repair began
+  // Nodes of the boundary, and boxes that they stay in.
+  std::vector<std::int32_t> boundary_nodes_;
+  BoxTree<3> boundary_boxes_;
   std::vector<char> is_affected_;          // while a change is accepted
   std::vector<TetrahedronNodes> slivers_;  // in no order that matters
   std::vector<Attempt> attempts_;          // of this round

@@ -24,7 +24,7 @@ bool has_node(const Found& tetrahedron, std::int32_t node) {
 }  // namespace
 
 SurfaceNodeMove::SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node,
-                                 const InDomain& in_domain)
+                                 std::span<const std::int32_t> others, const InDomain& in_domain)
     : nodes_(nodes),
       stars_(stars),
       in_domain_(in_domain),
@@ -40,6 +40,8 @@ SurfaceNodeMove::SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars
     }
     sort_unique(near_);
   }
+  near_.insert(near_.end(), others.begin(), others.end());
+  sort_unique(near_);
 }
 
 bool SurfaceNodeMove::is_element(const Found& tetrahedron, const std::array<std::int64_t, 4>& nodes,

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "delaunay/volume/volume_star.hpp"
@@ -21,8 +22,9 @@ class SurfaceNodeMove {
   using InDomain =
       std::function<bool(const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners)>;
 
+  // `others`: nodes of the boundary around the node, on the far side of a wall or a gap as well.
   SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node,
-                  const InDomain& in_domain);
+                  std::span<const std::int32_t> others, const InDomain& in_domain);
 
   // To x on facet `on`: the tetrahedra of its own star there, which are some of those made, and
   // all that there are around it, among which are those gone.
