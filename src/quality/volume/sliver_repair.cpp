@@ -393,7 +393,8 @@ void SliverRepair::settle_moves() {
     Attempt& attempt = attempts_[moved[k]];
     attempt.success.clear();
     if (places[k].facet < 0) return;
-    SurfaceNodeMove move(nodes_, stars_, attempt.node, along_surfaces_.in_domain);
+    const std::int32_t i = attempt.node;
+    SurfaceNodeMove move(nodes_, stars_, i, boundary_nodes_around(i), along_surfaces_.in_domain);
     try_place(move, places[k], attempt);
   });
 }
