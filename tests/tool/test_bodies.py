@@ -10,7 +10,7 @@ import unittest
 import numpy
 from vtk.util.numpy_support import vtk_to_numpy
 
-from command import DATA, LAKE, NOT_CONFORMING, SPACING_MISSED, CommandTest
+from command import DATA, LAKE, NOT_CONFORMING, CommandTest
 from readers import point_array, read_with_vtk
 
 BOX = "box(0,0,0, 1,1,1)"
@@ -191,19 +191,20 @@ class Files(CommandTest):
         self.save_cube_without_lid("open.off")
         _, err = self.place_body("open.off", "0.2", "-o", "a.vtu", "--check", "--repair", "auto")
         self.assertIn("the body is repaired, as it is refused otherwise: ", err)
-        # Roughness, which d does not resolve, and which such a repair therefore removes.
-        self.save_rough_globe("globe.off")
-        torn = ["--domain", "globe.off", "--spacing", "0.4", "--set", "conforming_rounds=1",
+        # A cube with a fin of a third of d, which is lost, and which such a repair therefore removes.
+        self.save_cube_with_fin("fin.off", half_width=0.045)
+        torn = ["--domain", "fin.off", "--spacing", "0.3", "--set", "conforming_rounds=1",
                 "-o", "a.vtu", "--report", "a.json"]
         self.run_command(*torn, code=NOT_CONFORMING)
         given = json.loads((self.folder / "a.json").read_text())
-        self.assertEqual(given["unresolved_spacing"], 0.4)
+        self.assertEqual(given["unresolved_spacing"], 0.3)
         self.assertEqual(given["repaired"]["resolution"], 0)
-        _, err = self.run_command(*torn, "--check", "--repair", "auto", code=SPACING_MISSED)
-        self.assertIn("the elements do not conform: the body is repaired", err.decode())
+        out, err = self.place_body("fin.off", "0.3", *torn[4:], "--check", "--repair", "auto")
+        self.assertIn("the elements do not conform: the body is repaired", err)
+        self.assertIn("volume 1, elements fill 1, surface 6\n", out)
         found = json.loads((self.folder / "a.json").read_text())
         self.assertEqual(found["repair"], "auto")
-        self.assertEqual(found["repaired"]["resolution"], 0.4)
+        self.assertEqual(found["repaired"]["resolution"], 0.3)
         # One that is whole stays as it is.
         self.save_cube_with_fin("fin.off", half_width=0.1)
         out, err = self.place_body("fin.off", "0.2", "-o", "a.vtu", "--repair", "auto")

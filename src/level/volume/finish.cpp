@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/finish.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -83,7 +84,9 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   const auto sum = [&](std::int64_t own) {
     return level.comm->allreduce_sum(static_cast<std::uint64_t>(own));
   };
-  const double most_in_vain = method::kMaxInVain * static_cast<double>(sum(level.owned_count()));
+  constexpr double kFewNodes = 1000;  // in small bodies attempts take no time
+  const double most_in_vain =
+      method::kMaxInVain * std::max(kFewNodes, static_cast<double>(sum(level.owned_count())));
   std::uint64_t in_vain = 0;
   for (std::int64_t round = 0; round < rule.rounds; ++round) {
     if (sum(repair.slivers(below)) == 0 || static_cast<double>(in_vain) > most_in_vain) break;
