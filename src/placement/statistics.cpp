@@ -253,7 +253,8 @@ const std::vector<StatisticRow>& statistic_table() {
           "quality.min_angle_at_sharp_edges",
           [](P p) { return p.results().element_quality().simplex.min_angle_at_sharp_edges; },
           "the same of the tetrahedra with a node closer than d to an edge at which the body "
-          "itself has an angle below 33 degrees; 180 without such edges")),
+          "itself has an angle below 33 degrees, and of those that connect the two sides of a wall "
+          "thinner than d/4; 180 without such edges and walls")),
       computed(real(
           "quality.min_angle_elsewhere",
           [](P p) { return p.results().element_quality().simplex.min_angle_elsewhere; },

@@ -36,11 +36,19 @@ bool any_of(const std::vector<char>& nodes, const std::array<std::int64_t, 4>& c
 
 std::array<Point<3>, 4> positions(const Tetrahedron& t) { return {t[0].x, t[1].x, t[2].x, t[3].x}; }
 
+// In degrees: below that it is asked whether an element is in a thin wall, where angles are at most
+// that of a wall of kThinWall d, tan^-1(0.25 / 0.87) = 16.
+constexpr double kLeastInBulk = 16;
+
+bool is_in_thin_wall(const Level<3>& level, const Tetrahedron& t) {
+  return connects_thin_wall(level, centroid(t), std::ranges::min_element(t, {}, &VolumeNode::d)->d);
+}
+
 }  // namespace
 
 LeastAngles least_angles(const Level<3>& level, double of_all) {
   const SharpEdges edges = sharp_edges(level);
-  if (edges.none()) return {180, of_all};
+  if (edges.none() && of_all > kLeastInBulk) return {180, of_all};
   LeastAngles least;
   agreed(*level.comm, [&] {
     const std::vector<char> at_edge = nodes_at_sharp_edges(level, edges);
@@ -49,21 +57,15 @@ LeastAngles least_angles(const Level<3>& level, double of_all) {
         [&](std::int64_t i, LeastAngles& angles) {
           for_own_elements_at(
               level, i, [&](const Tetrahedron& t, const std::array<std::int64_t, 4>& corners) {
-                angles.add(min_dihedral_angle(positions(t)), any_of(at_edge, corners));
+                const double angle = min_dihedral_angle(positions(t));
+                angles.add(angle, any_of(at_edge, corners) ||
+                                      (angle < kLeastInBulk && is_in_thin_wall(level, t)));
               });
         });
   });
   return {-level.comm->allreduce_max(-least.at_sharp_edges),
           -level.comm->allreduce_max(-least.elsewhere)};
 }
-
-namespace {
-
-double least_spacing(const Tetrahedron& t) {
-  return std::ranges::min_element(t, {}, &VolumeNode::d)->d;
-}
-
-}  // namespace
 
 SmallAngleElements small_angle_elements(const Level<3>& level, double below) {
   const SmallAngles small(below);
@@ -73,8 +75,7 @@ SmallAngleElements small_angle_elements(const Level<3>& level, double below) {
     for_own_elements_where(
         "pnpbs::small_angle_elements", level,
         [&](const Tetrahedron& t, const std::array<std::int64_t, 4>& corners) {
-          return small.any(positions(t)) && !any_of(at_edge, corners) &&
-                 !connects_thin_wall(level, centroid(t), least_spacing(t));
+          return small.any(positions(t)) && !any_of(at_edge, corners) && !is_in_thin_wall(level, t);
         },
         [&](const Tetrahedron& t, const std::array<std::int64_t, 4>&) {
           found.all.add(1, t[0].id, t[0].x);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small dihedral angles of the tetrahedra of a body: those at edges where the body itself is sharp,
-// which no nodes can avoid, apart from the others.
+// and in walls much thinner than d, which no nodes can avoid, apart from the others.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,8 @@
 namespace pnpbs {
 
 // In degrees, over all ranks; 180 if there are no elements of the kind. Of an element at a sharp
-// edge (shape/sharp_edges.hpp), a corner is less than d from it.
+// edge (shape/sharp_edges.hpp), a corner is less than d from it; those that connect the two sides
+// of a thin wall (level/volume/opposite_nodes.hpp) count as such.
 struct LeastAngles {
   double at_sharp_edges = 180, elsewhere = 180;
 

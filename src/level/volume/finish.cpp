@@ -107,18 +107,38 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   }
 }
 
+// How far nodes may go from where they are before the repair.
+class RoomOnSurfaces {
+ public:
+  explicit RoomOnSurfaces(const Level<3>& level) : room_(room_on_thin_walls(level)) {
+    agreed(*level.comm, [&] {
+      for (std::int64_t i = 0; i < level.nodes.count; ++i)
+        before_.push_back(level.nodes.position(i));
+    });
+  }
+  double way(std::int64_t i, double length) const { return std::min(length, room_[index(i)]); }
+  bool holds(std::int64_t i, const Point<3>& x) const {
+    return !(distance<3>(x, before_[index(i)]) > 2 * room_[index(i)]);
+  }
+
+ private:
+  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+  std::vector<double> room_;
+  std::vector<Point<3>> before_;
+};
+
 // Returns how nodes move along surfaces. Those on inner surfaces stay, as the removed tetrahedra
-// would not account for the triangles there. So do those on thin walls, opposite their partners.
-// Those on a level set keep their distance from its triangles on the way.
+// would not account for the triangles there. Those on thin walls have little room, opposite their
+// partners. Those on a level set keep their distance from its triangles on the way.
 AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input,
-                                  const std::vector<char>& on_thin_wall) {
-  const auto walk = [&level, &on_thin_wall](std::int64_t i, const Point<3>& direction,
-                                            double length) {
+                                  const RoomOnSurfaces& room) {
+  const auto walk = [&level, &room](std::int64_t i, const Point<3>& direction, double length) {
     const Ground<3>& ground = level.ground;
     const AlongSurfaces::Place from{level.nodes.position(i), level.nodes.boundary_node(i)};
-    if (!ground.bounds_domain(from.facet) || on_thin_wall[static_cast<std::size_t>(i)] != 0)
-      return from;
-    const SurfacePoint to = go_along_surface(level, i, direction, length);
+    if (!ground.bounds_domain(from.facet)) return from;
+    const SurfacePoint to = go_along_surface(level, i, direction, room.way(i, length));
+    if (!room.holds(i, to.position)) return from;
     if (!ground.domain().level_sets().at(to.facet))
       return AlongSurfaces::Place{to.position, to.facet};
     const Surface& surface = ground.surface();
@@ -150,8 +170,8 @@ void repair_slivers(Level<3>& level, double repair_below) {
   const SliverRule rule{repair_below};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
-  const std::vector<char> on_thin_wall = nodes_on_thin_walls(level);
-  const AlongSurfaces along_surfaces = ways_along_surfaces(level, input, on_thin_wall);
+  const RoomOnSurfaces room(level);
+  const AlongSurfaces along_surfaces = ways_along_surfaces(level, input, room);
   std::optional<SliverRepair> repair;
   agreed(*level.comm,
          [&] { repair.emplace(level.nodes, level.stars, rule, may_go(level), along_surfaces); });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -55,10 +56,14 @@ class ThinWalls {
     return stack;
   }
 
-  bool is_on_thin_wall(std::int64_t i) const {
-    return level_.nodes.carrier(i) == Carrier::surface &&
-           (next_sheet(place(i), SideOfFacet::front, level_.nodes.d(i)) ||
-            next_sheet(place(i), SideOfFacet::back, level_.nodes.d(i)));
+  // The distance of the nearest other sheet that is near enough, or infinity.
+  double nearest_sheet(std::int64_t i) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    if (level_.nodes.carrier(i) != Carrier::surface) return nearest;
+    for (const SideOfFacet side : {SideOfFacet::front, SideOfFacet::back})
+      if (const auto sheet = next_sheet(place(i), side, level_.nodes.d(i)))
+        nearest = std::min(nearest, distance<3>(sheet->position, level_.nodes.position(i)));
+    return nearest;
   }
 
   // Of all sheets, is that of node i the one whose nodes stay? That with the first patch, or, if
@@ -149,16 +154,19 @@ Replacement replacement_on(const Level<3>& level) {
 
 }  // namespace
 
-std::vector<char> nodes_on_thin_walls(const Level<3>& level) {
-  std::vector<char> on_thin_wall;
+std::vector<double> room_on_thin_walls(const Level<3>& level) {
+  constexpr double kRoom = 0.2;  // with 1, the shell of a cube with a wall of 0.1 d is torn
+  std::vector<double> room;
   agreed(*level.comm, [&] {
     const ThinWalls walls(level);
-    on_thin_wall.resize(static_cast<std::size_t>(level.nodes.count));
-    for_each("pnpbs::nodes_on_thin_walls", level.nodes.count, [&](std::int64_t i) {
-      on_thin_wall[static_cast<std::size_t>(i)] = walls.is_on_thin_wall(i);
+    room.resize(static_cast<std::size_t>(level.nodes.count));
+    for_each("pnpbs::room_on_thin_walls", level.nodes.count, [&](std::int64_t i) {
+      const double distance = walls.nearest_sheet(i);
+      room[static_cast<std::size_t>(i)] =
+          kRoom * method::kAsideInThinWall * distance * distance / level.nodes.d(i);
     });
   });
-  return on_thin_wall;
+  return room;
 }
 
 bool connects_thin_wall(const Level<3>& level, const Point<3>& centroid, double d) {

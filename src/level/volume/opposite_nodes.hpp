@@ -21,9 +21,10 @@ namespace pnpbs {
 // ranks. Collective.
 PopulationCounts place_opposite_nodes(Level<3>& level);
 
-// By memory index, ghosts too: is this a node on a surface with another sheet that near? Such a
-// node stays where it is, opposite its partner. Collective.
-std::vector<char> nodes_on_thin_walls(const Level<3>& level);
+// By memory index, ghosts too: how far a node may go along its surface. If another sheet is that
+// near, the node stays opposite its partner, but for a part of t^2/d, where t is the distance of
+// the sheet; else it may go anywhere. Collective.
+std::vector<double> room_on_thin_walls(const Level<3>& level);
 
 // Does a tetrahedron with its centroid here connect the two sides of such a wall? d is the spacing
 // of its corners. Local.

@@ -13,7 +13,9 @@
 #include "base/space_vectors.hpp"
 #include "comm/records.hpp"
 #include "delaunay/volume/element_rule.hpp"
+#include "level/exchange.hpp"
 #include "level/finish.hpp"
+#include "level/reach.hpp"
 #include "level/volume/added_nodes.hpp"
 #include "level/volume/opposite_nodes.hpp"
 #include "method/constants.hpp"
@@ -341,10 +343,11 @@ ThinElementChanges change_nodes_of_thin_elements(Level<3>& level) {
     IncomingNodes<3> more;
     if (round == 0) agreed(*level.comm, [&] { more = nodes_in(level, thin.middles, ids); });
     const std::int64_t inserted = std::ssize(more);
+    if (level.comm->allreduce_sum(static_cast<std::uint64_t>(removed + inserted)) == 0) break;
+    exchange(level, kStarHops);  // nodes have moved, some into the parts of other ranks
     add_nodes(level, std::move(more));
     changes.counts.deleted += removed;
     changes.counts.inserted += inserted;
-    if (level.comm->allreduce_sum(static_cast<std::uint64_t>(removed + inserted)) == 0) break;
     prepare_finish(level);
     make_finish_stars(level, {});
   }
