@@ -230,7 +230,7 @@ END_TEST
 /* What a run tells of the nodes it began with holds for all of its rounds. */
 START_TEST(rounds_keep_what_was_left_out) {
   static const double xyz[] = {0, 0, 0, 9, 9, 9};
-  job it = rough_job(0.3, 11, 0.44);
+  job it = unresolved_job();
   MUST(pnpbs_placement_set_nodes(it.placement, 2, xyz, NULL));
   run_and_check_closed(&it);
   ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
