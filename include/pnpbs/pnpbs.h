@@ -878,16 +878,16 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  thin wall are as long as it is thick); PNPBS_NOT_CONFORMING, whatever else is true, if there are
  *  no tetrahedra, nodes are in none, some have no volume, their boundary is torn or has another
  *  Euler characteristic than the domain's, the volume differs from the domain's by more than 0.001
- *  of it and more than boundary faces cut off as chords, or triangles of surfaces alone do not join (a
- *  warning says which); PNPBS_STOPPED. The nodes are valid in all these cases. In space, before it
- *  would return PNPBS_NOT_CONFORMING, it reduces d around the places where elements are missing and
- *  continues from its nodes, up to `conforming_rounds` times; a warning reports the cost (statistic
- *  `unresolved_places`). It does so also where dihedral angles are smaller than the option
- *  `min_angle`. d stays reduced there until another spacing is set. There is also a warning where
- *  the boundary of the tetrahedra does not follow the surfaces (statistic `missing_faces`; see the
- *  option `resolve`), and where corners and sharp edges are left out (statistic `left_out`) because
- *  no tetrahedra connect to them: what lies between them is smaller than half of d, or the body
- *  ends there in a tip or an edge too sharp for any d. */
+ *  of it and more than boundary faces cut off as chords, or triangles of surfaces alone do not join
+ * (a warning says which); PNPBS_STOPPED. The nodes are valid in all these cases. In space, before
+ * it would return PNPBS_NOT_CONFORMING, it reduces d around the places where elements are missing
+ * and continues from its nodes, up to `conforming_rounds` times; a warning reports the cost
+ * (statistic `unresolved_places`). It does so also where dihedral angles are smaller than the
+ * option `min_angle`. d stays reduced there until another spacing is set. There is also a warning
+ * where the boundary of the tetrahedra does not follow the surfaces (statistic `missing_faces`; see
+ * the option `resolve`), and where corners and sharp edges are left out (statistic `left_out`)
+ * because no tetrahedra connect to them: what lies between them is smaller than half of d, or the
+ * body ends there in a tip or an edge too sharp for any d. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** Returns the dimension of the placement's domain. Local.
