@@ -333,7 +333,9 @@ Outcome PlacementOf<Dim>::return_to(FinishedRound<Dim> round) {
   state_.keep_counts(*now_.level);
   state_.go_back_to(std::move(round.state), *round.level);
   keep(std::move(round.level));
+  const double unresolved = now_.placed.held.least_before;  // known even if the first round counts
   now_.placed = std::move(round.placed);
+  now_.placed.held.least_before = unresolved;
   return round.outcome;
 }
 
