@@ -117,9 +117,9 @@ const std::vector<StatisticRow>& statistic_table() {
           "after a restart"),
       real(
           "unresolved_spacing", [](P p) { return p.unresolved_spacing(); },
-          "smallest d at the first of these places before it was reduced: a resolution for "
-          "pnpbs_domain_set_resurfaced that removes what d does not resolve; 0 without such "
-          "places"),
+          "smallest d at the first of these places before it was reduced, also where a smaller d did "
+          "not help: a resolution for pnpbs_domain_set_resurfaced that removes what d does not "
+          "resolve; 0 without such places"),
       real(
           "repaired.resolution", [](P p) { return p.repair_distances().resolution; },
           "resolution of the surface of a repaired body (pnpbs_domain_set_repair); the other "
