@@ -117,7 +117,8 @@ const std::vector<StatisticRow>& statistic_table() {
           "after a restart"),
       real(
           "unresolved_spacing", [](P p) { return p.unresolved_spacing(); },
-          "smallest d at the first of these places before it was reduced, also where a smaller d did "
+          "smallest d at the first of these places before it was reduced, also where a smaller d "
+          "did "
           "not help: a resolution for pnpbs_domain_set_resurfaced that removes what d does not "
           "resolve; 0 without such places"),
       real(

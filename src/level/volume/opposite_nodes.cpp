@@ -195,7 +195,8 @@ PopulationCounts replace_nodes(Level<3>& level) {
     for (const std::int32_t i : replacement.leaving) leaving += level.nodes.owned(i) != 0;
   });
   counts.deleted = static_cast<std::int64_t>(level.comm->allreduce_sum(leaving));
-  if (level.comm->allreduce_sum(replacement.partners.size()) + leaving == 0) return counts;
+  const std::uint64_t coming = level.comm->allreduce_sum(replacement.partners.size());
+  if (counts.deleted == 0 && coming == 0) return counts;
   scatter_to_owners(level, replacement.partners);
   delete_nodes(level, replacement.leaving);
   counts.inserted = add_nodes(level, in_gaps(level, replacement.partners, method::kPartnerGap));
