@@ -192,8 +192,10 @@ ThinElements thin_elements(Level<3>& level) {
   all.edges = of_all_ranks(*level.comm, own.edges);
   all.middles = of_all_ranks(*level.comm, own.middles);
   std::ranges::sort(all.edges, {}, &ShortEdge::key);
-  const auto repeated = std::ranges::unique(all.edges, {}, &ShortEdge::key);
-  all.edges.erase(repeated.begin(), repeated.end());
+  all.edges.erase(
+      std::unique(all.edges.begin(), all.edges.end(),
+                  [](const ShortEdge& a, const ShortEdge& b) { return a.key() == b.key(); }),
+      all.edges.end());
   std::ranges::sort(all.middles);
   return all;
 }
