@@ -6,7 +6,7 @@
 # documentation's commands, the record of the binary interface, exported symbols, an installed copy.
 set(PNPBS_TESTS_OF_quick
     # kernels and data structures
-    available_memory best_round boundary_topology cell_quality cholesky defects domain_map domain_rule
+    available_memory best_round boundary_topology cell_quality cholesky defects sized_tree domain_rule
     element_labels exact_sum execution first_row fixed_point forces initial_fill lawson_flips neighbors
     nodal_spacing output_files population population_contest repair resolved_spacing result_check schemes
     settings sizing_field slivers spacing speeds sphere sphere_cells surface_moves sweep tetrahedron_quality trees

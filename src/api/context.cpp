@@ -60,7 +60,7 @@ pnpbs_status create_context(pnpbs_context* handle, const auto& make_communicator
     const std::shared_ptr<Communicator> communicator = make_communicator();
     pnpbs_context added = nullptr;
     try {
-      agreed(*communicator, [&] {
+      collective_try(*communicator, [&] {
         auto context = std::make_shared<Context>();
         context->communicator = communicator;
         added = contexts().add(std::move(context));

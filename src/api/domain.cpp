@@ -19,7 +19,7 @@ namespace {
 template <class Question>
 pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
   return guarded(domain, [&](DomainObject& object) {
-    return in_its_dimension(object, [&](auto& checked) {
+    return visit_dimension(object, [&](auto& checked) {
       if (!checked.is_checked()) {
         const Computing computing(*object.context);
         checked.check();
@@ -253,7 +253,7 @@ pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n, const 
     if (n > 0) require_pointer(coordinates, "coordinates");
     std::vector<double> charted;
     coordinates = placed_coordinates(sphere_of(object), n, coordinates, charted);
-    in_its_dimension(object, [&](auto& d) { d.add_fixed_nodes(n, coordinates, tags); });
+    visit_dimension(object, [&](auto& d) { d.add_fixed_nodes(n, coordinates, tags); });
   });
 }
 

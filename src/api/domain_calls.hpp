@@ -29,7 +29,7 @@ inline VolumeDomain& volume_of(const DomainObject& object) {
 
 // Calls work(domain) with it as what it is.
 template <class Work>
-auto in_its_dimension(const DomainObject& object, const Work& work) {
+auto visit_dimension(const DomainObject& object, const Work& work) {
   return object.plane ? work(*object.plane) : work(*object.volume);
 }
 

@@ -35,7 +35,7 @@ pnpbs_status pnpbs_domain_read_msh(pnpbs_domain domain, const char* path, double
     given_values::require_angle("feature_angle", feature_angle);
     require_no_sphere(sphere_of(object), "domain", "meshes are read");
     const MshMesh mesh = read_msh(path);
-    in_its_dimension(object, [&](auto& d) { add_msh(d, mesh, feature_angle); });
+    visit_dimension(object, [&](auto& d) { add_msh(d, mesh, feature_angle); });
   });
 }
 
@@ -58,7 +58,7 @@ pnpbs_status pnpbs_domain_set_tag_name(pnpbs_domain domain, int32_t dim, int32_t
   return change_domain(domain, [&](DomainObject& object) {
     require_pointer(name, "name");
     if (*name == '\0') throw Error(ErrorKind::argument, "argument name is empty");
-    in_its_dimension(object, [&](auto& d) { d.names().set(group_from(object, dim, tag), name); });
+    visit_dimension(object, [&](auto& d) { d.names().set(group_from(object, dim, tag), name); });
   });
 }
 

@@ -145,7 +145,7 @@ pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capac
     const std::int64_t owned = results.count(), ghosts = results.held() - owned;
     require_capacity(capacity, ghosts);
     copy_nodes(results, owned, ghosts, coordinates, ids, tags, spacing);
-    in_its_dimension(results, [&](const auto& in) {
+    visit_dimension(results, [&](const auto& in) {
       for (std::int64_t g = 0; owners && g < ghosts; ++g)
         owners[g] = in.owner_of(results.node_at(owned + g));
     });
@@ -157,7 +157,7 @@ pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t* 
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(entries, "entries");
     results.prepare_lists();
-    *entries = in_its_dimension(results, [](const auto& in) { return adjacency_entries(in); });
+    *entries = visit_dimension(results, [](const auto& in) { return adjacency_entries(in); });
     return PNPBS_OK;
   });
 }
@@ -167,7 +167,7 @@ pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t ca
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(offsets, "offsets");
     results.prepare_lists();
-    return in_its_dimension(results, [&](const auto& in) {
+    return visit_dimension(results, [&](const auto& in) {
       require_capacity(capacity, adjacency_entries(in));
       if (capacity > 0) require_pointer(neighbours, "neighbours");
       std::int64_t at = 0;
@@ -188,7 +188,7 @@ pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t* entri
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(entries, "entries");
     results.prepare_stars();
-    *entries = in_its_dimension(results, [](const auto& in) { return star_entries(in); });
+    *entries = visit_dimension(results, [](const auto& in) { return star_entries(in); });
     return PNPBS_OK;
   });
 }
@@ -198,7 +198,7 @@ pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capaci
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(offsets, "offsets");
     results.prepare_stars();
-    return in_its_dimension(results, [&](const auto& in) {
+    return visit_dimension(results, [&](const auto& in) {
       require_capacity(capacity, star_entries(in));
       if (capacity > 0) require_pointer(neighbours, "neighbours");
       std::int64_t at = 0;
@@ -297,7 +297,7 @@ pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t
                   "argument placement has surfaces alone: their tags come with "
                   "pnpbs_placement_get_boundary_triangles");
     results.prepare_stars();
-    pnpbs::in_its_dimension(results, [&]<int Dim>(const Results<Dim>& in) {
+    pnpbs::visit_dimension(results, [&]<int Dim>(const Results<Dim>& in) {
       *count = 0;
       in.for_elements([&](const auto&) { ++*count; });
       if (capacity == 0 && !tags) return;
@@ -340,7 +340,7 @@ pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, i
 pnpbs_status pnpbs_placement_check(pnpbs_placement placement) {
   std::optional<MessageText> lacking;
   const pnpbs_status status = collective_results(placement, [&](NodalResults& results) {
-    in_its_dimension(results, [&](auto& in) { lacking = check_results(in); });
+    visit_dimension(results, [&](auto& in) { lacking = check_results(in); });
     return PNPBS_OK;
   });
   if (status != PNPBS_OK || !lacking) return status;

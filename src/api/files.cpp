@@ -2,7 +2,7 @@
 // Files of the C interface.
 #include <optional>
 
-#include "api/file_wishes.hpp"
+#include "api/file_requests.hpp"
 #include "api/placement_calls.hpp"
 #include "io/checkpoint.hpp"
 #include "io/temporaries.hpp"
@@ -15,10 +15,10 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
                                          const char* const* paths, const char* const* formats,
                                          const int32_t* elements) {
   return collective_on_object(placement, [&](PlacementObject& object) {
-    const std::vector<io::FileWish> wishes =
-        wishes_of(n, paths, formats, elements, io::wished_of(*object.placement));
-    require_same_wishes(object.placement->communicator(), wishes);
-    io::write_files(*object.placement, object.output_fields, wishes);
+    const std::vector<io::FileRequest> requests =
+        requests_of(n, paths, formats, elements, io::requested_of(*object.placement));
+    require_same_requests(object.placement->communicator(), requests);
+    io::write_files(*object.placement, object.output_fields, requests);
     return PNPBS_OK;
   });
 }
@@ -56,7 +56,7 @@ pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const c
                   "from inside a callback, only the monitor can write a checkpoint, when it is "
                   "called between two steps of this placement: not before the first nodes are "
                   "placed, on coarser levels, or in the finish");
-    agreed(object.placement->communicator(), [&] {
+    collective_try(object.placement->communicator(), [&] {
       require_pointer(path, "path");
       io::write_checkpoint(*object.placement, path);
     });

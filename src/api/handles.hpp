@@ -16,7 +16,7 @@
 #include "io/output_fields.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "particles/particles.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 #include "pnpbs/pnpbs.h"
 #include "settings/options.hpp"
 #include "transfer/field_transfer.hpp"

@@ -51,7 +51,7 @@ pnpbs_status copy_connectivity(pnpbs_mesh mesh, std::int64_t capacity, Number* n
 }
 
 void require_prefix(const Communicator& comm, const char* prefix) {
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     require_pointer(prefix, "prefix");
     if (*prefix == 0)
       throw Error(ErrorKind::argument,
@@ -173,7 +173,7 @@ pnpbs_status pnpbs_mesh_write(pnpbs_mesh mesh, const char* prefix) {
   return guarded(mesh, [&](MeshObject& object) {
     const Computing computing(*object.context);
     const Communicator& comm = *object.context->communicator;
-    agreed(comm, [&] {
+    collective_try(comm, [&] {
       require_prefix(comm, prefix);
       io::write_msh_parts(comm, *object.mesh, prefix);
     });

@@ -4,7 +4,7 @@
 
 #include "api/copy_out.hpp"
 #include "api/domain_calls.hpp"
-#include "api/file_wishes.hpp"
+#include "api/file_requests.hpp"
 #include "api/placement_calls.hpp"
 #include "api/sphere_points.hpp"
 #include "io/write_particles.hpp"
@@ -44,11 +44,11 @@ pnpbs_status pnpbs_particles_create(pnpbs_placement placement, pnpbs_domain body
   const auto make = [&](PlacementObject& object) {
     const NodalResults& results = object.placement->results();
     std::shared_ptr<DomainObject> within;
-    agreed(results.communicator(), [&] {
+    collective_try(results.communicator(), [&] {
       within = body_with(*object.context, results.dimension() == 2, body);
       require_body(results);
       require_no_sphere(sphere_of(object), "placement", "particles are made");
-      in_its_dimension(*within, [](auto& domain) { domain.check(); });
+      visit_dimension(*within, [](auto& domain) { domain.check(); });
     });
     const std::shared_ptr<PlacementObject> of = require(placement);
     return within->plane ? made<2>(of, *within->plane) : made<3>(of, *within->volume);
@@ -117,11 +117,11 @@ pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t n, const c
       return placement &&
              placement->placement->monitoring().asks_to_stop(fraction, object.particles->all);
     };
-    agreed(*comm, [&] {
-      const std::vector<io::FileWish> wishes =
-          wishes_of(n, paths, formats, nullptr, {object.particles->dimension});
-      require_same_wishes(*comm, wishes);
-      io::write_particles(comm, *object.particles, object.names, object.output_fields, wishes,
+    collective_try(*comm, [&] {
+      const std::vector<io::FileRequest> requests =
+          requests_of(n, paths, formats, nullptr, {object.particles->dimension});
+      require_same_requests(*comm, requests);
+      io::write_particles(comm, *object.particles, object.names, object.output_fields, requests,
                           asks_to_stop);
     });
     return PNPBS_OK;

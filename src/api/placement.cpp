@@ -27,8 +27,9 @@ pnpbs_status status_of(Outcome outcome) { return static_cast<pnpbs_status>(outco
 std::unique_ptr<Placement> placement_in(const DomainObject& domain,
                                         std::shared_ptr<const Communicator> comm,
                                         const Options& options) {
-  if (domain.plane) return std::make_unique<PlacementOf<2>>(std::move(comm), domain.plane, options);
-  return std::make_unique<PlacementOf<3>>(std::move(comm), domain.volume, options);
+  if (domain.plane)
+    return std::make_unique<PlacementImpl<2>>(std::move(comm), domain.plane, options);
+  return std::make_unique<PlacementImpl<3>>(std::move(comm), domain.volume, options);
 }
 
 void forget_all_nodes() {
@@ -53,7 +54,7 @@ pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
     *placement = nullptr;
     require_not_in_callback(object);
     std::shared_ptr<PlacementObject> made;
-    agreed(*object.communicator, [&] {
+    collective_try(*object.communicator, [&] {
       const auto of = require(domain);
       if (of->context.get() != &object)
         throw Error(ErrorKind::argument,
@@ -147,14 +148,15 @@ IncomingNodes<Dim> checked_nodes(std::int64_t n, const double* coordinates,
 pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
                                        const double* coordinates, const int64_t* ids) {
   return local_change(placement, [&](Placement& p) {
-    return in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& placement_of) {
+    return visit_dimension(p, [&]<int Dim>(PlacementImpl<Dim>& placement_impl) {
       IncomingNodes<Dim> nodes;
-      agreed(p.communicator(), [&] {
+      collective_try(p.communicator(), [&] {
         std::vector<double> charted;
         nodes = checked_nodes<Dim>(
-            n, placed_coordinates(placement_of.domain().embedding(), n, coordinates, charted), ids);
+            n, placed_coordinates(placement_impl.domain().embedding(), n, coordinates, charted),
+            ids);
       });
-      placement_of.set_nodes(std::move(nodes));  // on all ranks or none
+      placement_impl.set_nodes(std::move(nodes));  // on all ranks or none
       return PNPBS_OK;
     });
   });
@@ -226,7 +228,7 @@ pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* va
       return PNPBS_OK;
     }
     const Communicator& comm = object.placement->communicator();
-    agreed(comm, find);
+    collective_try(comm, find);
     require_same_key(comm, key);
     agreed_on(*object.placement, get);
     return PNPBS_OK;

@@ -20,7 +20,7 @@ pnpbs_status local_change(pnpbs_placement placement, const Body& body) {
 template <class Work>
 void agreed_on(Placement& placement, const Work& work) {
   try {
-    agreed(placement.communicator(), work);
+    collective_try(placement.communicator(), work);
   } catch (...) {
     placement.results().agree_on_derived();
     throw;

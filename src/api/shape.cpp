@@ -129,9 +129,9 @@ pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
   return collective(placement, [&](Placement& p) {
     const ShapeDemands demands = demands_from(nodes_per_turn, nodes_across, nodes_per_edge);
     const ShapeLimits limits = limits_from(growth, min_spacing, max_spacing);
-    in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
+    visit_dimension(p, [&]<int Dim>(PlacementImpl<Dim>& in) {
       std::shared_ptr<const Spacing<Dim>> spacing;
-      agreed(p.communicator(), [&] {
+      collective_try(p.communicator(), [&] {
         in.domain().check();
         require_shape(in.domain());
         spacing = spacing_on_sphere(in.domain().embedding(), [&](double) {

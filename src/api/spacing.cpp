@@ -9,9 +9,9 @@
 #include "api/sphere_points.hpp"
 #include "domain/given_values.hpp"
 #include "results/nodal_values.hpp"
-#include "spacing/beside_domain.hpp"
 #include "spacing/files/field_file.hpp"
 #include "spacing/given_field.hpp"
+#include "spacing/outside_domain.hpp"
 #include "spacing/sphere_spacing.hpp"
 
 using namespace pnpbs;
@@ -24,7 +24,7 @@ namespace {
 template <class Make>
 pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
   return local_change(placement, [&](Placement& p) {
-    in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
+    visit_dimension(p, [&]<int Dim>(PlacementImpl<Dim>& in) {
       std::shared_ptr<const Spacing<Dim>> spacing;
       agreed_on(p, [&] { spacing = make(in); });
       in.set_spacing(std::move(spacing));
@@ -35,7 +35,7 @@ pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
 
 // make<Dim>() is a spacing that every rank has; on a sphere of points in space.
 template <int Dim, class Make>
-std::shared_ptr<const Spacing<Dim>> local_spacing(const PlacementOf<Dim>& in, const Make& make) {
+std::shared_ptr<const Spacing<Dim>> local_spacing(const PlacementImpl<Dim>& in, const Make& make) {
   const auto shared = [&]<int In>() {
     using Made = decltype(make.template operator()<In>());
     return std::make_shared<const Made>(make.template operator()<In>());
@@ -88,7 +88,7 @@ void add_elements(Field& field, std::int64_t elements, const std::int64_t* corne
 template <class Read>
 pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
   return local_change(placement, [&](Placement& p) {
-    in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
+    visit_dimension(p, [&]<int Dim>(PlacementImpl<Dim>& in) {
       const Communicator& comm = p.communicator();
       std::shared_ptr<const Spacing<Dim>> spacing;
       std::uint64_t hash = 0;
@@ -98,13 +98,13 @@ pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
         in.domain().check();
         spacing = spacing_from_field(std::move(field), where());
       };
-      agreed(comm, [&] {
+      collective_try(comm, [&] {
         if constexpr (Dim == 2)
           if (const Embedding<2>& on = in.results().embedding(); on.is_sphere())
             return take.template operator()<SphereField>([&] { return on.chart(); });
         take.template operator()<GivenField<Dim>>([&] { return in.domain().bounds(); });
       });
-      agreed(comm, [&] {
+      collective_try(comm, [&] {
         if (!comm.same_on_all(hash))
           throw Error(ErrorKind::argument,
                       "arguments of the spacing: all ranks must give the same points and values");
@@ -141,7 +141,7 @@ pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement, const c
 }
 
 pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d) {
-  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementImpl<Dim>& in) {
     require_spacing(d, "d");
     return local_spacing<Dim>(in, [&]<int In>() { return ConstantSpacing<In>(d); });
   });
@@ -149,7 +149,7 @@ pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, dou
 
 pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                   pnpbs_spacing_fn spacing, void* user) {
-  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementImpl<Dim>& in) {
     return local_spacing<Dim>(in, [&]<int In>() { return spacing_from<In>(spacing, user); });
   });
 }
@@ -157,7 +157,7 @@ pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
 pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const int64_t* size,
                                               const double* origin, const double* step,
                                               const double* values) {
-  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementImpl<Dim>& in) {
     const GivenGrid grid{size, origin, step, values};
     std::shared_ptr<const Spacing<Dim>> spacing =
         spacing_on_sphere(in.domain().embedding(),
@@ -173,7 +173,7 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
 
 pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
                                                   const double* d) {
-  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementImpl<Dim>& in) {
     Results<Dim>& results = in.results();
     results.prepare_order();
     if (n != results.count())

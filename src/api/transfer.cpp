@@ -17,7 +17,7 @@ template <class Body>
 pnpbs_status collective(pnpbs_transfer transfer, const Body& body) {
   return guarded(transfer, [&](TransferObject& object) {
     const Computing computing(*object.context);
-    agreed(*object.context->communicator, [&] { body(object); });
+    collective_try(*object.context->communicator, [&] { body(object); });
     return PNPBS_OK;
   });
 }
@@ -48,7 +48,7 @@ pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t
       placement, transfer, "transfer", transfers, [&](PlacementObject& object) {
         NodalResults& results = object.placement->results();
         const Communicator& comm = results.communicator();
-        agreed(comm, [&] { require_field(results, n, components, values); });
+        collective_try(comm, [&] { require_field(results, n, components, values); });
         if (!comm.same_on_all(static_cast<std::uint64_t>(components)))
           throw Error(ErrorKind::argument, "argument components = " + std::to_string(components) +
                                                " here; all ranks must give the same");
@@ -118,7 +118,7 @@ pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement pl
   return guarded(transfer, [&](TransferObject& object) {
     const auto target = require(placement);
     const Computing computing(*object.context);
-    agreed(*object.context->communicator, [&] {
+    collective_try(*object.context->communicator, [&] {
       if (target->context != object.context)
         throw Error(ErrorKind::argument,
                     "argument placement belongs to another context than the transfer");

@@ -69,8 +69,8 @@ std::vector<LedEntities> first_numbers(const Communicator& comm,
     std::ranges::sort(entries, {}, &Entry::id);
   }
   const LedEntities here = sum_of(entries);
-  count_up(entries, {comm.sum_before(here.cells), comm.sum_before(here.edges),
-                     comm.sum_before(here.vertices)});
+  count_up(entries, {comm.exclusive_scan(here.cells), comm.exclusive_scan(here.edges),
+                     comm.exclusive_scan(here.vertices)});
   std::vector<std::int64_t> sums{here.cells, here.edges, here.vertices};
   comm.allreduce_sum(sums);
   total = {sums[0], sums[1], sums[2]};

@@ -80,12 +80,12 @@ class SurfacePieces {
 
 double farthest_surface(const Level<3>& level, const std::vector<Face>& faces) {
   const SurfacePieces pieces(faces);
-  const Surface& surface = level.ground.surface();
+  const Surface& surface = level.geometry.surface();
   double farthest = 0;
   for (std::int32_t f = level.comm->rank();
-       f < static_cast<std::int32_t>(level.ground.boundary().facets.size());
+       f < static_cast<std::int32_t>(level.geometry.boundary().facets.size());
        f += level.comm->size())
-    if (surface.patch(f) >= 0 && level.ground.bounds_domain(f))
+    if (surface.patch(f) >= 0 && level.geometry.bounds_domain(f))
       farthest = std::max(farthest, pieces.farthest(surface.corners(f)));
   return farthest;
 }
@@ -99,13 +99,13 @@ BoundaryDistance boundary_distance(const Results<3>& results) {
   if (results.kind() != GeometryKind::body) return {};
   BoundaryDistance distance;
   std::vector<Face> own;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     own = own_faces(results);
-    distance.of_faces = farthest_face(own, results.level().ground.domain().index());
+    distance.of_faces = farthest_face(own, results.level().geometry.domain().index());
   });
   const std::vector<Face> all = of_all_ranks(comm, own);
   if (all.empty()) return {};
-  agreed(comm, [&] { distance.of_surfaces = farthest_surface(results.level(), all); });
+  collective_try(comm, [&] { distance.of_surfaces = farthest_surface(results.level(), all); });
   return {comm.allreduce_max(distance.of_faces), comm.allreduce_max(distance.of_surfaces)};
 }
 

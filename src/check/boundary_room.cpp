@@ -16,7 +16,7 @@ constexpr double kEnough = 1.27;
 }  // namespace
 
 template <int Dim>
-BoundaryRoom<Dim>::BoundaryRoom(const DomainMap<Dim>& map, const SpacingEvaluator<Dim>& spacing,
+BoundaryRoom<Dim>::BoundaryRoom(const SizedTree<Dim>& map, const SpacingEvaluator<Dim>& spacing,
                                 double reach)
     : map_(map), reach_(reach) {
   std::vector<Box<Dim>> boxes;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "domain/domain.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {
@@ -17,7 +17,7 @@ class BoundaryRoom {
  public:
   // The map stays the caller's. d is asked at the boundary's nodes in the plane. In space the room
   // reaches so far, in d.
-  BoundaryRoom(const DomainMap<Dim>& map, const SpacingEvaluator<Dim>& spacing, double reach);
+  BoundaryRoom(const SizedTree<Dim>& map, const SpacingEvaluator<Dim>& spacing, double reach);
 
   // Does it hold x, which is inside, where the spacing is d?
   bool holds(const Point<Dim>& x, double d) const;
@@ -35,7 +35,7 @@ class BoundaryRoom {
  private:
   double push_of(std::int32_t f, const Point<Dim>& x, double d) const;  // in the plane alone
 
-  const DomainMap<Dim>& map_;
+  const SizedTree<Dim>& map_;
   BoxTree<Dim> boxes_;     // of the facets
   std::vector<double> d_;  // at the boundary's nodes
   double reach_;

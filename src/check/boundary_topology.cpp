@@ -27,7 +27,7 @@ bool is_bridging(const Level<3>& level, std::int64_t i) {
 std::vector<Point<3>> places_of_other_topology(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);
   std::vector<Point<3>> bridging, extra;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const std::set<std::int64_t> too_many = pieces_too_many(level, pieces);
     const auto at = [&](const auto& is_one) {
       std::vector<Point<3>> places;

@@ -26,7 +26,7 @@ bool in_no_element(const Level<2>& level, std::int64_t i) {
   return none;
 }
 bool in_no_element(const Level<3>& level, std::int64_t i) {
-  if (level.ground.kind() != GeometryKind::surface) return level.stars.size(i) == 0;
+  if (level.geometry.kind() != GeometryKind::surface) return level.stars.size(i) == 0;
   bool none = true;
   level.stars.for_triangles(i, [&](const std::array<std::int32_t, 2>&) { none = false; });
   return none;
@@ -83,7 +83,7 @@ Conformity<Dim> conformity_of(const Results<Dim>& results) {
   const Nodes<Dim>& nodes = level.nodes;
   Conformity<Dim> result;
   FoundNodes<Dim> isolated;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     const auto is_isolated = [&](std::int64_t i) {
       return nodes.owned(i) && in_no_element(level, i);
     };
@@ -94,7 +94,7 @@ Conformity<Dim> conformity_of(const Results<Dim>& results) {
   });
   result.nodes = results.global_count();
   result.isolated = over_ranks(comm, isolated);
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     result.unmatched = unmatched_edges(results, result.torn);
     result.measure = measure_in(results);
     result.boundary = topology_of(results, result);
@@ -123,7 +123,7 @@ MessageText text_of(const Conformity<Dim>& conformity, const Results<Dim>& resul
   const std::string element = elements_of(results);
   if (!conformity.any_elements()) {
     const SpacingRange d = spacing_range<Dim>(*level.comm, level.nodes);
-    const double side = size_of<Dim>(level.ground.bounds());
+    const double side = size_of<Dim>(level.geometry.bounds());
     return "no " + element + " at all, among " + std::to_string(conformity.nodes) + " nodes" +
            (d.empty() ? "" : " with a spacing of " + rounded_text(d.min) + " or more") +
            ": the longest side of the domain is " + rounded_text(side) +

@@ -27,7 +27,7 @@ class Measuring : public VolumeNodeCheck {
   explicit Measuring(const Results<3>& results)
       : VolumeNodeCheck(results),
         alone_(results.kind() == GeometryKind::surface),
-        domain_(alone_ ? ground_.domain().area() : ground_.measure()) {}
+        domain_(alone_ ? geometry_.domain().area() : geometry_.measure()) {}
 
   ElementMeasure all() const {
     ElementMeasure measure = of_elements();
@@ -88,7 +88,7 @@ class Measuring : public VolumeNodeCheck {
     double enclosed = 0, rounding = 0, cut_off = 0, chord = 0, absolute_chord = 0;
     p_.for_open_facets([&](const Three& places) {
       const std::array<Point<3>, 3> x = positions_at(places);
-      const Point<3>& low = ground_.bounds().low;
+      const Point<3>& low = geometry_.bounds().low;
       const Point<3> p = difference(x[0], low), q = difference(x[1], low),
                      r = difference(x[2], low);
       enclosed += dot(p, cross(q, r)) / 6;
@@ -115,7 +115,7 @@ class Measuring : public VolumeNodeCheck {
     for (std::size_t k = 0; k < 3; ++k) {
       const Point<3> x = middle_of<3>(corners[k], corners[(k + 1) % 3]);
       const NearestPoint<3> nearest =
-          ground_.domain().index().nearest(x, std::numeric_limits<double>::infinity());
+          geometry_.domain().index().nearest(x, std::numeric_limits<double>::infinity());
       const double part = dot(difference(nearest.x, x), normal) / 6;
       error[0] += part;
       error[1] += std::fabs(part);
@@ -156,9 +156,9 @@ class Measuring : public VolumeNodeCheck {
     const Point<3> middle = middle_of<3>(a, b);
     const double length = distance<3>(a, b);
     const NearestPoint<3> nearest =
-        ground_.domain().index().nearest(middle, std::numeric_limits<double>::infinity());
-    if (ground_.surface().patch(nearest.facet) < 0) return 0;
-    const double beside = ground_.surface().feature_clearance({nearest.facet, nearest.x}, length);
+        geometry_.domain().index().nearest(middle, std::numeric_limits<double>::infinity());
+    if (geometry_.surface().patch(nearest.facet) < 0) return 0;
+    const double beside = geometry_.surface().feature_clearance({nearest.facet, nearest.x}, length);
     return 2 * length * (beside + nearest.gap);
   }
 

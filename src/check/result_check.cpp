@@ -19,8 +19,8 @@ class ResultCheck : public NodeCheck<2> {
  public:
   explicit ResultCheck(const Results<2>& results)
       : NodeCheck<2>(results),
-        boundary_(level_.ground.boundary()),
-        closed_(level_.ground.domain().closing() != nullptr) {
+        boundary_(level_.geometry.boundary()),
+        closed_(level_.geometry.domain().closing() != nullptr) {
     sectors_.build(boundary_);
   }
 
@@ -74,7 +74,7 @@ void ResultCheck::check_boundary_nodes() const {
   check_laid_come_once(
       std::move(times), [this](std::size_t b) { return laid(b); },
       [this](std::size_t b) {
-        return level_.margin != PatchMargin::laid && level_.ground.domain().is_in_margin(laid(b));
+        return level_.margin != PatchMargin::laid && level_.geometry.domain().is_in_margin(laid(b));
       });
 }
 
@@ -185,7 +185,7 @@ Enclosed enclosed_by(const Boundary& boundary, const Box<2>& bounds) {
 
 void ResultCheck::check_area() const {
   constexpr double kTolerance = 1e-9;
-  const Enclosed enclosed = enclosed_by(boundary_, level_.ground.bounds());
+  const Enclosed enclosed = enclosed_by(boundary_, level_.geometry.bounds());
   if (!(enclosed.area > enclosed.rounding)) return;  // too thin to be measured
   const double area = area_of_triangles(enclosed.area);
   if (std::fabs(area - enclosed.area) <= kTolerance * enclosed.area + enclosed.rounding) return;

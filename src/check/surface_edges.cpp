@@ -55,7 +55,7 @@ std::int64_t sheets_at(const Results<3>& results, std::int64_t i, std::int64_t j
   const Level<3>& level = results.level();
   const Nodes<3>& nodes = level.nodes;
   if (!is_feature_node(nodes, i) || !is_feature_node(nodes, j)) return 0;
-  const FeatureNodes& features = level.ground.features();
+  const FeatureNodes& features = level.geometry.features();
   const std::int32_t a = nodes.boundary_node(i), b = nodes.boundary_node(j);
   if (!features.joined(a, b)) return 0;
   const auto curve_of = [&](std::int32_t n) {
@@ -67,7 +67,7 @@ std::int64_t sheets_at(const Results<3>& results, std::int64_t i, std::int64_t j
     if (row.size() == 2 && std::minmax(row[0], row[1]) == std::minmax(a, b))
       curve = static_cast<std::int32_t>(c);
   }
-  const Surface& surface = level.ground.surface();
+  const Surface& surface = level.geometry.surface();
   const FeatureCurve& along = surface.features().curves[static_cast<std::size_t>(curve)];
   return std::ranges::count_if(along.facets.front(),
                                [&](std::int32_t f) { return surface.patch(f) >= 0; });

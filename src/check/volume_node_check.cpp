@@ -15,8 +15,8 @@
 namespace pnpbs {
 
 VolumeNodeCheck::VolumeNodeCheck(const Results<3>& results)
-    : NodeCheck<3>(results), ground_(level_.ground) {
-  for (const std::shared_ptr<const LevelSet>& set : ground_.domain().level_sets().sets)
+    : NodeCheck<3>(results), geometry_(level_.geometry) {
+  for (const std::shared_ptr<const LevelSet>& set : geometry_.domain().level_sets().sets)
     if (set) resolution_ = std::max(resolution_, set->resolution());
 }
 
@@ -32,16 +32,16 @@ void VolumeNodeCheck::check_sides() const {
     else if (nodes_.carrier(i) == Carrier::surface)
       check_on_surface(i);
     else
-      check_inside(i, ground_.domain().index().sides());
+      check_inside(i, geometry_.domain().index().sides());
   });
 }
 
 // To the plane of the facet next to it, if its foot lies in that: along a needle the foot itself is
 // uncertain by many roundings.
 double VolumeNodeCheck::gap_to_facet(const Point<3>& x) const {
-  const SurfaceIndex& index = ground_.domain().index();
+  const SurfaceIndex& index = geometry_.domain().index();
   const NearestPoint<3> nearest = index.nearest(x, std::numeric_limits<double>::infinity());
-  const FacetCorners<3> corners = ground_.surface().corners(nearest.facet);
+  const FacetCorners<3> corners = geometry_.surface().corners(nearest.facet);
   const auto [v, w] = nearest_triangle_point(corners, x).along;
   const Point<3> normal =
       cross(difference(corners[1], corners[0]), difference(corners[2], corners[0]));
@@ -52,14 +52,14 @@ double VolumeNodeCheck::gap_to_facet(const Point<3>& x) const {
 // As near to it as rounding lets it lie; to the triangles of a level set, as it may be moved.
 void VolumeNodeCheck::check_on_surface(std::int64_t i) const {
   const double gap = gap_to_facet(position(i));
-  const LevelSet* set = ground_.domain().level_sets().at(nodes_.boundary_node(i));
-  if (gap > (set ? set->resolution() : 0) + 0x1p-44 * farthest_coordinate<3>(ground_.bounds()))
+  const LevelSet* set = geometry_.domain().level_sets().at(nodes_.boundary_node(i));
+  if (gap > (set ? set->resolution() : 0) + 0x1p-44 * farthest_coordinate<3>(geometry_.bounds()))
     fail_check("node " + name(i) + " is on a surface, but " + rounded_text(gap) +
                " away from the next one");
 }
 
 void VolumeNodeCheck::check_feature_nodes() const {
-  std::vector<std::int64_t> times(ground_.features().nodes.size(), 0);
+  std::vector<std::int64_t> times(geometry_.features().nodes.size(), 0);
   for_owned([&](std::int64_t i) {
     if (is_feature_node(i)) ++times[static_cast<std::size_t>(nodes_.boundary_node(i))];
   });

@@ -30,13 +30,13 @@ class VolumeNodeCheck : public NodeCheck<3> {
     return nodes_.boundary_node(i) >= 0 && nodes_.carrier(i) != Carrier::surface;
   }
   double gap_to_surface(const Point<3>& x) const {
-    return ground_.domain().index().clearance(x, std::numeric_limits<double>::infinity());
+    return geometry_.domain().index().clearance(x, std::numeric_limits<double>::infinity());
   }
   std::array<Point<3>, 3> positions_at(const Three& places) const;
   // Between a triangle and the surface, at its middle and those of its edges.
   double max_gap(const std::array<Point<3>, 3>& corners) const;
 
-  const Ground<3>& ground_;
+  const LevelGeometry<3>& geometry_;
   double resolution_ = 0;  // of the domain's level sets; 0 without any
 
  private:
@@ -44,7 +44,7 @@ class VolumeNodeCheck : public NodeCheck<3> {
   void check_sides() const;
   // Of those on feature edges each comes once.
   void check_feature_nodes() const;
-  const Point<3>& laid(std::size_t n) const { return ground_.features().nodes[n].position; }
+  const Point<3>& laid(std::size_t n) const { return geometry_.features().nodes[n].position; }
   void check_on_surface(std::int64_t i) const;
   double gap_to_facet(const Point<3>& x) const;
 };

@@ -22,7 +22,7 @@ struct SavedState {
   std::int64_t coarser_levels = 0, steps_done = 0, inserted = 0, deleted = 0, dropped = 0,
                rebuilds = 0, rebalances = 0, stop_reason = 0, outcome = 0, missing_faces = 0,
                spacing_saved = 0, left_out = 0;
-  std::int64_t held_rounds = 0, nodes_before_held = 0;
+  std::int64_t held_rounds = 0, start_nodes_before_reduction = 0;
   double max_speed = 0, mean_speed = 0, meeting_radius = 0, least_before_held = 0, count_factor = 1;
   std::uint64_t domain_fingerprint = 0;
   std::uint64_t checksum = 0;  // of the nodes, whatever their order, and of the tables
@@ -30,8 +30,9 @@ struct SavedState {
   std::string warnings;        // of the last run: see saved_warnings.hpp
 
   // These are tables: rows of numbers of a fixed length. for_tables() visits them.
-  std::vector<double> held;          // places where d is reduced, each followed by d there
-  std::vector<double> finer_places;  // SizingField::finer_places(): the same of d found there
+  std::vector<double> held;  // places where d is reduced, each followed by d there
+  std::vector<double>
+      undersampled_points;  // SizingField::undersampled_points(): the same of d found there
   std::vector<double> finer_slopes;  // places, growth from there, d there, 1 if surely inside
   std::vector<double> edge_bands;    // of the last finish
   std::vector<double> steepest;      // how the spacing grows: a place, and the growth there
@@ -65,7 +66,7 @@ void for_fields(State& state, const Visit& visit) {
   visit("spacing_saved", state.spacing_saved);
   visit("left_out", state.left_out);
   visit("held_rounds", state.held_rounds);
-  visit("nodes_before_held", state.nodes_before_held);
+  visit("nodes_before_held", state.start_nodes_before_reduction);
   visit("least_before_held", state.least_before_held);
   visit("count_factor", state.count_factor);
   visit("max_speed", state.max_speed);
@@ -81,7 +82,7 @@ void for_fields(State& state, const Visit& visit) {
 template <class State, class Visit>
 void for_tables(State& state, const Visit& visit) {
   visit("held", state.held);
-  visit("finer_places", state.finer_places);
+  visit("finer_places", state.undersampled_points);
   visit("finer_slopes", state.finer_slopes);
   visit("edge_bands", state.edge_bands);
   visit("steepest", state.steepest);

@@ -28,14 +28,14 @@ namespace {
 bool is_flag(std::int64_t value) { return value == 0 || value == 1; }
 
 // Is this a node that a level with that ground can have?
-bool fits_ground(const Ground<2>& ground, const PackedNode<2>& node) {
+bool fits_geometry(const LevelGeometry<2>& geometry, const PackedNode<2>& node) {
   if (node.carrier == Carrier::free) return node.boundary_node == -1;
   if (node.carrier != Carrier::fixed) return false;
-  if (node.boundary_node == -1) return ground.domain().is_in_margin(node.x);  // held there
-  return node.boundary_node >= 0 && node.boundary_node < ground.boundary_nodes() &&
-         ground.boundary().nodes[static_cast<std::size_t>(node.boundary_node)].position == node.x;
+  if (node.boundary_node == -1) return geometry.domain().is_in_margin(node.x);  // held there
+  return node.boundary_node >= 0 && node.boundary_node < geometry.boundary_nodes() &&
+         geometry.boundary().nodes[static_cast<std::size_t>(node.boundary_node)].position == node.x;
 }
-bool fits_ground(const Ground<3>& ground, const PackedNode<3>& node) {
+bool fits_geometry(const LevelGeometry<3>& geometry, const PackedNode<3>& node) {
   const auto in = [](std::int32_t index, std::size_t n) {
     return index >= 0 && static_cast<std::size_t>(index) < n;
   };
@@ -43,12 +43,12 @@ bool fits_ground(const Ground<3>& ground, const PackedNode<3>& node) {
     case Carrier::free:
       return node.boundary_node == -1 && node.reference_on == -1;
     case Carrier::surface:
-      return in(node.boundary_node, ground.boundary().facets.size()) &&
-             in(node.reference_on, ground.boundary().facets.size());
+      return in(node.boundary_node, geometry.boundary().facets.size()) &&
+             in(node.reference_on, geometry.boundary().facets.size());
     case Carrier::fixed:
     case Carrier::curve:
-      return in(node.boundary_node, ground.features().nodes.size()) &&
-             in(node.reference_on, ground.features().nodes.size());
+      return in(node.boundary_node, geometry.features().nodes.size()) &&
+             in(node.reference_on, geometry.features().nodes.size());
   }
   return false;
 }
@@ -56,7 +56,7 @@ bool fits_ground(const Ground<3>& ground, const PackedNode<3>& node) {
 template <int Dim>
 void require_possible_node(const Level<Dim>& level, const SavedState& state,
                            const PackedNode<Dim>& node) {
-  const Box<Dim>& bounds = level.ground.bounds();
+  const Box<Dim>& bounds = level.geometry.bounds();
   const double margin = size_of(bounds);  // nodes on a level set may lie a little outside
   bool inside = true;
   for (int k = 0; k < Dim; ++k)
@@ -83,7 +83,7 @@ void require_different_ids(const Communicator& comm, const std::vector<SavedNode
     return static_cast<int>(static_cast<std::uint64_t>(id) %
                             static_cast<std::uint64_t>(comm.size()));
   });
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     std::sort(here.begin(), here.end());
     const auto twice = std::adjacent_find(here.begin(), here.end());
     if (twice != here.end())
@@ -96,7 +96,7 @@ template <int Dim>
 void put_saved_nodes(Level<Dim>& level, const SavedState& state,
                      std::vector<SavedNode<Dim>>& saved) {
   const Communicator& comm = *level.comm;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     for (const SavedNode<Dim>& one : saved)
       if (!is_usable(one.node.x))
         damaged("node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
@@ -105,7 +105,7 @@ void put_saved_nodes(Level<Dim>& level, const SavedState& state,
   if (level.distributed())
     saved = redistribute(
         comm, saved, [&](const SavedNode<Dim>& one) { return level.tree->owner_at(one.node.x); });
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     Nodes<Dim>& nodes = level.nodes;
     nodes.reserve_with_room(std::ssize(saved));
     for (const SavedNode<Dim>& one : saved) {
@@ -121,9 +121,9 @@ void put_saved_nodes(Level<Dim>& level, const SavedState& state,
 // By now the boundary is that of the same spacing.
 template <int Dim>
 void require_same_boundary(const Level<Dim>& level, const std::vector<SavedNode<Dim>>& saved) {
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     for (const SavedNode<Dim>& one : saved)
-      if (!fits_ground(level.ground, one.node))
+      if (!fits_geometry(level.geometry, one.node))
         damaged("node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
                 " is not where the boundary of this domain has one: it is damaged, or a curve that "
                 "a callback gives is another one");
@@ -133,8 +133,8 @@ void require_same_boundary(const Level<Dim>& level, const std::vector<SavedNode<
 // At the nodes, before any of them has moved.
 template <int Dim>
 void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<Dim>>& saved) {
-  const View<double> d = spacing_at_owned_nodes(level, level.ground.spacing());
-  agreed(*level.comm, [&] {
+  const View<double> d = spacing_at_owned_nodes(level, level.geometry.spacing());
+  collective_try(*level.comm, [&] {
     for (std::size_t k = 0; k < saved.size(); ++k) {
       const double here = d(static_cast<std::int64_t>(k));
       if (here == saved[k].spacing) continue;
@@ -155,9 +155,9 @@ void require_possible(const SavedState& s) {
                      is_flag(s.spacing_saved);
   const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
                       count(s.inserted) && count(s.deleted) && count(s.dropped) &&
-                      count(s.held_rounds) && count(s.nodes_before_held) && count(s.rebuilds) &&
-                      count(s.rebalances) && count(s.missing_faces) && count(s.left_out) &&
-                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
+                      count(s.held_rounds) && count(s.start_nodes_before_reduction) &&
+                      count(s.rebuilds) && count(s.rebalances) && count(s.missing_faces) &&
+                      count(s.left_out) && count(s.quiet_events) && s.quiet_events < 1 << 30 &&
                       count(s.coarser_levels) && s.coarser_levels < 1 << 10;
   const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
                       (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
@@ -203,17 +203,17 @@ std::vector<GrowthSource<Dim>> sources_in(const std::vector<double>& table, cons
 }
 
 template <int Dim>
-Held<Dim> held_in(const SavedState& state) {
+LocalReduction<Dim> held_in(const SavedState& state) {
   if (!(state.least_before_held >= 0) || !is_usable(state.least_before_held))
     damaged("the least d where it is held down is " + number_text(state.least_before_held) +
             ": it is damaged");
   return {sources_in<Dim>(state.held, "places where d is held down"), state.held_rounds,
-          state.nodes_before_held, state.least_before_held};
+          state.start_nodes_before_reduction, state.least_before_held};
 }
 
 template <int Dim>
-void save_finer_places(const KnownValues<Dim>& finer, SavedState& s) {
-  for (const GrowthSource<Dim>& place : finer.in_domain) append(s.finer_places, place);
+void save_undersampled_points(const SpacingHints<Dim>& finer, SavedState& s) {
+  for (const GrowthSource<Dim>& place : finer.in_domain) append(s.undersampled_points, place);
   for (const auto& slope : finer.slopes) {
     s.finer_slopes.insert(s.finer_slopes.end(), slope.at.begin(), slope.at.end());
     for (const double number : {slope.growth, slope.d, slope.in_domain ? 1.0 : 0.0})
@@ -241,9 +241,9 @@ std::vector<EdgeBand> edge_bands_in(const SavedState& s) {
 }  // namespace
 
 template <int Dim>
-KnownValues<Dim> finer_places_of(const SavedState& saved) {
-  KnownValues<Dim> finer;
-  finer.in_domain = sources_in<Dim>(saved.finer_places, "places with a smaller d");
+SpacingHints<Dim> undersampled_points_of(const SavedState& saved) {
+  SpacingHints<Dim> finer;
+  finer.in_domain = sources_in<Dim>(saved.undersampled_points, "places with a smaller d");
   for_rows(saved.finer_slopes, Dim + 3, "slopes of d", [&](const double* row) {
     const double *growth = row + Dim, *d = growth + 1, *in_domain = d + 1;
     if (!is_usable(point_in<Dim>(row)) || !is_usable(*growth) || !(*d > 0) || !is_usable(*d))
@@ -260,11 +260,11 @@ Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
                     bool at_event) {
   Saved<Dim> saved;
   SavedState& s = saved.state;
-  const Held<Dim>& held = placed.held;
+  const LocalReduction<Dim>& held = placed.held;
   saved.nodes = &level.nodes;
-  saved.spacing = spacing_at_owned_nodes(level, level.ground.spacing());
+  saved.spacing = spacing_at_owned_nodes(level, level.geometry.spacing());
   std::uint64_t checksum = 0;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     for (std::int32_t i = 0; i < level.nodes.count; ++i)
       if (level.nodes.owned(i)) saved.owned.push_back(i);
     for (std::int64_t k = 0; k < saved.count(); ++k) checksum += checksum_of(saved.node(k));
@@ -302,17 +302,17 @@ Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
   s.mean_speed = run.last_speeds.mean;
   s.meeting_radius = meeting_radius(level.settings);
   s.held_rounds = held.rounds;
-  s.nodes_before_held = held.nodes_before;
+  s.start_nodes_before_reduction = held.start_nodes;
   s.least_before_held = held.least_before;
   s.count_factor = placed.count_factor;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     for (const GrowthSource<Dim>& place : held.places) append(s.held, place);
-    save_finer_places(spacing.finer_places(), s);
+    save_undersampled_points(spacing.undersampled_points(), s);
     save_edge_bands(run.edge_bands, s);
     s.steepest.assign(placed.steepest.at.begin(), placed.steepest.at.end());
     s.steepest.push_back(placed.steepest.growth);
   });
-  s.domain_fingerprint = fingerprint_of(level.ground.domain());
+  s.domain_fingerprint = fingerprint_of(level.geometry.domain());
   s.checksum = level.comm->allreduce_sum(checksum) + checksum_of_tables(s);
   return saved;
 }
@@ -332,7 +332,7 @@ void require_savable_spacing(bool replaced, const Options& now, const Options& t
 template <int Dim>
 void require_same_as(const SavedState& saved, const Communicator& comm, Domain<Dim>& domain,
                      const Options& options) {
-  agreed(comm, [&] { domain.check(); });
+  collective_try(comm, [&] { domain.check(); });
   require_same_domain(comm, domain);
   if (saved.dimension != Dim)
     throw Error(ErrorKind::argument, "it is of a placement in " + std::to_string(saved.dimension) +
@@ -346,7 +346,7 @@ void require_same_as(const SavedState& saved, const Communicator& comm, Domain<D
 template <int Dim>
 std::shared_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
                                         LevelBuilder<Dim>& builder,
-                                        const SpacingToPlace<Dim>& to_place,
+                                        const EffectiveSpacing<Dim>& to_place,
                                         const Settings& settings, PlacedSpacing<Dim>& placed) {
   placed.held = held_in<Dim>(saved);
   if (!(saved.count_factor > 0) || !is_usable(saved.count_factor))
@@ -397,22 +397,22 @@ void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
   run.warnings.insert(run.warnings.end(), of_run.begin(), of_run.end());
 }
 
-template KnownValues<2> finer_places_of(const SavedState&);
+template SpacingHints<2> undersampled_points_of(const SavedState&);
 template Saved<2> saved_of(const Level<2>&, const PlacedSpacing<2>&, const SizingField<2>&,
                            const RunState&, const Options&, bool);
 template void require_same_as<2>(const SavedState&, const Communicator&, Domain<2>&,
                                  const Options&);
 template std::shared_ptr<Level<2>> saved_level(const SavedState&, std::vector<SavedNode<2>>,
-                                               LevelBuilder<2>&, const SpacingToPlace<2>&,
+                                               LevelBuilder<2>&, const EffectiveSpacing<2>&,
                                                const Settings&, PlacedSpacing<2>&);
 template void adopt_state(const SavedState&, RunState&, Level<2>&);
-template KnownValues<3> finer_places_of(const SavedState&);
+template SpacingHints<3> undersampled_points_of(const SavedState&);
 template Saved<3> saved_of(const Level<3>&, const PlacedSpacing<3>&, const SizingField<3>&,
                            const RunState&, const Options&, bool);
 template void require_same_as<3>(const SavedState&, const Communicator&, Domain<3>&,
                                  const Options&);
 template std::shared_ptr<Level<3>> saved_level(const SavedState&, std::vector<SavedNode<3>>,
-                                               LevelBuilder<3>&, const SpacingToPlace<3>&,
+                                               LevelBuilder<3>&, const EffectiveSpacing<3>&,
                                                const Settings&, PlacedSpacing<3>&);
 template void adopt_state(const SavedState&, RunState&, Level<3>&);
 

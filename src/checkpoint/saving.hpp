@@ -44,7 +44,7 @@ Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
 
 // The places that runs had found to be finer.
 template <int Dim>
-KnownValues<Dim> finer_places_of(const SavedState& saved);
+SpacingHints<Dim> undersampled_points_of(const SavedState& saved);
 
 // Throws Error(ErrorKind::state) if the nodes wait for another spacing than they were placed for:
 // one that replaced it, or what these options have made of it since then.
@@ -58,7 +58,7 @@ void require_same_as(const SavedState& saved, const Communicator& comm, Domain<D
 template <int Dim>
 std::shared_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
                                         LevelBuilder<Dim>& builder,
-                                        const SpacingToPlace<Dim>& to_place,
+                                        const EffectiveSpacing<Dim>& to_place,
                                         const Settings& settings, PlacedSpacing<Dim>& placed);
 // The run goes on from there, on that level.
 template <int Dim>

@@ -37,15 +37,15 @@ class SerialCommunicator : public Communicator {
                                                           std::vector<Bytes>&) const override {
     return std::make_unique<NoExchange>();
   }
-  std::unique_ptr<RankFile> open_file(const std::string& path,
-                                      const std::string& name) const override {
+  std::unique_ptr<SharedWriter> open_file(const std::string& path,
+                                          const std::string& name) const override {
     return open_alone(path, name);
   }
 
  protected:
   Reduction reduce(const Reduction& mine) const override { return mine; }
   void sum_entries(std::vector<std::int64_t>&) const override {}
-  std::int64_t exclusive_scan(std::int64_t) const override { return 0; }
+  std::int64_t scan(std::int64_t) const override { return 0; }
   void broadcast_bytes(char*, std::size_t, int) const override {}
   void allgather_sizes(std::uint64_t, std::vector<std::uint64_t>&) const override {}
   void allgather_bytes(const Bytes&, const std::vector<int>&, const std::vector<int>&,
@@ -181,9 +181,9 @@ void Communicator::allreduce_sum(std::vector<std::int64_t>& values,
   }
 }
 
-std::int64_t Communicator::sum_before(std::int64_t value) const {
+std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
   reduce_or_fail({});
-  return exclusive_scan(value);
+  return scan(value);
 }
 
 // With the integers below 2^32 that both halves are, doubles are exact.
@@ -199,7 +199,7 @@ void Communicator::broadcast(Bytes& bytes, int root) const {
   reduce_or_fail({});
   std::uint64_t size = bytes.size();
   broadcast_bytes(reinterpret_cast<char*>(&size), sizeof size, root);
-  agreed(*this, [&] { bytes.resize(size); });
+  collective_try(*this, [&] { bytes.resize(size); });
   broadcast_bytes(bytes.data(), bytes.size(), root);
 }
 
@@ -209,11 +209,11 @@ Bytes Communicator::allgather(const Bytes& mine) const {
     return mine;
   }
   std::vector<std::uint64_t> sizes;
-  agreed(*this, [&] { sizes.resize(static_cast<std::size_t>(size())); });
+  collective_try(*this, [&] { sizes.resize(static_cast<std::size_t>(size())); });
   allgather_sizes(mine.size(), sizes);
   Bytes all;
   std::vector<int> lengths, offsets;
-  agreed(*this, [&] {
+  collective_try(*this, [&] {
     std::uint64_t offset = 0;
     for (const std::uint64_t size : sizes) {
       offsets.push_back(message_length(offset));

@@ -25,7 +25,7 @@
 
 #include "base/error.hpp"
 #include "base/fixed_point.hpp"
-#include "comm/rank_file.hpp"
+#include "comm/shared_writer.hpp"
 
 namespace pnpbs {
 
@@ -73,7 +73,7 @@ class Communicator {
   // Both at once, entry by entry.
   void allreduce_sum(std::vector<std::int64_t>& values, std::vector<FixedPointSum>& sums) const;
   // Of the ranks before this one, modulo 2^64.
-  std::int64_t sum_before(std::int64_t value) const;
+  std::int64_t exclusive_scan(std::int64_t value) const;
   bool same_on_all(std::uint64_t value) const;
   void broadcast(Bytes& bytes, int root) const;
   // What every rank gives, one after the other by rank.
@@ -98,8 +98,8 @@ class Communicator {
 
   // Opens an existing file for all ranks to write parts of. Collective; agreed. `name` stands for
   // the file in messages.
-  virtual std::unique_ptr<RankFile> open_file(const std::string& path,
-                                              const std::string& name) const = 0;
+  virtual std::unique_ptr<SharedWriter> open_file(const std::string& path,
+                                                  const std::string& name) const = 0;
 
  protected:
   // What all reductions of single values are made of.
@@ -110,7 +110,7 @@ class Communicator {
   };
   virtual Reduction reduce(const Reduction& mine) const = 0;
   virtual void sum_entries(std::vector<std::int64_t>& values) const = 0;
-  virtual std::int64_t exclusive_scan(std::int64_t value) const = 0;
+  virtual std::int64_t scan(std::int64_t value) const = 0;
   virtual void broadcast_bytes(char* bytes, std::size_t n, int root) const = 0;
   // These find all their memory before ranks wait for each other: `all` has its size.
   virtual void allgather_sizes(std::uint64_t mine, std::vector<std::uint64_t>& all) const = 0;
@@ -180,7 +180,7 @@ std::exception_ptr failure_of(const Work& work) {
 
 // Runs a piece of work on every rank; if it throws on one, it throws on all.
 template <class Work>
-void agreed(const Communicator& comm, const Work& work) {
+void collective_try(const Communicator& comm, const Work& work) {
   if (comm.size() == 1) return work();
   agree_on_failure(comm, failure_of(work));
 }

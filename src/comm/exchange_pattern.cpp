@@ -7,7 +7,7 @@ namespace pnpbs {
 
 namespace {
 
-struct Wish {
+struct Request {
   std::int64_t id;
   std::int32_t from, by;  // the owner, and who has the node as a ghost
 };
@@ -32,21 +32,21 @@ ExchangePattern make_exchange_pattern(const Communicator& comm, std::int64_t own
                                       const std::vector<std::int64_t>& ids,
                                       const std::vector<std::int32_t>& owners) {
   Entries sends, receives;
-  std::vector<Wish> wishes;
+  std::vector<Request> requests;
   for (std::size_t g = 0; g < owners.size(); ++g) {
     const std::int64_t place = owned + static_cast<std::int64_t>(g);
     receives.emplace_back(owners[g], place);
-    wishes.push_back({ids[static_cast<std::size_t>(place)], owners[g], comm.rank()});
+    requests.push_back({ids[static_cast<std::size_t>(place)], owners[g], comm.rank()});
   }
   const auto end = ids.begin() + owned;
-  for (const Wish& wish :
-       redistribute<Wish>(comm, wishes, [](const Wish& w) { return static_cast<int>(w.from); })) {
-    const auto found = std::lower_bound(ids.begin(), end, wish.id);
-    if (found == end || *found != wish.id)
-      throw Error(ErrorKind::internal, "node " + std::to_string(wish.id) +
+  for (const Request& request : redistribute<Request>(
+           comm, requests, [](const Request& w) { return static_cast<int>(w.from); })) {
+    const auto found = std::lower_bound(ids.begin(), end, request.id);
+    if (found == end || *found != request.id)
+      throw Error(ErrorKind::internal, "node " + std::to_string(request.id) +
                                            " is a ghost of this rank on rank " +
-                                           std::to_string(wish.by) + ", but is not owned here");
-    sends.emplace_back(wish.by, found - ids.begin());
+                                           std::to_string(request.by) + ", but is not owned here");
+    sends.emplace_back(request.by, found - ids.begin());
   }
   ExchangePattern pattern;
   for (const auto& entry : sends) pattern.ranks.push_back(entry.first);

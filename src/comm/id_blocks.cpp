@@ -109,7 +109,7 @@ std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& 
   for (const std::int64_t id : ids)
     if (rank_of(id) != comm_.rank()) pack(questions.to(rank_of(id)), id);
   const std::vector<Message> asked = comm_.sparse_all_to_all(questions.messages());
-  agreed(comm_, [&] {
+  collective_try(comm_, [&] {
     for (const Message& theirs : asked)
       for_records<std::int64_t>({theirs.bytes}, [&](std::int64_t id) {
         pack(answers.to(theirs.rank), number_in_block(id));
@@ -117,7 +117,7 @@ std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& 
   });
   const std::vector<Message> told = comm_.sparse_all_to_all(answers.messages());
   std::vector<std::int64_t> numbers;
-  agreed(comm_, [&] {
+  collective_try(comm_, [&] {
     RankPlaces places;
     for (const Message& theirs : told) places.add(theirs.rank);
     std::vector<std::size_t> at(told.size());  // answers come in the order of the questions

@@ -144,10 +144,11 @@ class MpiCommunicator : public Communicator {
     return incoming;
   }
 
-  std::unique_ptr<RankFile> open_file(const std::string& path,
-                                      const std::string& name) const override {
-    std::unique_ptr<RankFile> file;
-    agreed(*this, [&] { file = size_ == 1 ? open_alone(path, name) : open_by_mpi(path, name); });
+  std::unique_ptr<SharedWriter> open_file(const std::string& path,
+                                          const std::string& name) const override {
+    std::unique_ptr<SharedWriter> file;
+    collective_try(*this,
+                   [&] { file = size_ == 1 ? open_alone(path, name) : open_by_mpi(path, name); });
     return file;
   }
 
@@ -163,7 +164,7 @@ class MpiCommunicator : public Communicator {
                         comm_),
           "MPI_Allreduce");
   }
-  std::int64_t exclusive_scan(std::int64_t value) const override {
+  std::int64_t scan(std::int64_t value) const override {
     const auto mine = static_cast<std::uint64_t>(value);
     std::uint64_t before = 0;
     check(MPI_Exscan(&mine, &before, 1, MPI_UINT64_T, MPI_SUM, comm_), "MPI_Exscan");

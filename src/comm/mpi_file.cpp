@@ -12,7 +12,7 @@ namespace pnpbs {
 
 namespace {
 
-class MpiFile : public RankFile {
+class MpiFile : public SharedWriter {
  public:
   // Errors of files are returned unless the host has asked for something else, so say it for this
   // one; for the opening itself the handler of MPI_FILE_NULL counts.
@@ -59,7 +59,7 @@ class MpiFile : public RankFile {
 
 }  // namespace
 
-std::unique_ptr<RankFile> open_by_mpi(const std::string& path, const std::string& name) {
+std::unique_ptr<SharedWriter> open_by_mpi(const std::string& path, const std::string& name) {
   return std::make_unique<MpiFile>(path, name);
 }
 

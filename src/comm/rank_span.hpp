@@ -19,7 +19,7 @@ struct RankSpan {
 inline RankSpan span_of(const Communicator& comm, std::size_t count) {
   RankSpan span;
   span.count = static_cast<std::int64_t>(count);
-  span.first = comm.sum_before(span.count);
+  span.first = comm.exclusive_scan(span.count);
   span.total = static_cast<std::int64_t>(comm.allreduce_sum(std::uint64_t{count}));
   return span;
 }

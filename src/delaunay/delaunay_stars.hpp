@@ -16,14 +16,14 @@
 #include "neighbors/buckets.hpp"
 #include "neighbors/near_edges.hpp"
 #include "partition/known_region.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 
 namespace pnpbs {
 
 // What the stars are found from; all for the same positions.
 struct StarInput {
   const Nodes<2>& nodes;
-  const DomainMap<2>& map;
+  const SizedTree<2>& map;
   const IncidentSectors& sectors;
   const Buckets<2>& buckets;
   const AdjacencyList<2>& lists;

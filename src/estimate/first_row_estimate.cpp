@@ -25,7 +25,7 @@ std::vector<double> values_at(const std::vector<Point<2>>& points,
 
 }  // namespace
 
-double more_by_first_row(const DomainMap<2>& map, const SpacingEvaluator<2>& spacing,
+double more_by_first_row(const SizedTree<2>& map, const SpacingEvaluator<2>& spacing,
                          std::int64_t max_edges) {
   const BoundaryMesh<2>& boundary = map.boundary();
   IncidentSectors sectors;

@@ -14,7 +14,7 @@
 #include "initial/initial_fill.hpp"
 #include "initial/volume/cubic_lattice.hpp"
 #include "method/constants.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 #include "tree/cell_samples.hpp"
 
 namespace pnpbs {
@@ -54,7 +54,7 @@ struct LeavesNearBoundary {
 };
 
 template <int Dim>
-bool near_boundary(const DomainMap<Dim>& map, const BoundaryRoom<Dim>& boundary,
+bool near_boundary(const SizedTree<Dim>& map, const BoundaryRoom<Dim>& boundary,
                    std::int32_t leaf) {
   if (map.leaf_has_facets(leaf)) return true;
   const std::int32_t cell = map.tree().leaf_cell(leaf);
@@ -64,7 +64,7 @@ bool near_boundary(const DomainMap<Dim>& map, const BoundaryRoom<Dim>& boundary,
 }
 
 template <int Dim>
-LeavesNearBoundary<Dim> leaves_near_boundary(const DomainMap<Dim>& map,
+LeavesNearBoundary<Dim> leaves_near_boundary(const SizedTree<Dim>& map,
                                              const BoundaryRoom<Dim>& boundary, Samples samples) {
   const bool many = samples == Samples::many;
   LeavesNearBoundary<Dim> near;
@@ -94,7 +94,7 @@ LeavesNearBoundary<Dim> leaves_near_boundary(const DomainMap<Dim>& map,
 // count only where they are inside. What the boundary leaves of all leaves that it crosses is known
 // better, by the domain's area or volume.
 template <int Dim>
-double room_inside(const DomainMap<Dim>& map, double measure, const SpacingEvaluator<Dim>& spacing,
+double room_inside(const SizedTree<Dim>& map, double measure, const SpacingEvaluator<Dim>& spacing,
                    const BoundaryRoom<Dim>& boundary, Samples samples) {
   const auto volume_of = [&](std::int32_t leaf) {
     return power<Dim>(map.tree().cell_side(map.tree().leaf_cell(leaf)));
@@ -132,7 +132,7 @@ double room_inside(const DomainMap<Dim>& map, double measure, const SpacingEvalu
 
 // Of d in the leaves.
 template <int Dim>
-SpacingSummary<Dim> range_of_spacing(const DomainMap<Dim>& map) {
+SpacingSummary<Dim> range_of_spacing(const SizedTree<Dim>& map) {
   SpacingSummary<Dim> range;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
     if (map.leaf_outside(leaf)) continue;
@@ -148,7 +148,7 @@ struct Packing {
   double density, boundary_reach;
 };
 
-Packing packing(const DomainMap<2>&, const PlaneDomain&, bool) {
+Packing packing(const SizedTree<2>&, const PlaneDomain&, bool) {
   return {Lattice<2>::kDensity, BoundaryRoom<2>::kPlaneReach};
 }
 
@@ -156,7 +156,7 @@ Packing packing(const DomainMap<2>&, const PlaneDomain&, bool) {
 // 000 to 40 000 nodes at d graded 1:2 to 1:19 are met within 1.4 % (root mean square), at most 2.7
 // %. Where it is even, the lattice is left as it is, but when its edges are off by 2 %. On surfaces
 // alone edges come to 1.03 d where d varies.
-Packing packing(const DomainMap<3>& map, const VolumeDomain& domain, bool stretched) {
+Packing packing(const SizedTree<3>& map, const VolumeDomain& domain, bool stretched) {
   constexpr double kEdgesOnSurfaces = 1.03, kOff = 0.02;
   const SpacingSummary<3> d = range_of_spacing(map);
   const bool varied = d.max > method::kPatchVariation * d.min;
@@ -170,7 +170,7 @@ Packing packing(const DomainMap<3>& map, const VolumeDomain& domain, bool stretc
 }
 
 // The same of surfaces alone, by their area.
-double room_on_surfaces(const DomainMap<3>& map, double area) {
+double room_on_surfaces(const SizedTree<3>& map, double area) {
   double crossed = 0, nodes = 0;  // as if each face of a leaf were crossed
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
     if (map.leaf_outside(leaf)) continue;
@@ -184,7 +184,7 @@ double room_on_surfaces(const DomainMap<3>& map, double area) {
 
 // Nodes that are not of the boundary; on surfaces alone all.
 template <int Dim>
-double nodes_in(const DomainMap<Dim>& map, const Domain<Dim>& domain,
+double nodes_in(const SizedTree<Dim>& map, const Domain<Dim>& domain,
                 const SpacingEvaluator<Dim>& evaluator, bool stretched, Samples samples) {
   const Packing packed = packing(map, domain, stretched);
   if constexpr (Dim == 3)
@@ -223,11 +223,11 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
   };
   BoundaryMesh<Dim> boundary;
   double on_boundary = 0;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     boundary = facets_for_tree(domain, evaluator, max_boundary_nodes);
     on_boundary = nodes_on_boundary(domain, boundary, evaluator);
   });
-  DomainMap<Dim> map;
+  SizedTree<Dim> map;
   double max = std::numeric_limits<double>::infinity(), nodes = 0;
   for (int pass = 0; pass < passes; ++pass) {
     map.build_part(
@@ -238,7 +238,7 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
         },
         kLevelRefinement<Dim>);
     const bool last = pass + 1 == passes;
-    agreed(comm, [&] {
+    collective_try(comm, [&] {
       nodes = nodes_in<Dim>(map, domain, evaluator, run.stretched, last ? samples : Samples::few);
       if (last && run.first_row)
         nodes += more_by_first_row(map, evaluator, many ? kManyEdges : kFewEdges);
@@ -248,7 +248,7 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
   }
   return {nodes, steepest_growth<Dim>(
                      comm, map, [](std::int32_t) { return true; }, evaluator,
-                     spacing.known_values(), domain.embedding())};
+                     spacing.spacing_hints(), domain.embedding())};
 }
 
 template NodeEstimate<2> estimate_nodes<2>(const Communicator&, const Domain<2>&, const Spacing<2>&,

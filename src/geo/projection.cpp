@@ -85,11 +85,11 @@ LongitudeRange longitudes_of(const std::vector<Point<2>>& degrees) {
 }
 
 // Longitude and latitude in "sphere(LONGITUDE,LATITUDE)".
-std::optional<Point<2>> sphere_seen_from(const std::string& wish) {
+std::optional<Point<2>> sphere_seen_from(const std::string& request) {
   constexpr std::string_view word = "sphere";
-  if (!std::string_view(wish).starts_with(word)) return std::nullopt;
+  if (!std::string_view(request).starts_with(word)) return std::nullopt;
   Point<2> degrees{};
-  const char *at = wish.data() + word.size(), *const end = wish.data() + wish.size();
+  const char *at = request.data() + word.size(), *const end = request.data() + request.size();
   for (const auto& [sign, k] : {std::pair{'(', 0}, std::pair{',', 1}}) {
     while (at != end && *at == ' ') ++at;
     const bool is_there = at != end && *at == sign;
@@ -104,7 +104,7 @@ std::optional<Point<2>> sphere_seen_from(const std::string& wish) {
   if (at == end || std::string_view(at, end) != ")" || !(std::fabs(degrees[1]) <= 90) ||
       !(std::fabs(degrees[0]) <= 360))
     throw Error(ErrorKind::argument,
-                "argument projection = '" + wish +
+                "argument projection = '" + request +
                     "': expected sphere(LONGITUDE,LATITUDE), in degrees, of a point outside of the "
                     "domain");
   return degrees;
@@ -141,9 +141,9 @@ ReferenceSystem local_projection(const ReferenceSystem& data,
 }  // namespace
 
 Projection::Projection(const ReferenceSystem& data, const std::vector<Point<2>>& points,
-                       const std::string& wish, const std::string& unit) {
+                       const std::string& request, const std::string& unit) {
   if (data) data_ = ReferenceSystem::copy_of(data.get());
-  choose_target(points, wish);
+  choose_target(points, request);
   take_unit(unit);
   if (target_ && !OSRIsSame(target_.get(), data_.get())) {
     forward_.emplace(data_, target_);
@@ -157,8 +157,8 @@ Projection::Projection(const ReferenceSystem& data, const std::vector<Point<2>>&
   of_degrees_.emplace(degrees, target_);
 }
 
-void Projection::choose_target(const std::vector<Point<2>>& points, const std::string& wish) {
-  const bool as_it_is = wish == "none" || (wish.empty() && !data_.is_geographic());
+void Projection::choose_target(const std::vector<Point<2>>& points, const std::string& request) {
+  const bool as_it_is = request == "none" || (request.empty() && !data_.is_geographic());
   if (as_it_is) {
     if (data_) target_ = ReferenceSystem::copy_of(data_.get());
     return;
@@ -166,20 +166,20 @@ void Projection::choose_target(const std::vector<Point<2>>& points, const std::s
   if (!data_)
     throw Error(
         ErrorKind::file,
-        "argument projection = '" + wish +
+        "argument projection = '" + request +
             "': the file does not say what its coordinates "
             "are, so they cannot be projected; for a shapefile a .prj beside it says it, for "
             "others ogr2ogr -a_srs EPSG:4326, if they are longitude and latitude");
-  if (const auto outside = sphere_seen_from(wish)) {
+  if (const auto outside = sphere_seen_from(request)) {
     target_ = ReferenceSystem::stereographic(data_, *outside);
     on_sphere_ = true;
     return;
   }
-  if (!wish.empty() && wish != "auto") {
-    target_ = ReferenceSystem::called(wish);
+  if (!request.empty() && request != "auto") {
+    target_ = ReferenceSystem::called(request);
     if (target_.is_geographic())
       throw Error(ErrorKind::argument,
-                  "argument projection = '" + wish +
+                  "argument projection = '" + request +
                       "' is longitude and "
                       "latitude, which are no distances: name a projection, auto, or none");
     return;

@@ -54,7 +54,7 @@ class Projection {
   // the stereographic one of a sphere from that point; or a name, see ReferenceSystem::called.
   // `unit` is "", "m" or "km". Throws Error.
   Projection(const ReferenceSystem& data, const std::vector<Point<2>>& points,
-             const std::string& wish, const std::string& unit);
+             const std::string& request, const std::string& unit);
 
   bool on_sphere() const { return on_sphere_; }
   double sphere_radius() const;  // in the unit of its points; 0 if it is not on one
@@ -87,7 +87,7 @@ class Projection {
   Scale scale_at(const std::vector<Point<2>>& points) const;
 
  private:
-  void choose_target(const std::vector<Point<2>>& points, const std::string& wish);
+  void choose_target(const std::vector<Point<2>>& points, const std::string& request);
   void take_unit(const std::string& unit);
   void find_poles();
   void restore_poles(const std::vector<Point<2>>& projected, std::vector<Point<2>>& degrees) const;

@@ -124,12 +124,12 @@ bool any_around(const Between& place, const CellBox& window, const Holds& holds)
 
 // What a place, the number `place`, asks of a piece: its value, or one corner's that others are not
 // with.
-struct Wish {
+struct TileRequest {
   std::int64_t piece;
   std::size_t place;
   int corner;
   static constexpr int all = -1;
-  bool operator<(const Wish& other) const { return piece < other.piece; }
+  bool operator<(const TileRequest& other) const { return piece < other.piece; }
 };
 
 CellBox grown(const CellBox& box, std::int64_t steps, const CellBox& whole) {
@@ -224,26 +224,26 @@ const RasterValues::Filled& RasterValues::filled(std::int64_t tile) {
 void RasterValues::interpolate(const std::vector<Between>& places, double* values,
                                std::int32_t* has_data) {
   const CellBox& window = blocks_.whole();
-  std::vector<Wish> wishes;
+  std::vector<TileRequest> requests;
   std::vector<std::size_t> apart;  // places with corners in several blocks
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto& [column, row] = Corners(places[i], window);
     const std::int64_t first = blocks_.number_of(column[0], row[0]);
     if (first == blocks_.number_of(column[1], row[1])) {
-      wishes.push_back({first, i, Wish::all});
+      requests.push_back({first, i, TileRequest::all});
       continue;
     }
     for (int k = 0; k < 4; ++k)
-      wishes.push_back({blocks_.number_of(column[k % 2], row[k / 2]), apart.size(), k});
+      requests.push_back({blocks_.number_of(column[k % 2], row[k / 2]), apart.size(), k});
     apart.push_back(i);
   }
-  if (blocks_.count() > 1) std::sort(wishes.begin(), wishes.end());
+  if (blocks_.count() > 1) std::sort(requests.begin(), requests.end());
   std::vector<std::array<double, 4>> corners(apart.size());
   const RasterBlock* its = nullptr;
-  for (std::size_t w = 0; w < wishes.size(); ++w) {
-    const auto& [number, i, corner] = wishes[w];
-    if (w == 0 || number != wishes[w - 1].piece) its = &block(number);
-    if (corner == Wish::all) {
+  for (std::size_t w = 0; w < requests.size(); ++w) {
+    const auto& [number, i, corner] = requests[w];
+    if (w == 0 || number != requests[w - 1].piece) its = &block(number);
+    if (corner == TileRequest::all) {
       values[i] = value_between(places[i], window, *its);
     } else {
       const auto& [column, row] = Corners(places[apart[i]], window);
@@ -259,12 +259,12 @@ void RasterValues::interpolate(const std::vector<Between>& places, double* value
 void RasterValues::interpolate_in_gaps(const std::vector<Between>& places, double* values,
                                        std::int32_t* has_data) {
   if (has_data) std::fill_n(has_data, places.size(), 1);
-  std::vector<Wish> wishes;
+  std::vector<TileRequest> requests;
   for (std::size_t i = 0; i < places.size(); ++i)
     if (std::isnan(values[i]))
-      wishes.push_back({tiles_.number_of(places[i].column, places[i].row), i, Wish::all});
-  std::sort(wishes.begin(), wishes.end());
-  for (const auto& [number, i, corner] : wishes) {
+      requests.push_back({tiles_.number_of(places[i].column, places[i].row), i, TileRequest::all});
+  std::sort(requests.begin(), requests.end());
+  for (const auto& [number, i, corner] : requests) {
     const Filled& tile = filled(number);
     values[i] = value_between(places[i], tiles_.whole(), tile);
     const auto holds = [&tile](std::int64_t column, std::int64_t row) {

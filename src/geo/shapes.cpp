@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/point_text.hpp"
 #include "geo/library_error.hpp"
-#include "geo/shores.hpp"
+#include "geo/open_boundaries.hpp"
 #include "geo/touching.hpp"
 
 namespace pnpbs::geo {
@@ -128,7 +128,7 @@ void Shapes::project() {
   const auto where = [&](std::int64_t place) { return with_degrees(point_text(places_[place])); };
   outlines_ = outlines_of(std::move(routes), places_, where, projection_.sphere_radius());
   if (on_sphere()) outlines_.leave_out_shared_edges_outside(places_);
-  lines_along_shore_ = retag_shores(outlines_.curves, places_, along_shore * extent);
+  lines_along_shore_ = retag_open_boundaries(outlines_.curves, places_, along_shore * extent);
 }
 
 void Shapes::take_notes() {

@@ -23,7 +23,7 @@ int column_of(int place, int k) {
 
 // No lattice of one d fits such a leaf.
 template <int Dim>
-bool is_steep(const DomainMap<Dim>& map, std::int32_t leaf) {
+bool is_steep(const SizedTree<Dim>& map, std::int32_t leaf) {
   return !map.leaf_outside(leaf) &&
          map.leaf_max_spacing(leaf) > method::kPatchVariation * map.leaf_min_spacing(leaf);
 }
@@ -48,7 +48,7 @@ Point<Dim> on_diagonal(double side, const Point<Dim>& centre, int n, int count) 
 }  // namespace
 
 template <int Dim>
-GradedFill<Dim>::GradedFill(const DomainMap<Dim>& map,
+GradedFill<Dim>::GradedFill(const SizedTree<Dim>& map,
                             const std::function<bool(std::int32_t)>& wanted)
     : map_(map) {
   const BackgroundTree<Dim>& tree = map.tree();

@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 
 namespace pnpbs {
 
@@ -18,7 +18,7 @@ class GradedFill {
  public:
   // Of the leaves that lattice_fill leaves out, as d varies too much in them, and for which
   // wanted(leaf) holds.
-  GradedFill(const DomainMap<Dim>& map, const std::function<bool(std::int32_t)>& wanted);
+  GradedFill(const SizedTree<Dim>& map, const std::function<bool(std::int32_t)>& wanted);
 
   // The centres of the cells in the domain, and d there, which is asked by the caller.
   const std::vector<Point<Dim>>& centres() const { return centres_; }
@@ -35,7 +35,7 @@ class GradedFill {
     std::size_t first, end;  // its cells
   };
 
-  const DomainMap<Dim>& map_;
+  const SizedTree<Dim>& map_;
   std::vector<Leaf> leaves_;
   std::vector<Point<Dim>> centres_;
 };

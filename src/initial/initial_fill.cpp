@@ -63,7 +63,7 @@ bool nearly_constant(const SpacingSummary<Dim>& cell) {
 }
 
 template <int Dim>
-SpacingSummary<Dim> summary_of_leaf(const DomainMap<Dim>& map, std::int32_t c) {
+SpacingSummary<Dim> summary_of_leaf(const SizedTree<Dim>& map, std::int32_t c) {
   const std::int32_t leaf = map.tree().cell(c).leaf;
   SpacingSummary<Dim> own;
   if (map.leaf_outside(leaf)) return own;
@@ -77,7 +77,7 @@ SpacingSummary<Dim> summary_of_leaf(const DomainMap<Dim>& map, std::int32_t c) {
 template <int Dim>
 class Fill {
  public:
-  Fill(const DomainMap<Dim>& map, const Box<Dim>& bounds,
+  Fill(const SizedTree<Dim>& map, const Box<Dim>& bounds,
        const std::function<bool(std::int32_t)>& wanted,
        const std::vector<LeafSummary<Dim>>& unrefined, bool stretched)
       : map_(map),
@@ -141,7 +141,7 @@ class Fill {
     return any;
   }
 
-  const DomainMap<Dim>& map_;
+  const SizedTree<Dim>& map_;
   const Box<Dim>& bounds_;
   const std::function<bool(std::int32_t)>& wanted_;
   bool stretched_;
@@ -160,7 +160,7 @@ void SpacingSummary<Dim>::add(const SpacingSummary& part) {
 }
 
 template <int Dim>
-std::vector<SpacingSummary<Dim>> spacing_summaries(const DomainMap<Dim>& map,
+std::vector<SpacingSummary<Dim>> spacing_summaries(const SizedTree<Dim>& map,
                                                    const std::vector<LeafSummary<Dim>>& unrefined) {
   const BackgroundTree<Dim>& tree = map.tree();
   std::vector<SpacingSummary<Dim>> cells(static_cast<std::size_t>(tree.cell_count()));
@@ -178,7 +178,7 @@ std::vector<SpacingSummary<Dim>> spacing_summaries(const DomainMap<Dim>& map,
 }
 
 template <int Dim>
-std::vector<Point<Dim>> lattice_fill(const DomainMap<Dim>& map, const Box<Dim>& bounds,
+std::vector<Point<Dim>> lattice_fill(const SizedTree<Dim>& map, const Box<Dim>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,
                                      const std::vector<LeafSummary<Dim>>& unrefined,
                                      bool stretched) {
@@ -187,14 +187,14 @@ std::vector<Point<Dim>> lattice_fill(const DomainMap<Dim>& map, const Box<Dim>& 
 
 template struct SpacingSummary<2>;
 template struct SpacingSummary<3>;
-template std::vector<SpacingSummary<2>> spacing_summaries(const DomainMap<2>&,
+template std::vector<SpacingSummary<2>> spacing_summaries(const SizedTree<2>&,
                                                           const std::vector<LeafSummary<2>>&);
-template std::vector<SpacingSummary<3>> spacing_summaries(const DomainMap<3>&,
+template std::vector<SpacingSummary<3>> spacing_summaries(const SizedTree<3>&,
                                                           const std::vector<LeafSummary<3>>&);
-template std::vector<Point<2>> lattice_fill<2>(const DomainMap<2>&, const Box<2>&,
+template std::vector<Point<2>> lattice_fill<2>(const SizedTree<2>&, const Box<2>&,
                                                const std::function<bool(std::int32_t)>&,
                                                const std::vector<LeafSummary<2>>&, bool);
-template std::vector<Point<3>> lattice_fill<3>(const DomainMap<3>&, const Box<3>&,
+template std::vector<Point<3>> lattice_fill<3>(const SizedTree<3>&, const Box<3>&,
                                                const std::function<bool(std::int32_t)>&,
                                                const std::vector<LeafSummary<3>>&, bool);
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/lattice.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 
 namespace pnpbs {
 
@@ -36,13 +36,13 @@ struct LeafSummary {
 
 // Of every cell of the tree, from the leaves up.
 template <int Dim>
-std::vector<SpacingSummary<Dim>> spacing_summaries(const DomainMap<Dim>& map,
+std::vector<SpacingSummary<Dim>> spacing_summaries(const SizedTree<Dim>& map,
                                                    const std::vector<LeafSummary<Dim>>& unrefined);
 
 // Of the leaves for which wanted(leaf) holds and that are not steep, in their Morton order. In
 // space the lattice is stretched to fit the domain's box, or else is as dense as d says.
 template <int Dim>
-std::vector<Point<Dim>> lattice_fill(const DomainMap<Dim>& map, const Box<Dim>& bounds,
+std::vector<Point<Dim>> lattice_fill(const SizedTree<Dim>& map, const Box<Dim>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,
                                      const std::vector<LeafSummary<Dim>>& unrefined = {},
                                      bool stretched = true);
@@ -50,13 +50,13 @@ std::vector<Point<Dim>> lattice_fill(const DomainMap<Dim>& map, const Box<Dim>& 
 extern template struct SpacingSummary<2>;
 extern template struct SpacingSummary<3>;
 extern template std::vector<SpacingSummary<2>> spacing_summaries(
-    const DomainMap<2>&, const std::vector<LeafSummary<2>>&);
+    const SizedTree<2>&, const std::vector<LeafSummary<2>>&);
 extern template std::vector<SpacingSummary<3>> spacing_summaries(
-    const DomainMap<3>&, const std::vector<LeafSummary<3>>&);
-extern template std::vector<Point<2>> lattice_fill<2>(const DomainMap<2>&, const Box<2>&,
+    const SizedTree<3>&, const std::vector<LeafSummary<3>>&);
+extern template std::vector<Point<2>> lattice_fill<2>(const SizedTree<2>&, const Box<2>&,
                                                       const std::function<bool(std::int32_t)>&,
                                                       const std::vector<LeafSummary<2>>&, bool);
-extern template std::vector<Point<3>> lattice_fill<3>(const DomainMap<3>&, const Box<3>&,
+extern template std::vector<Point<3>> lattice_fill<3>(const SizedTree<3>&, const Box<3>&,
                                                       const std::function<bool(std::int32_t)>&,
                                                       const std::vector<LeafSummary<3>>&, bool);
 

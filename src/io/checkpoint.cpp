@@ -23,7 +23,7 @@
 #include "io/file_seal.hpp"
 #include "io/hdf5_grid.hpp"
 #include "io/output_file.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 
 namespace pnpbs::io {
 namespace {
@@ -53,7 +53,7 @@ void in_pieces(std::int64_t rows, std::int64_t row_size, const Visit& visit) {
 // The rows of one rank, from row `first` on, of an array that begins at `place`. row(k): its k-th
 // record.
 template <class Row>
-void write_rows(RankFile& file, const Column& column, std::int64_t place, std::int64_t first,
+void write_rows(SharedWriter& file, const Column& column, std::int64_t place, std::int64_t first,
                 std::int64_t rows, const Row& row) {
   const std::int64_t size = column.array.row_size();
   const std::size_t given = static_cast<std::size_t>(column.given) * size_of(column.array.type);
@@ -78,13 +78,13 @@ struct Vertex {
 template <int Dim>
 class CheckpointWriter {
  public:
-  CheckpointWriter(PlacementOf<Dim>& placement, const std::string& path)
+  CheckpointWriter(PlacementImpl<Dim>& placement, const std::string& path)
       : comm_(*placement.ranks()), saved_(placement.saved()), path_(path), output_(path) {}
 
   void write() {
     rows_ = span_of(comm_, saved_.owned.size());
     if (saved_.state.spacing_saved) measure_patch();
-    agreed(comm_, [&] {
+    collective_try(comm_, [&] {
       if (comm_.rank() == 0) lay_out();
     });
     share(comm_, places_);
@@ -94,18 +94,19 @@ class CheckpointWriter {
       name.assign(aside.begin(), aside.end());
     }
     comm_.broadcast(name, 0);
-    const std::unique_ptr<RankFile> file =
+    const std::unique_ptr<SharedWriter> file =
         comm_.open_file(std::string(name.begin(), name.end()), quoted_checkpoint(path_));
-    agreed(comm_, [&] {
+    collective_try(comm_, [&] {
       write_own(*file);
       file->close();
     });
-    agreed(comm_, [&] {
+    collective_try(comm_, [&] {
       if (comm_.rank() == 0) flush();
     });
     std::vector<OutputFile*> own;
     if (comm_.rank() == 0) own.push_back(&output_);
-    publish_together(own, [this](const std::function<void()>& step) { agreed(comm_, step); });
+    publish_together(own,
+                     [this](const std::function<void()>& step) { collective_try(comm_, step); });
   }
 
  private:
@@ -182,7 +183,7 @@ class CheckpointWriter {
       file.set(kOwn, field, value);
   }
 
-  void write_own(RankFile& file) const {
+  void write_own(SharedWriter& file) const {
     std::size_t next = 0;
     for (const Column& column : node_columns<Dim>(rows_.total))
       write_rows(file, column, places_[next++], rows_.first, rows_.count,
@@ -233,7 +234,7 @@ class CheckpointWriter {
 };
 
 template <int Dim>
-void write_checkpoint_of(PlacementOf<Dim>& placement, const std::string& path) {
+void write_checkpoint_of(PlacementImpl<Dim>& placement, const std::string& path) {
   CheckpointWriter<Dim>(placement, path).write();
 }
 
@@ -296,11 +297,11 @@ RankSpan share_of(const Communicator& comm, std::int64_t n) {
 template <int Dim>
 class CheckpointReader {
  public:
-  CheckpointReader(PlacementOf<Dim>& placement, const std::string& path)
+  CheckpointReader(PlacementImpl<Dim>& placement, const std::string& path)
       : comm_(*placement.ranks()), placement_(placement), path_(path) {}
 
   void read() {
-    agreed(comm_, [&] {
+    collective_try(comm_, [&] {
       if (comm_.rank() == 0) read_layout();
     });
     share_state();
@@ -310,7 +311,7 @@ class CheckpointReader {
     explained([&] { placement_.require_same_as(state_); });
     std::vector<SavedNode<Dim>> nodes;
     Patch<Dim> patch;
-    agreed(comm_, [&] {
+    collective_try(comm_, [&] {
       const InputFile file(path_, quoted_checkpoint(path_));
       nodes = read_nodes(file);
       if (state_.spacing_saved) patch = read_patch(file);
@@ -513,7 +514,7 @@ class CheckpointReader {
   }
 
   const Communicator& comm_;
-  PlacementOf<Dim>& placement_;
+  PlacementImpl<Dim>& placement_;
   std::string path_;
   SavedState state_;
   std::uint64_t patch_checksum_ = 0;
@@ -522,14 +523,14 @@ class CheckpointReader {
 };
 
 template <int Dim>
-void read_checkpoint_of(PlacementOf<Dim>& placement, const std::string& path) {
+void read_checkpoint_of(PlacementImpl<Dim>& placement, const std::string& path) {
   CheckpointReader<Dim>(placement, path).read();
 }
 
 void require_same_path(const Communicator& comm, const std::string& path) {
   Bytes theirs(path.begin(), path.end());
   comm.broadcast(theirs, 0);
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     if (path.empty())
       throw Error(ErrorKind::argument, "argument path: the name of a file is empty");
     if (std::string(theirs.begin(), theirs.end()) != path)
@@ -545,18 +546,18 @@ void write_checkpoint(Placement& placement, const std::string& path) {
   const Communicator& comm = placement.communicator();
   require_same_path(comm, path);
   // What one rank cannot do at any step of it, all give up.
-  agreed(comm, [&] {
-    in_its_dimension(placement,
-                     [&]<int Dim>(PlacementOf<Dim>& it) { write_checkpoint_of(it, path); });
+  collective_try(comm, [&] {
+    visit_dimension(placement,
+                    [&]<int Dim>(PlacementImpl<Dim>& it) { write_checkpoint_of(it, path); });
   });
 }
 
 void read_checkpoint(Placement& placement, const std::string& path) {
   const Communicator& comm = placement.communicator();
   require_same_path(comm, path);
-  agreed(comm, [&] {
-    in_its_dimension(placement,
-                     [&]<int Dim>(PlacementOf<Dim>& it) { read_checkpoint_of(it, path); });
+  collective_try(comm, [&] {
+    visit_dimension(placement,
+                    [&]<int Dim>(PlacementImpl<Dim>& it) { read_checkpoint_of(it, path); });
   });
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/hdf5.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 
 namespace pnpbs::io {
 

@@ -182,7 +182,7 @@ class MshPart {
 
   void number_facets() {
     own_facets_ = std::ranges::count(mesh_.facet_owners, comm_.rank());
-    first_facet_ = mesh_.all_elements + comm_.sum_before(own_facets_);
+    first_facet_ = mesh_.all_elements + comm_.exclusive_scan(own_facets_);
   }
 
   // ------------------------------------------------------------ numbers of entities
@@ -359,12 +359,13 @@ std::string msh_part_path(const std::string& prefix, int rank) {
 void write_msh_parts(const Communicator& comm, const DistributedMesh& mesh,
                      const std::string& prefix) {
   // What one rank cannot do at any step of it, all give up.
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     const MshPart part(comm, mesh);
     OutputFile file(msh_part_path(prefix, comm.rank()));
     file.check();
     file.write([&](Sink& sink) { part.write(sink); }, {});
-    publish_together({&file}, [&](const std::function<void()>& step) { agreed(comm, step); });
+    publish_together({&file},
+                     [&](const std::function<void()>& step) { collective_try(comm, step); });
   });
 }
 

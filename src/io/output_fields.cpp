@@ -89,7 +89,7 @@ void OutputFields::add(NodalResults& results, const std::string& name, std::int6
 
 void OutputFields::require_current(NodalResults& results) const {
   const Communicator& comm = results.communicator();
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     const std::uint64_t hash = all_.empty() ? 0 : hash_of_nodes(results);
     for (const OutputField& field : all_)
       if (field.nodes_hash != hash)
@@ -108,7 +108,7 @@ std::vector<OutputField> OutputFields::with_ghosts(NodalResults& results) const 
   std::vector<OutputField> fields;
   for (const OutputField& field : all_) {
     GhostUpdate update;
-    agreed(results.communicator(), [&] {
+    collective_try(results.communicator(), [&] {
       fields.push_back(field);
       fields.back().values.resize(places * static_cast<std::size_t>(field.components));
       update.pack(results.communicator(), pattern, field.components, fields.back().values.data());

@@ -20,7 +20,7 @@ SharedFile::~SharedFile() {
 }
 
 void SharedFile::create() {
-  agreed(*comm_, [&] {
+  collective_try(*comm_, [&] {
     if (before_write_) before_write_();
     if (!is_first()) return;
     output_.check();
@@ -48,7 +48,7 @@ void SharedFile::open() {
 std::vector<std::int64_t> SharedFile::make(
     const std::function<std::vector<std::int64_t>(const OutputFile&)>& work) {
   Bytes bytes;
-  agreed(*comm_, [&] {
+  collective_try(*comm_, [&] {
     if (before_write_) before_write_();
     if (!is_first()) return;
     if (stream_ >= 0)
@@ -64,7 +64,7 @@ std::vector<std::int64_t> SharedFile::make(
 }
 
 void SharedFile::go_to(std::int64_t place) {
-  agreed(*comm_, [&] { places_.flush(); });
+  collective_try(*comm_, [&] { places_.flush(); });
   end_ = place_ = place;
 }
 
@@ -86,7 +86,7 @@ void SharedFile::append_text(std::string_view text) {
 void SharedFile::append_at_places(const std::function<void(Sink&)>& write) {
   if (comm_->size() == 1) return write(places_);
   std::int64_t size = 0;
-  agreed(*comm_, [&] {
+  collective_try(*comm_, [&] {
     Sink counter([&](std::span<const char> bytes) { size += std::ssize(bytes); });
     write(counter);
     counter.flush();
@@ -94,7 +94,7 @@ void SharedFile::append_at_places(const std::function<void(Sink&)>& write) {
   const RankSpan span = span_of(*comm_, static_cast<std::size_t>(size));
   place_ = end_ + span.first;
   end_ += span.total;
-  agreed(*comm_, [&] {
+  collective_try(*comm_, [&] {
     write(places_);
     places_.flush();
   });
@@ -109,7 +109,7 @@ void SharedFile::write_at_place(std::span<const char> bytes) {
 // The bytes of the ranks go to rank 0 part by part, one rank after the other. All ranks take part
 // in each step, so that all of them learn of a failure.
 void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
-  agreed(*comm_, [&] {
+  collective_try(*comm_, [&] {
     Sink stream(to_descriptor(stream_, output_.quoted(), before_write_));
     if (is_first()) {
       write(stream);
@@ -142,7 +142,7 @@ bool SharedFile::pass_to_first(std::span<const char> bytes, Sink& stream) {
 }
 
 void SharedFile::close() {
-  agreed(*comm_, [&] {
+  collective_try(*comm_, [&] {
     if (file_) {
       places_.flush();
       file_->close();

@@ -61,7 +61,7 @@ class SharedFile {
   OutputFile output_;  // rank 0's
   // A regular file is written by all ranks at once, each at its place; what is none, such as a
   // pipe, by rank 0, to which the others send their bytes in turn.
-  std::unique_ptr<RankFile> file_;
+  std::unique_ptr<SharedWriter> file_;
   bool opened_ = false;
   int stream_ = -1;         // rank 0's
   std::int64_t end_ = 0;    // of what all ranks have appended

@@ -64,7 +64,7 @@ OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
   contents_.with_elements = elements;
   contents_.cells = cells_of(results, elements);
   contents_.with_regions =
-      contents_.cells == Cells::elements && results.level().ground.domain().regions();
+      contents_.cells == Cells::elements && results.level().geometry.domain().regions();
   if (elements) {
     results.for_elements([&](const auto& places) {
       ++contents_.elements;
@@ -196,13 +196,13 @@ void require_places(const std::string& path, const Format& format) {
 
 // XDMF names a file and what is in it with a colon between.
 // DOLFINx takes the file of arrays for one of the same name.
-void add_heavy_data(const FileWish& of, std::vector<FileWish>& wishes) {
+void add_heavy_data(const FileRequest& of, std::vector<FileRequest>& requests) {
   const std::string& path = of.path;
   const std::string heavy = heavy_data_path(path);
   if (std::filesystem::path(heavy).filename().string().find(':') != std::string::npos)
     refuse("XDMF cannot refer to a file with ':' in its name, as '" + heavy +
            "' would have beside '" + path + "': choose another name");
-  wishes.push_back({heavy, &heavy_data_format(), of.elements, of.facets});
+  requests.push_back({heavy, &heavy_data_format(), of.elements, of.facets});
 }
 
 void require_possible(const std::string& path, const Format& format, bool elements, int dimension) {
@@ -235,21 +235,21 @@ class Writing {
           std::size_t files)
       : monitoring_(monitoring), results_(results), fields_(fields), expected_(files) {}
 
-  void add(const FileWish& wish) {
-    if (wish.format->write_cells) {
-      add_grid(wish);
-    } else if (wish.format->write) {
-      add_file(wish);
+  void add(const FileRequest& request) {
+    if (request.format->write_cells) {
+      add_grid(request);
+    } else if (request.format->write) {
+      add_file(request);
     } else {
-      add_piece(wish);
-      add_list_of_pieces(wish);
+      add_piece(request);
+      add_list_of_pieces(request);
     }
     ++done_;
   }
 
   // All ranks' files or none.
   void publish() {
-    agreed(*comm(), [&] { give_up_if_asked(); });
+    collective_try(*comm(), [&] { give_up_if_asked(); });
     io::publish(*comm(), files_);
   }
 
@@ -261,35 +261,35 @@ class Writing {
         std::make_unique<SharedFile>(ranks, path, [this] { give_up_if_asked(); }));
   }
 
-  void add_file(const FileWish& wish) {
-    std::optional<NodesById<Dim>>& nodes = wish.elements ? with_elements_ : nodes_only_;
-    if (!nodes) nodes.emplace(results_, wish.elements, fields_.all());
-    SharedFile& file = open(comm(), wish.path);
-    if (wish.facets)
-      wish.format->write(FacetsBeside(*nodes), file);
+  void add_file(const FileRequest& request) {
+    std::optional<NodesById<Dim>>& nodes = request.elements ? with_elements_ : nodes_only_;
+    if (!nodes) nodes.emplace(results_, request.elements, fields_.all());
+    SharedFile& file = open(comm(), request.path);
+    if (request.facets)
+      request.format->write(FacetsBeside(*nodes), file);
     else
-      wish.format->write(*nodes, file);
+      request.format->write(*nodes, file);
     file.close();
   }
 
-  void add_grid(const FileWish& wish) {
+  void add_grid(const FileRequest& request) {
     if constexpr (Dim == 2) {
       if (!grid_) grid_ = make_sphere_grid(results_);
-      SharedFile& file = open(comm(), wish.path);
-      wish.format->write_cells(*grid_, file);
+      SharedFile& file = open(comm(), request.path);
+      request.format->write_cells(*grid_, file);
       file.close();
     }
   }
 
   // Each rank alone; what fails on one is told to all.
-  void add_piece(const FileWish& wish) {
-    prepare(results_, wish.elements);
+  void add_piece(const FileRequest& request) {
+    prepare(results_, request.elements);
     if (fields_with_ghosts_.empty()) fields_with_ghosts_ = fields_.with_ghosts(results_);
-    agreed(*comm(), [&] {
-      const OwnPiece<Dim> piece(results_, wish.elements, fields_with_ghosts_);
+    collective_try(*comm(), [&] {
+      const OwnPiece<Dim> piece(results_, request.elements, fields_with_ghosts_);
       like_ = piece.contents();
-      SharedFile& file = open(serial_communicator(), piece_path(wish.path, comm()->rank()));
-      if (wish.facets) {
+      SharedFile& file = open(serial_communicator(), piece_path(request.path, comm()->rank()));
+      if (request.facets) {
         const FacetsBeside facets(piece);
         like_ = facets.contents();
         write_vtu(facets, file);
@@ -300,10 +300,11 @@ class Writing {
     });
   }
 
-  void add_list_of_pieces(const FileWish& wish) {
+  void add_list_of_pieces(const FileRequest& request) {
     std::vector<std::string> pieces;
-    for (int rank = 0; rank < comm()->size(); ++rank) pieces.push_back(piece_path(wish.path, rank));
-    SharedFile& file = open(comm(), wish.path);
+    for (int rank = 0; rank < comm()->size(); ++rank)
+      pieces.push_back(piece_path(request.path, rank));
+    SharedFile& file = open(comm(), request.path);
     write_pvtu(pieces, like_, file);
     file.close();
   }
@@ -328,24 +329,25 @@ class Writing {
 
 }  // namespace
 
-void require_fields_for(const std::vector<FileWish>& wishes,
+void require_fields_for(const std::vector<FileRequest>& requests,
                         const std::vector<OutputField>& fields) {
-  for (const FileWish& wish : wishes)
-    for (const std::string_view name : wish.format->fields)
+  for (const FileRequest& request : requests)
+    for (const std::string_view name : request.format->fields)
       if (!has_particle_field(fields, name))
-        refuse(std::string("a .") + wish.format->name + " file needs an output field '" +
-               std::string(name) + "' with one component: '" + wish.path + "'");
+        refuse(std::string("a .") + request.format->name + " file needs an output field '" +
+               std::string(name) + "' with one component: '" + request.path + "'");
 }
 
-void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& comm) {
-  if (std::ranges::none_of(wishes, [](const FileWish& wish) { return wish.format->by_hdf5; }))
+void require_hdf5_for(const std::vector<FileRequest>& requests, const Communicator& comm) {
+  if (std::ranges::none_of(requests,
+                           [](const FileRequest& request) { return request.format->by_hdf5; }))
     return;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     if (comm.rank() == 0) hdf5::require_hdf5();  // it will ask it
   });
 }
 
-Wished wished_of(const Placement& placement) {
+Requested requested_of(const Placement& placement) {
   const GeometryKind kind = placement.results().kind();
   return {placement.dimension(), kind != GeometryKind::surface, kind};
 }
@@ -361,11 +363,11 @@ void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFil
   std::vector<OutputFile*> own;
   for (const auto& file : files)
     if (file->own()) own.push_back(file->own());
-  publish_together(own, [&](const std::function<void()>& step) { agreed(comm, step); });
+  publish_together(own, [&](const std::function<void()>& step) { collective_try(comm, step); });
 }
 
-void add_wish(const std::string& path, const std::string& format_name, bool elements,
-              const Wished& of, std::vector<FileWish>& wishes) {
+void add_request(const std::string& path, const std::string& format_name, bool elements,
+                 const Requested& of, std::vector<FileRequest>& requests) {
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
   require_possible(path, format, elements, of.dimension);
@@ -380,17 +382,17 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
       format.elements == Elements::always ||
       (format.elements == Elements::regions && of.has_elements) ||
       (elements && (format.elements == Elements::on_request || format.elements == Elements::grid));
-  std::vector<FileWish> grids{{path, &format, holds_elements}};
+  std::vector<FileRequest> grids{{path, &format, holds_elements}};
   if (elements && format.elements == Elements::grid && of.has_elements && has_room_beside(path))
     grids.push_back({facets_path(path), &format, true, true});
-  for (const FileWish& grid : grids) {
-    wishes.push_back(grid);
-    if (format.write == write_xdmf) add_heavy_data(grid, wishes);
+  for (const FileRequest& grid : grids) {
+    requests.push_back(grid);
+    if (format.write == write_xdmf) add_heavy_data(grid, requests);
   }
   if (!elements || format.elements != Elements::beside) return;
-  wishes.push_back({with_extension(path, "ele"), format_by_name("ele"), true});
+  requests.push_back({with_extension(path, "ele"), format_by_name("ele"), true});
   if (of.dimension == 3)
-    wishes.push_back({with_extension(path, "face"), format_by_name("face"), true});
+    requests.push_back({with_extension(path, "face"), format_by_name("face"), true});
 }
 
 std::string piece_path(const std::string& path, int rank) {
@@ -400,17 +402,17 @@ std::string piece_path(const std::string& path, int rank) {
 }
 
 void write_files(Placement& placement, const OutputFields& fields,
-                 const std::vector<FileWish>& wishes) {
+                 const std::vector<FileRequest>& requests) {
   const Communicator& comm = placement.communicator();
   // What one rank cannot do at any step of it, all give up.
-  agreed(comm, [&] {
-    require_hdf5_for(wishes, comm);
+  collective_try(comm, [&] {
+    require_hdf5_for(requests, comm);
     fields.require_current(placement.results());
     placement.results().prepare_order();  // without nodes there is no field to ask for
-    require_fields_for(wishes, fields.all());
-    in_its_dimension(placement.results(), [&]<int Dim>(Results<Dim>& results) {
-      Writing<Dim> writing(placement.monitoring(), results, fields, wishes.size());
-      for (const FileWish& wish : wishes) writing.add(wish);
+    require_fields_for(requests, fields.all());
+    visit_dimension(placement.results(), [&]<int Dim>(Results<Dim>& results) {
+      Writing<Dim> writing(placement.monitoring(), results, fields, requests.size());
+      for (const FileRequest& request : requests) writing.add(request);
       writing.publish();
     });
   });

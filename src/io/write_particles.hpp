@@ -13,6 +13,6 @@ namespace pnpbs::io {
 // With these fields, in the formats that have room for any. Collective, and agreed.
 void write_particles(const std::shared_ptr<const Communicator>& comm, const Particles& particles,
                      const GroupNames& names, const std::vector<OutputField>& fields,
-                     const std::vector<FileWish>& wishes, const AsksToStop& asks_to_stop);
+                     const std::vector<FileRequest>& requests, const AsksToStop& asks_to_stop);
 
 }  // namespace pnpbs::io

@@ -13,7 +13,7 @@ namespace {
 
 // Of surfaces alone: they cross leaves of some area each, and the sum is known.
 std::vector<double> wanted_on_surfaces(const Level<3>& level) {
-  const DomainMap<3>& map = level.map();
+  const SizedTree<3>& map = level.map();
   const BackgroundTree<3>& tree = map.tree();
   const auto face = [&](std::int32_t leaf) {
     if (!level.tree->owns(leaf) || map.leaf_outside(leaf)) return 0.0;
@@ -26,8 +26,8 @@ std::vector<double> wanted_on_surfaces(const Level<3>& level) {
   std::vector<double> wanted;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const double part = face(leaf), d = map.leaf_spacing(leaf);
-    wanted.push_back(part > 0 ? Lattice<2>::kDensity * level.ground.domain().area() * (part / all) /
-                                    (d * d)
+    wanted.push_back(part > 0 ? Lattice<2>::kDensity * level.geometry.domain().area() *
+                                    (part / all) / (d * d)
                               : 0);
   }
   return wanted;
@@ -40,19 +40,20 @@ std::vector<double> wanted_on_surfaces(const Level<2>&) { return {}; }
 // all of them.
 template <int Dim>
 std::vector<double> wanted_nodes(const Level<Dim>& level) {
-  if (level.ground.kind() == GeometryKind::surface) return wanted_on_surfaces(level);
-  const DomainMap<Dim>& map = level.map();
+  if (level.geometry.kind() == GeometryKind::surface) return wanted_on_surfaces(level);
+  const SizedTree<Dim>& map = level.map();
   const BackgroundTree<Dim>& tree = map.tree();
   std::uint64_t inside = 0, crossed = 0;  // areas or volumes
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
     if (level.tree->owns(leaf) && !map.leaf_outside(leaf))
       (map.leaf_has_facets(leaf) ? crossed : inside) += map.leaf_size(leaf);
-  const double unit = power<Dim>(std::ldexp(tree.side(), -DomainMap<Dim>::kSizeDepth));
+  const double unit = power<Dim>(std::ldexp(tree.side(), -SizedTree<Dim>::kSizeDepth));
   const double area_inside = unit * static_cast<double>(level.comm->allreduce_sum(inside)),
                area_crossed = unit * static_cast<double>(level.comm->allreduce_sum(crossed));
   const double share =
-      area_crossed > 0 ? std::clamp((level.ground.measure() - area_inside) / area_crossed, 0.0, 1.0)
-                       : 0;
+      area_crossed > 0
+          ? std::clamp((level.geometry.measure() - area_inside) / area_crossed, 0.0, 1.0)
+          : 0;
   std::vector<double> wanted;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const double d = map.leaf_spacing(leaf), side = tree.cell_side(tree.leaf_cell(leaf));
@@ -80,7 +81,7 @@ namespace {
 // sphere, which is not filled.
 double growth_of_chart(const Level<2>& level, std::int32_t leaf, double d) {
   constexpr double kTooMuch = 0.5;  // over a leaf
-  const Embedding<2>& embedding = level.ground.domain().embedding();
+  const Embedding<2>& embedding = level.geometry.domain().embedding();
   if (!embedding.is_sphere()) return 0;
   const BackgroundTree<2>& tree = level.map().tree();
   const std::int32_t cell = tree.leaf_cell(leaf);
@@ -88,7 +89,7 @@ double growth_of_chart(const Level<2>& level, std::int32_t leaf, double d) {
   const double growth = embedding.chart().relative_growth(centre), side = tree.cell_side(cell);
   const Point<2> outermost{centre[0] + std::copysign(side / 2, centre[0]),
                            centre[1] + std::copysign(side / 2, centre[1])};
-  if (growth * side > kTooMuch || level.ground.domain().is_in_patch(outermost))
+  if (growth * side > kTooMuch || level.geometry.domain().is_in_patch(outermost))
     return std::numeric_limits<double>::infinity();
   return d * growth;
 }
@@ -98,7 +99,7 @@ double growth_of_chart(const Level<3>&, std::int32_t, double) { return 0; }
 
 template <int Dim>
 SpacingVariation spacing_variation(const Level<Dim>& level) {
-  const DomainMap<Dim>& map = level.map();
+  const SizedTree<Dim>& map = level.map();
   constexpr double kBetweenSamples = 0.7;  // the farthest of a leaf, in units of its side
   SpacingVariation own;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {

@@ -21,12 +21,12 @@ StarInput star_input(const Level<2>& level, const KnownRegion<2>& known) {
   const Neighbourhood<2>& neighbourhood = level.neighbourhood;
   return {level.nodes,
           level.map(),
-          level.ground.sectors(),
+          level.geometry.sectors(),
           neighbourhood.buckets(),
           neighbourhood.lists(),
           neighbourhood.near_boundary().edges(),
           known,
-          level.ground.domain()};
+          level.geometry.domain()};
 }
 
 }  // namespace
@@ -42,24 +42,25 @@ VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
   };
   const auto on_one_surface = [&level](const std::array<std::int64_t, 4>& corners) {
     std::array<SurfacePlace, 4> places;
-    for (std::size_t k = 0; k < 4; ++k) places[k] = level.ground.place(level.nodes, corners[k]);
-    return level.ground.surface().share_patch(places);
+    for (std::size_t k = 0; k < 4; ++k) places[k] = level.geometry.place(level.nodes, corners[k]);
+    return level.geometry.surface().share_patch(places);
   };
-  return {
-      level.nodes,
-      level.tree->tree(),
-      neighbourhood.buckets(),
-      neighbourhood.lists(),
-      known,
-      &level.ground.domain().index().sides(),
-      complete,
-      room,
-      on_one_surface,
-      [&level](std::int64_t i, std::int64_t j) { return joined(level.ground, level.nodes, i, j); },
-      [&level](const Point<3>& x, double reach) {
-        return level.ground.domain().index().nearest(x, reach);
-      },
-      &level.changed_labels};
+  return {level.nodes,
+          level.tree->tree(),
+          neighbourhood.buckets(),
+          neighbourhood.lists(),
+          known,
+          &level.geometry.domain().index().sides(),
+          complete,
+          room,
+          on_one_surface,
+          [&level](std::int64_t i, std::int64_t j) {
+            return joined(level.geometry, level.nodes, i, j);
+          },
+          [&level](const Point<3>& x, double reach) {
+            return level.geometry.domain().index().nearest(x, reach);
+          },
+          &level.changed_labels};
 }
 
 namespace {
@@ -69,9 +70,9 @@ SurfaceStarInput surface_star_input(const Level<3>& level, const KnownRegion<3>&
           level.tree->tree(),
           level.neighbourhood.buckets(),
           known,
-          level.ground.surface(),
-          level.ground.features(),
-          [&level](std::int64_t i) { return level.ground.place(level.nodes, i); }};
+          level.geometry.surface(),
+          level.geometry.features(),
+          [&level](std::int64_t i) { return level.geometry.place(level.nodes, i); }};
 }
 
 template <int Dim>
@@ -106,7 +107,7 @@ void begin_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) 
   level.stars.build_none(input);
   if (!taken_hold) return;
   // These are confirmed at once, as others are one by one.
-  count_stars(level, level.stars_before.put_back(input, level.stars));
+  count_stars(level, level.stars_before.restore(input, level.stars));
 }
 
 // Of the owned nodes, those whose stars are yet to be found.
@@ -132,7 +133,7 @@ void build_stars(Level<2>& level, const KnownRegion<2>& known, bool) {
   level.stars.build(star_input(level, known));
 }
 void build_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) {
-  const bool on_surfaces = level.ground.kind() == GeometryKind::surface;
+  const bool on_surfaces = level.geometry.kind() == GeometryKind::surface;
   if (!on_surfaces && level.stars_before.any() && known.is_everywhere()) {
     begin_stars(level, known, taken_hold);
     return find_owned_stars(level, known, owned_without_star(level));
@@ -153,7 +154,7 @@ class UnknownBoxes {
 
   void ask_around(std::int64_t i) {
     if constexpr (Dim == 2)
-      if (level_.ground.domain().is_in_patch(level_.nodes.position(i))) return ask_in_cap(i);
+      if (level_.geometry.domain().is_in_patch(level_.nodes.position(i))) return ask_in_cap(i);
     ask_around(i, level_.stars.needs(i));
   }
   void ask_around(std::int64_t i, double reach) {
@@ -173,7 +174,7 @@ class UnknownBoxes {
   void ask_in_cap(std::int64_t i) {
     const double length = level_.stars.needs(i);
     if (length == 0) return;
-    const SphereCap cap(level_.ground.domain().embedding().chart(), level_.nodes.position(i),
+    const SphereCap cap(level_.geometry.domain().embedding().chart(), level_.nodes.position(i),
                         length);
     known_.for_unknown_leaves(
         level_.tree->tree(), [&](const Box<2>& box) { return cap.meets(box); },
@@ -296,7 +297,7 @@ void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<
 // then ring by ring those of ghosts. They alone ask for more ghosts, but for rare ones inside.
 std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
                                       const std::vector<std::int64_t>& at_border,
-                                      const StarZone& zone, bool taken_hold) {
+                                      const GhostStarDepth& zone, bool taken_hold) {
   begin_stars(level, known, taken_hold);
   UnknownBoxes<3> unknown(level, known);
   find_stars_of(level, known, at_border, unknown);
@@ -322,7 +323,7 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
 
 bool stars_hold(Level<2>&) { return false; }
 bool stars_hold(Level<3>& level) {
-  if (level.ground.kind() == GeometryKind::surface) return false;
+  if (level.geometry.kind() == GeometryKind::surface) return false;
   const std::uint64_t before = level.stars_before.digest();
   level.stars_digest = node_digest(level);
   return level.comm->allreduce_sum(std::uint64_t{before != level.stars_digest}) == 0;
@@ -339,29 +340,31 @@ void rebuild_stars(Level<Dim>& level) {
 bool restore_stars(Level<2>& level) {
   if (level.distributed()) return false;
   const PhaseTimer timer(level.timers, Phase::stars);
-  return restore_by_flips(level.nodes, level.ground.sectors(), level.stars);
+  return restore_by_flips(level.nodes, level.geometry.sectors(), level.stars);
 }
 bool restore_stars(Level<3>&) { return false; }
 
-std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known, const StarZone& zone,
-                               bool taken_hold) {
+std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known,
+                               const GhostStarDepth& zone, bool taken_hold) {
   std::vector<Box<2>> unknown;
-  agreed(*level.comm, [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
+  collective_try(*level.comm,
+                 [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
   return unknown;
 }
-std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known, const StarZone& zone,
-                               bool taken_hold) {
+std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known,
+                               const GhostStarDepth& zone, bool taken_hold) {
   std::vector<Box<3>> unknown;
-  if (!level.distributed() || level.ground.kind() == GeometryKind::surface) {
-    agreed(*level.comm, [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
+  if (!level.distributed() || level.geometry.kind() == GeometryKind::surface) {
+    collective_try(*level.comm,
+                   [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
     return unknown;
   }
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const std::vector<std::int64_t> at_border = nodes_at_border(level.nodes, level.lists());
     unknown = find_border_stars(level, known, at_border, zone, taken_hold);
   });
   if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
-  agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, zone.rings); });
+  collective_try(*level.comm, [&] { unknown = find_inner_stars(level, known, zone.rings); });
   return unknown;
 }
 

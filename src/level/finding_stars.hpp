@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "level/ghost_star_depth.hpp"
 #include "level/level.hpp"
-#include "level/star_zone.hpp"
 #include "partition/known_region.hpp"
 
 namespace pnpbs {
@@ -19,10 +19,10 @@ bool stars_hold(Level<3>& level);
 // Finds the stars of the owned nodes and of the ghosts in that zone around them; if those taken
 // hold, only what is missing. Returns what must be known for those that it could not find; nothing
 // on all ranks: they are all there. Collective.
-std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known, const StarZone& zone,
-                               bool taken_hold);
-std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known, const StarZone& zone,
-                               bool taken_hold);
+std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known,
+                               const GhostStarDepth& zone, bool taken_hold);
+std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known,
+                               const GhostStarDepth& zone, bool taken_hold);
 
 // Of all nodes, on one rank.
 template <int Dim>

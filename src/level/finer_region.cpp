@@ -46,9 +46,9 @@ std::vector<Reached> neighbours_of(const std::vector<Reached>& last, const std::
 
 }  // namespace
 
-KnownValues<3> finer_region(const std::vector<FinerPlaces::Place>& places,
-                            const SpacingEvaluator<3>& spacing,
-                            const std::function<bool(const Point<3>&)>& inside) {
+SpacingHints<3> finer_region(const std::vector<UndersampledSpacing::Place>& places,
+                             const SpacingEvaluator<3>& spacing,
+                             const std::function<bool(const Point<3>&)>& inside) {
   constexpr std::size_t kMaxPlaces = 1 << 18;
   // No place in a leaf is farther from the nearest of its samples, in sides of it.
   constexpr double kFarthest = 0.44;
@@ -59,10 +59,10 @@ KnownValues<3> finer_region(const std::vector<FinerPlaces::Place>& places,
     spacing(std::ssize(x), x.data(), d.data());
     return d;
   };
-  KnownValues<3> known;
+  SpacingHints<3> known;
   std::set<CellKey> seen;
   std::vector<Reached> last;
-  for (const FinerPlaces::Place& place : places) last.push_back({place.x, 0});
+  for (const UndersampledSpacing::Place& place : places) last.push_back({place.x, 0});
   std::vector<double> d = values_at(last);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double sampled = places[i].sampled / places[i].d * d[i];

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "domain/spacing_evaluator.hpp"
-#include "level/finer_places.hpp"
+#include "level/undersampled_points.hpp"
 #include "spacing/spacing.hpp"
 
 namespace pnpbs {
@@ -14,8 +14,8 @@ namespace pnpbs {
 // The places, with d as the spacing has it, and those inside the domain that are reached from them
 // by steps of about d in all directions for as long as it stays far finer than what was sampled
 // around. Where these are very many, those nearest to the places.
-KnownValues<3> finer_region(const std::vector<FinerPlaces::Place>& places,
-                            const SpacingEvaluator<3>& spacing,
-                            const std::function<bool(const Point<3>&)>& inside);
+SpacingHints<3> finer_region(const std::vector<UndersampledSpacing::Place>& places,
+                             const SpacingEvaluator<3>& spacing,
+                             const std::function<bool(const Point<3>&)>& inside);
 
 }  // namespace pnpbs

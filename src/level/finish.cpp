@@ -14,8 +14,8 @@ void prepare_finish(Level<Dim>& level) {
   take_stars(level);
   level.nodes.set_reference_positions();
   exchange(level, kRepairHops<Dim>);
-  agreed(*level.comm,
-         [&] { rebuild_lists(level, level.settings.list_radius, lists_of_stars(level)); });
+  collective_try(*level.comm,
+                 [&] { rebuild_lists(level, level.settings.list_radius, lists_of_stars(level)); });
 }
 
 namespace {
@@ -36,7 +36,7 @@ void require_finish_lists(Level<Dim>& level) {
 
 // From fresh lists. In space stars cost much: where nothing has moved since, they are there.
 template <int Dim>
-void make_finish_stars(Level<Dim>& level, StarZone zone) {
+void make_finish_stars(Level<Dim>& level, GhostStarDepth zone) {
   require_finish_lists(level);
   const bool of_owned = Dim == 3 && zone.rings == 0 && zone.reach == 0;
   if (of_owned && level.finish_stars == level.version() && !level.changed_labels.any()) return;
@@ -48,7 +48,7 @@ template void prepare_finish(Level<2>&);
 template void prepare_finish(Level<3>&);
 template void require_finish_lists(Level<2>&);
 template void require_finish_lists(Level<3>&);
-template void make_finish_stars(Level<2>&, StarZone);
-template void make_finish_stars(Level<3>&, StarZone);
+template void make_finish_stars(Level<2>&, GhostStarDepth);
+template void make_finish_stars(Level<3>&, GhostStarDepth);
 
 }  // namespace pnpbs

@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
+#include "level/ghost_star_depth.hpp"
 #include "level/level.hpp"
 #include "level/population_events.hpp"
-#include "level/star_zone.hpp"
 #include "quality/element_quality.hpp"
 
 namespace pnpbs {
@@ -47,6 +47,6 @@ template <int Dim>
 void require_finish_lists(Level<Dim>& level);
 // From fresh lists, the stars of the owned nodes and so many rings around them. Collective.
 template <int Dim>
-void make_finish_stars(Level<Dim>& level, StarZone zone);
+void make_finish_stars(Level<Dim>& level, GhostStarDepth zone);
 
 }  // namespace pnpbs

@@ -50,16 +50,17 @@ std::vector<Point<Dim>> graded_fill(const Level<Dim>& level,
                                     const std::function<bool(std::int32_t)>& owned) {
   std::optional<GradedFill<Dim>> fill;
   std::vector<double> d;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     fill.emplace(level.map(), owned);
     d.resize(fill->centres().size());
-    level.ground.evaluator()(static_cast<std::int64_t>(d.size()), fill->centres().data(), d.data());
+    level.geometry.evaluator()(static_cast<std::int64_t>(d.size()), fill->centres().data(),
+                               d.data());
   });
   std::int64_t end = 0;
   const std::vector<std::int64_t> before =
       level.tree->distribution().prefix_sums(*level.comm, fill->wanted_nodes(d), end);
   std::vector<Point<Dim>> nodes;
-  agreed(*level.comm, [&] { nodes = fill->place(d, before); });
+  collective_try(*level.comm, [&] { nodes = fill->place(d, before); });
   return nodes;
 }
 
@@ -74,9 +75,9 @@ IncomingNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::functio
     beat();
     return level.tree->owns(leaf);
   };
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     for (const Point<Dim>& x :
-         lattice_fill<Dim>(level.map(), level.ground.bounds(), owned, unrefined, stretched))
+         lattice_fill<Dim>(level.map(), level.geometry.bounds(), owned, unrefined, stretched))
       inner.push_back({x, -1});
   });
   for (const Point<Dim>& x : graded_fill(level, owned)) inner.push_back({x, -1});
@@ -86,11 +87,11 @@ IncomingNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::functio
 }
 
 template <int Dim>
-void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat,
+void fill(Level<Dim>& level, BoundaryNodes<Dim> laid, const std::function<void()>& beat,
           bool stretched) {
   const PhaseTimer timer(level.timers, Phase::fill);
   IncomingNodes<Dim> inner = first_inner_nodes(level, beat, stretched);
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     beat();
     find_leaves(level, inner);
     beat();
@@ -99,8 +100,8 @@ void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& b
   number_and_store(level, std::move(inner), std::move(laid));
 }
 
-template void fill(Level<2>&, LaidNodes<2>, const std::function<void()>&, bool);
-template void fill(Level<3>&, LaidNodes<3>, const std::function<void()>&, bool);
+template void fill(Level<2>&, BoundaryNodes<2>, const std::function<void()>&, bool);
+template void fill(Level<3>&, BoundaryNodes<3>, const std::function<void()>&, bool);
 
 template IncomingNodes<2> first_inner_nodes(const Level<2>&, const std::function<void()>&, bool);
 template IncomingNodes<3> first_inner_nodes(const Level<3>&, const std::function<void()>&, bool);

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "level/laid_nodes.hpp"
+#include "level/boundary_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
@@ -18,7 +18,7 @@ IncomingNodes<Dim> first_inner_nodes(
 // throws on one rank, all throw. Collective.
 template <int Dim>
 void fill(
-    Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat = [] {},
+    Level<Dim>& level, BoundaryNodes<Dim> laid, const std::function<void()>& beat = [] {},
     bool stretched = true);
 
 }  // namespace pnpbs

@@ -10,7 +10,7 @@ namespace pnpbs {
 
 ListsOf lists_of_stars(const Level<2>&) { return ListsOf::all_nodes; }
 ListsOf lists_of_stars(const Level<3>& level) {
-  return level.ground.kind() == GeometryKind::surface ? ListsOf::all_nodes : ListsOf::owned_nodes;
+  return level.geometry.kind() == GeometryKind::surface ? ListsOf::all_nodes : ListsOf::owned_nodes;
 }
 
 template <int Dim>
@@ -20,7 +20,7 @@ void add_lists_of(Level<Dim>& level, const std::vector<std::int32_t>& nodes) {
   std::ranges::copy_if(nodes, std::back_inserter(more),
                        [&](std::int32_t i) { return !level.lists().has(i); });
   if (more.empty()) return;
-  level.neighbourhood.add_lists(level.nodes, level.ground, *level.tree, more);
+  level.neighbourhood.add_lists(level.nodes, level.geometry, *level.tree, more);
   level.timers.add(Phase::lists, {std::ssize(more), 0});
 }
 

@@ -31,7 +31,7 @@ void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const
                            int hops, Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood) {
   hops_ = 0;
   std::vector<Bytes> outgoing;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     const std::vector<int>& neighbours = tree.halo(hops, settings).neighbours();
     halo_.start(comm, neighbours);
     outgoing.resize(neighbours.size());
@@ -49,12 +49,12 @@ void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const
     kept = travel.pack_leaving(nodes, known_leaf, outgoing, stay);
   });
   std::vector<Bytes> incoming;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     incoming = comm.exchange(halo.neighbours(), outgoing, failure);
     travel.reserve(nodes, kept, incoming);
   });
   // All ranks have what they need: from here on no node can be lost.
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     neighbourhood.keep_nodes(nodes, stay, kept);
     travel.append_arriving(nodes, incoming);
   });
@@ -78,7 +78,8 @@ void Ghosts<Dim>::migrate(const Communicator& comm, const LevelTree<Dim>& tree, 
   }
   const std::vector<PackedNode<Dim>> arriving = redistribute(
       comm, leaving, [&](const PackedNode<Dim>& node) { return tree.owner_at(node.x); });
-  agreed(comm, [&] { nodes.reserve_with_room(kept + static_cast<std::int64_t>(arriving.size())); });
+  collective_try(
+      comm, [&] { nodes.reserve_with_room(kept + static_cast<std::int64_t>(arriving.size())); });
   neighbourhood.keep_nodes(nodes, stay, kept);
   for (const PackedNode<Dim>& node : arriving) append(nodes, node, true);
   hops_ = 0;
@@ -102,7 +103,7 @@ void Ghosts<Dim>::fetch(const Communicator& comm, const LevelTree<Dim>& tree,
     if (!answer.empty()) answers.push_back({theirs.rank, std::move(answer)});
   }
   const std::vector<Message> found = comm.sparse_all_to_all(answers);
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     for (const Message& theirs : found) {
       halo_.add_neighbour(theirs.rank);
       for_records<PackedNode<Dim>>({theirs.bytes}, [&](const PackedNode<Dim>& node) {

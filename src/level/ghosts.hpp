@@ -55,7 +55,7 @@ class Ghosts {
   }
 
   // The next exchange must choose them.
-  void choose_anew() { hops_ = 0; }
+  void invalidate() { hops_ = 0; }
   void count_step() { ++steps_since_choice_; }
   // Allocates memory for permute(), which then cannot fail.
   void reserve_order(std::int64_t count) { halo_.reserve_order(count); }

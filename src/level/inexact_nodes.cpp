@@ -108,7 +108,7 @@ void count_uses_by_event(Level<Dim>& level, int hops) {
   if (!looks(level)) return;
   std::vector<std::int32_t> all(static_cast<std::size_t>(level.nodes.count));
   std::iota(all.begin(), all.end(), 0);
-  level.neighbourhood.add_lists(level.nodes, level.ground, *level.tree, all);
+  level.neighbourhood.add_lists(level.nodes, level.geometry, *level.tree, all);
   InexactNodes inexact;
   spread(level, inexact, {level.settings.list_radius, 0, true}, hops);
   level.unknown_uses += owned_among(level, inexact);

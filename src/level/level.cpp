@@ -26,23 +26,24 @@ Level<Dim>::Level(std::shared_ptr<const Communicator> communicator,
       number(next_number()),
       comm(std::move(communicator)),
       timers(into),
-      ground(std::move(domain), std::move(spacing), with.node_limit()) {
-  neighbourhood.reset_boundary(ground);
+      geometry(std::move(domain), std::move(spacing), with.node_limit()) {
+  neighbourhood.reset_boundary(geometry);
 }
 
 template <int Dim>
 void Level<Dim>::grow_tree(const Level<Dim>* like) {
   const PhaseTimer timer(timers, distributed() ? Phase::partition : Phase::tree);
-  tree = LevelTree<Dim>::grow(*comm, ground, settings, like ? like->tree.get() : nullptr);
+  tree = LevelTree<Dim>::grow(*comm, geometry, settings, like ? like->tree.get() : nullptr);
   neighbourhood.adopt(*tree, NearBoundary<Dim>::near_leaves(*tree, edge_radius(settings)));
 }
 
 template <int Dim>
 void Level<Dim>::adopt_partition(Distribution<Dim> next) {
   std::shared_ptr<LevelTree<Dim>> grown =
-      LevelTree<Dim>::grow(*comm, ground, settings, std::move(next));
+      LevelTree<Dim>::grow(*comm, geometry, settings, std::move(next));
   typename NearBoundary<Dim>::NearLeaves near;
-  agreed(*comm, [&] { near = NearBoundary<Dim>::near_leaves(*grown, edge_radius(settings)); });
+  collective_try(*comm,
+                 [&] { near = NearBoundary<Dim>::near_leaves(*grown, edge_radius(settings)); });
   neighbourhood.adopt(*grown, std::move(near));
   ghosts = Ghosts<Dim>();
   tree = std::move(grown);
@@ -56,11 +57,11 @@ LevelCopy<Dim> Level<Dim>::copy() const {
 }
 
 template <int Dim>
-void Level<Dim>::put_back(LevelCopy<Dim>&& earlier) noexcept {
+void Level<Dim>::restore(LevelCopy<Dim>&& earlier) noexcept {
   LevelState<Dim>& state = earlier.state;
   const std::int64_t before = version();
   state.nodes.renew_stamps(nodes);
-  state.ghosts.choose_anew();
+  state.ghosts.invalidate();
   static_cast<LevelState<Dim>&>(*this) = std::move(state);
   neighbourhood.forget(*tree, nodes, earlier.figures);
   forget_stars();
@@ -69,7 +70,7 @@ void Level<Dim>::put_back(LevelCopy<Dim>&& earlier) noexcept {
 
 template <int Dim>
 void Level<Dim>::forget_derived() noexcept {
-  ghosts.choose_anew();
+  ghosts.invalidate();
   tree->forget_hops();
   neighbourhood.forget(*tree, nodes, neighbourhood.figures(nodes));
   forget_stars();
@@ -90,7 +91,7 @@ void Level<Dim>::change_settings(const Settings& next) {
   const Settings before = settings;
   settings = next;
   ++settings_version;
-  ghosts.choose_anew();
+  ghosts.invalidate();
   if (widest_radius(settings) != widest_radius(before) ||
       settings.list_radius != before.list_radius)
     tree->forget_hops();  // a hop has another length now
@@ -107,8 +108,8 @@ std::int64_t Level<Dim>::owned_count() const {
 }
 
 std::int64_t boundary_nodes(const Level<2>& level) {
-  return std::ranges::count_if(level.ground.boundary().nodes, [&](const BoundaryNode<2>& node) {
-    return !level.ground.domain().is_in_patch(node.position);
+  return std::ranges::count_if(level.geometry.boundary().nodes, [&](const BoundaryNode<2>& node) {
+    return !level.geometry.domain().is_in_patch(node.position);
   });
 }
 

@@ -15,8 +15,8 @@
 #include "delaunay/volume/element_labels.hpp"
 #include "domain/domain.hpp"
 #include "level/ghosts.hpp"
-#include "level/ground.hpp"
 #include "level/inexact_nodes.hpp"
+#include "level/level_geometry.hpp"
 #include "level/level_stamp.hpp"
 #include "level/level_tree.hpp"
 #include "level/neighbourhood.hpp"
@@ -69,7 +69,7 @@ struct Level : LevelState<Dim> {
   // A copy of what counts, which shares nothing that changes. Local.
   LevelCopy<Dim> copy() const;
   // Puts back a copy that was taken of this level. What was derived is forgotten. Local.
-  void put_back(LevelCopy<Dim>&& earlier) noexcept;
+  void restore(LevelCopy<Dim>&& earlier) noexcept;
   // Forgets what is derived from the nodes: it is found again when it is asked for. All ranks do
   // this together, so that they agree on what is there. Local.
   void forget_derived() noexcept;
@@ -77,7 +77,7 @@ struct Level : LevelState<Dim> {
   void change_settings(const Settings& next);
 
   bool distributed() const { return comm->size() > 1; }
-  const DomainMap<Dim>& map() const { return tree->map(); }
+  const SizedTree<Dim>& map() const { return tree->map(); }
   const AdjacencyList<Dim>& lists() const { return neighbourhood.lists(); }
   // Changes with the nodes and with the lists.
   std::int64_t version() const {
@@ -93,7 +93,7 @@ struct Level : LevelState<Dim> {
   std::shared_ptr<const Communicator> comm;
   Timers& timers;
 
-  Ground<Dim> ground;
+  LevelGeometry<Dim> geometry;
   Neighbourhood<Dim> neighbourhood;
   Stars<Dim> stars;
   KeptStarsBefore<Dim> stars_before;

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
-#include "level/ground.hpp"
+#include "level/level_geometry.hpp"
 #include "partition/distribution.hpp"
 #include "settings/settings.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 #include "tree/leaf_graph.hpp"
 
 namespace pnpbs {
@@ -21,18 +21,20 @@ class LevelTree {
  public:
   // Partitioned by the work that d asks for or, where that balances it, as another level is whose
   // spacing is a multiple of this one's. Collective.
-  static std::unique_ptr<LevelTree<Dim>> grow(const Communicator& comm, const Ground<Dim>& ground,
+  static std::unique_ptr<LevelTree<Dim>> grow(const Communicator& comm,
+                                              const LevelGeometry<Dim>& geometry,
                                               const Settings& settings, const LevelTree<Dim>* like);
   // For these cells and owners. Collective.
-  static std::unique_ptr<LevelTree<Dim>> grow(const Communicator& comm, const Ground<Dim>& ground,
+  static std::unique_ptr<LevelTree<Dim>> grow(const Communicator& comm,
+                                              const LevelGeometry<Dim>& geometry,
                                               const Settings& settings,
                                               Distribution<Dim> distribution);
   LevelTree(const LevelTree<Dim>&) = delete;  // the distribution points to the tree
   LevelTree<Dim>& operator=(const LevelTree<Dim>&) = delete;
 
   const Communicator& comm() const { return comm_; }
-  const Ground<Dim>& ground() const { return ground_; }
-  const DomainMap<Dim>& map() const { return map_; }
+  const LevelGeometry<Dim>& geometry() const { return geometry_; }
+  const SizedTree<Dim>& map() const { return map_; }
   const BackgroundTree<Dim>& tree() const { return map_.tree(); }
   // Leaves of which one reaches the other.
   const std::shared_ptr<const LeafLinks<Dim>>& links() const { return links_; }
@@ -47,7 +49,8 @@ class LevelTree {
   const Halo& halo(int hops, const Settings& settings);
 
  private:
-  LevelTree(const Communicator& comm, const Ground<Dim>& ground) : comm_(comm), ground_(ground) {}
+  LevelTree(const Communicator& comm, const LevelGeometry<Dim>& geometry)
+      : comm_(comm), geometry_(geometry) {}
   bool distributed() const { return comm_.size() > 1; }
 
   void grow_whole(const Settings& settings);
@@ -55,15 +58,15 @@ class LevelTree {
   void take_rough_cells(const Settings& settings);
   std::vector<PartitionCell<Dim>> rough_cells(const Settings& settings);
   void refine(const Settings& settings, const std::vector<char>& refined);
-  std::vector<GrowthSource<Dim>> known_values() const;
+  std::vector<GrowthSource<Dim>> spacing_hints() const;
   void link_leaves(const Settings& settings);
   void grow_own_part(const Settings& settings);
-  void require_same_ground() const;
+  void require_same_geometry() const;
   void require_same_leaves() const;
 
   const Communicator& comm_;
-  const Ground<Dim>& ground_;
-  DomainMap<Dim> map_;
+  const LevelGeometry<Dim>& geometry_;
+  SizedTree<Dim> map_;
   std::shared_ptr<const LeafLinks<Dim>> links_;
   Distribution<Dim> distribution_;
   int hops_ = 0;

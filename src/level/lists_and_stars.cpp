@@ -94,7 +94,7 @@ void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double ra
     level.ghosts.fetch(*level.comm, *level.tree, boxes, level.nodes, level.neighbourhood.buckets());
   }
   for (const Box<Dim>& box : boxes) known.add(level.tree->tree(), box);
-  agreed(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
+  collective_try(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
 }
 
 // Ghosts follow the order of the nodes also where sorting fails after it has changed that.
@@ -118,7 +118,7 @@ template <int Dim>
 void rebuild_lists_for_steps(Level<Dim>& level, ListsOf listed) {
   const PhaseTimer timer(level.timers, Phase::lists);
   sort_nodes(level);
-  level.neighbourhood.rebuild_for_steps(level.nodes, level.ground, *level.tree, level.settings,
+  level.neighbourhood.rebuild_for_steps(level.nodes, level.geometry, *level.tree, level.settings,
                                         listed);
   level.timers.add(Phase::lists, level.neighbourhood.nodes_listed());
 }
@@ -127,19 +127,19 @@ template <int Dim>
 void rebuild_lists(Level<Dim>& level, double radius, ListsOf listed) {
   const PhaseTimer timer(level.timers, Phase::lists);
   sort_nodes(level);
-  level.neighbourhood.rebuild_here(level.nodes, level.ground, *level.tree, radius, listed);
+  level.neighbourhood.rebuild_here(level.nodes, level.geometry, *level.tree, radius, listed);
   level.timers.add(Phase::lists, level.neighbourhood.nodes_listed());
 }
 
 template <int Dim>
-void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
-  agreed(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
+void make_lists_and_stars(Level<Dim>& level, int hops, double radius, GhostStarDepth zone) {
+  collective_try(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
   make_stars(level, hops, radius, zone);
 }
 
 template <int Dim>
-void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
-  if (level.ground.kind() == GeometryKind::surface) zone.rings += AgreedTriangles::kRings;
+void make_stars(Level<Dim>& level, int hops, double radius, GhostStarDepth zone) {
+  if (level.geometry.kind() == GeometryKind::surface) zone.rings += AgreedTriangles::kRings;
   level.changed_labels = {};
   KnownRegion<Dim> known = known_after_exchange(level, hops);
   const auto any = [&](const std::vector<Box<Dim>>& unknown) {
@@ -157,7 +157,7 @@ void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
 // Where labels were changed, the stars are not those of the nodes alone.
 template <int Dim>
 void take_stars(Level<Dim>& level) {
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     level.stars_before.take(level.nodes, level.stars,
                             level.changed_labels.any() ? 0 : level.stars_digest);
   });
@@ -187,10 +187,10 @@ template void rebuild_lists_for_steps(Level<2>&, ListsOf);
 template void rebuild_lists_for_steps(Level<3>&, ListsOf);
 template void rebuild_lists(Level<2>&, double, ListsOf);
 template void rebuild_lists(Level<3>&, double, ListsOf);
-template void make_lists_and_stars(Level<2>&, int, double, StarZone);
-template void make_lists_and_stars(Level<3>&, int, double, StarZone);
-template void make_stars(Level<2>&, int, double, StarZone);
-template void make_stars(Level<3>&, int, double, StarZone);
+template void make_lists_and_stars(Level<2>&, int, double, GhostStarDepth);
+template void make_lists_and_stars(Level<3>&, int, double, GhostStarDepth);
+template void make_stars(Level<2>&, int, double, GhostStarDepth);
+template void make_stars(Level<3>&, int, double, GhostStarDepth);
 template void take_stars(Level<2>&);
 template void take_stars(Level<3>&);
 template void make_known_around(Level<2>&, double);

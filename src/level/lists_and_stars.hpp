@@ -5,8 +5,8 @@
 // what lies there are asked.
 #pragma once
 
+#include "level/ghost_star_depth.hpp"
 #include "level/level.hpp"
-#include "level/star_zone.hpp"
 
 namespace pnpbs {
 
@@ -19,10 +19,10 @@ void rebuild_lists(Level<Dim>& level, double radius, ListsOf listed = ListsOf::a
 // Right after an exchange that deep: lists, and the stars of the owned nodes and of the ghosts
 // in that zone around them. Collective.
 template <int Dim>
-void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone zone);
+void make_lists_and_stars(Level<Dim>& level, int hops, double radius, GhostStarDepth zone);
 // The same where the lists are there. Collective.
 template <int Dim>
-void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone);
+void make_stars(Level<Dim>& level, int hops, double radius, GhostStarDepth zone);
 
 // Keeps the stars there are, if they are of the nodes there are, for those that are made next:
 // before nodes are exchanged or sorted. Collective.

@@ -48,10 +48,10 @@ bool Neighbourhood<Dim>::sort_nodes(Nodes<Dim>& nodes, const LevelTree<Dim>& tre
 }
 
 template <int Dim>
-void Neighbourhood<Dim>::rebuild_for_steps(Nodes<Dim>& nodes, const Ground<Dim>& ground,
+void Neighbourhood<Dim>::rebuild_for_steps(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                                            const LevelTree<Dim>& tree, const Settings& settings,
                                            ListsOf listed) {
-  rebuild(nodes, ground, tree, settings.list_radius, nodes.reference, listed);
+  rebuild(nodes, geometry, tree, settings.list_radius, nodes.reference, listed);
   reserve_field<Dim>(listed_, "pnpbs::Neighbourhood::listed", nodes.capacity());
   for_each("pnpbs::Neighbourhood::listed", nodes.count, [&](std::int64_t i) {
     for (int k = 0; k < Dim; ++k) listed_[k](i) = nodes.x[k](i);
@@ -61,29 +61,30 @@ void Neighbourhood<Dim>::rebuild_for_steps(Nodes<Dim>& nodes, const Ground<Dim>&
 }
 
 template <int Dim>
-void Neighbourhood<Dim>::add_lists(const Nodes<Dim>& nodes, const Ground<Dim>& ground,
+void Neighbourhood<Dim>::add_lists(const Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                                    const LevelTree<Dim>& tree,
                                    const std::vector<std::int32_t>& more) {
-  lists_.add(nodes, buckets_, near_boundary_.visibility(nodes, tree.map(), ground), more);
+  lists_.add(nodes, buckets_, near_boundary_.visibility(nodes, tree.map(), geometry), more);
 }
 
 template <int Dim>
-void Neighbourhood<Dim>::rebuild_here(Nodes<Dim>& nodes, const Ground<Dim>& ground,
+void Neighbourhood<Dim>::rebuild_here(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                                       const LevelTree<Dim>& tree, double radius, ListsOf listed) {
   listed_ = {};
   // What is near was measured from there, also when nodes have moved on.
-  rebuild(nodes, ground, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x, listed);
+  rebuild(nodes, geometry, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x,
+          listed);
 }
 
 template <int Dim>
-void Neighbourhood<Dim>::rebuild(Nodes<Dim>& nodes, const Ground<Dim>& ground,
+void Neighbourhood<Dim>::rebuild(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                                  const LevelTree<Dim>& tree, double radius,
                                  const Field<Dim>& seen_from, ListsOf listed) {
   for_steps_ = false;
   arrangement_ = -1;
-  const DomainMap<Dim>& map = tree.map();
-  near_boundary_.build(nodes, seen_from, buckets_, map, ground);
-  lists_.build(nodes, buckets_, radius, near_boundary_.visibility(nodes, map, ground), listed);
+  const SizedTree<Dim>& map = tree.map();
+  near_boundary_.build(nodes, seen_from, buckets_, map, geometry);
+  lists_.build(nodes, buckets_, radius, near_boundary_.visibility(nodes, map, geometry), listed);
   listed_nodes_ = listed;
   nodes.set_padding();
   ++rebuilds_;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/timers.hpp"
-#include "level/ground.hpp"
+#include "level/level_geometry.hpp"
 #include "level/level_tree.hpp"
 #include "level/near_boundary.hpp"
 #include "neighbors/adjacency_list.hpp"
@@ -20,7 +20,7 @@ template <int Dim>
 class Neighbourhood {
  public:
   // A new boundary.
-  void reset_boundary(const Ground<Dim>& ground) { near_boundary_.reset(ground); }
+  void reset_boundary(const LevelGeometry<Dim>& geometry) { near_boundary_.reset(geometry); }
   // For another tree, or another radius of what is near nodes.
   void adopt(const LevelTree<Dim>& tree, typename NearBoundary<Dim>::NearLeaves near_leaves);
   // Are the nodes and the tree others since then?
@@ -42,15 +42,15 @@ class Neighbourhood {
   bool sort_nodes(Nodes<Dim>& nodes, const LevelTree<Dim>& tree, const Settings& settings);
   // Lists for the time loop: visibility is judged from the reference positions, so that it does not
   // matter when they are made.
-  void rebuild_for_steps(Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
-                         const Settings& settings, ListsOf listed);
+  void rebuild_for_steps(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
+                         const LevelTree<Dim>& tree, const Settings& settings, ListsOf listed);
   // The lists of these nodes, too, where only those of owned nodes were made.
-  void add_lists(const Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
-                 const std::vector<std::int32_t>& more);
+  void add_lists(const Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
+                 const LevelTree<Dim>& tree, const std::vector<std::int32_t>& more);
   // Lists of that radius for where the nodes are. The next step makes its own again; until then
   // there are stars, and no need to know where nodes were: the two take their memory in turn.
-  void rebuild_here(Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
-                    double radius, ListsOf listed);
+  void rebuild_here(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
+                    const LevelTree<Dim>& tree, double radius, ListsOf listed);
   // Might the lists for steps lack a pair within the range of the force?
   bool needs_rebuild(const Nodes<Dim>& nodes, const Settings& settings) const;
 
@@ -91,7 +91,7 @@ class Neighbourhood {
   std::int64_t work_of(std::int64_t i) const;
 
  private:
-  void rebuild(Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
+  void rebuild(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry, const LevelTree<Dim>& tree,
                double radius, const Field<Dim>& seen_from, ListsOf listed);
   void count_work(const Nodes<Dim>& nodes);
 

@@ -15,7 +15,7 @@ View<double> spacing_at(const Level<Dim>& level, const Spacing<Dim>& spacing, bo
   const std::int64_t last =
       static_cast<std::int64_t>(level.comm->allreduce_max(static_cast<double>(nodes.count)));
   View<double> all;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     all = make_view<double>("pnpbs::spacings", nodes.count);
     std::vector<std::int32_t> wanted;
     std::vector<Point<Dim>> x;
@@ -35,7 +35,7 @@ View<double> spacing_at(const Level<Dim>& level, const Spacing<Dim>& spacing, bo
         const auto at = static_cast<std::size_t>(k);
         x[at] = nodes.position(wanted[at]);
       });
-      evaluate_spacing<Dim>(spacing, level.ground.measure(), n, x.data(), d.data());
+      evaluate_spacing<Dim>(spacing, level.geometry.measure(), n, x.data(), d.data());
       for_each("pnpbs::take_spacing", n, [&](std::int64_t k) {
         const auto at = static_cast<std::size_t>(k);
         all(wanted[at]) = d[at];
@@ -62,13 +62,13 @@ template <int Dim>
 void refresh_spacing(Level<Dim>& level) {
   const PhaseTimer timer(level.timers, Phase::spacing);
   Nodes<Dim>& nodes = level.nodes;
-  const View<double> d = spacing_at_owned_nodes(level, level.ground.spacing());
+  const View<double> d = spacing_at_owned_nodes(level, level.geometry.spacing());
   for_each("pnpbs::refresh_spacing", nodes.count, [&](std::int64_t i) {
     if (!nodes.owned(i)) return;
-    nodes.d(i) = level.ground.bubble_at(nodes, i, d(i));
+    nodes.d(i) = level.geometry.bubble_at(nodes, i, d(i));
   });
   nodes.set_reference_positions();
-  level.ghosts.choose_anew();
+  level.ghosts.invalidate();
 }
 
 template View<double> spacing_at_nodes(const Level<2>&, const Spacing<2>&);

@@ -115,7 +115,7 @@ void leave_out_coinciding(IncomingNodes<Dim>& inner) {
 
 // Those that this rank owns, by leaf.
 template <int Dim>
-std::vector<LeafNode> own_boundary_nodes(const Level<Dim>& level, const LaidNodes<Dim>& laid) {
+std::vector<LeafNode> own_boundary_nodes(const Level<Dim>& level, const BoundaryNodes<Dim>& laid) {
   std::vector<LeafNode> own;
   for (std::size_t b = 0; b < laid.size(); ++b) {
     const std::int32_t leaf = level.tree->tree().leaf_at(laid.position(b));
@@ -169,7 +169,7 @@ void reserve_ids(Level<Dim>& level, const IncomingNodes<Dim>& incoming) {
 // New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
 // ids is nearly the order in memory.
 template <int Dim>
-void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, LaidNodes<Dim> laid) {
+void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes<Dim> laid) {
   leave_out_coinciding<Dim>(inner);
   level.next_id = next_id_after(level, inner);
   for (std::size_t b = 0; b < laid.size(); ++b)
@@ -210,7 +210,7 @@ template void find_leaves(const Level<3>&, IncomingNodes<3>&);
 template std::vector<std::int32_t> sort_by_place(const Level<2>&, IncomingNodes<2>&);
 template std::vector<std::int32_t> sort_by_place(const Level<3>&, IncomingNodes<3>&);
 template void reserve_ids(Level<3>&, const IncomingNodes<3>&);
-template void number_and_store(Level<2>&, IncomingNodes<2>, LaidNodes<2>);
-template void number_and_store(Level<3>&, IncomingNodes<3>, LaidNodes<3>);
+template void number_and_store(Level<2>&, IncomingNodes<2>, BoundaryNodes<2>);
+template void number_and_store(Level<3>&, IncomingNodes<3>, BoundaryNodes<3>);
 
 }  // namespace pnpbs

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "initial/incoming_nodes.hpp"
-#include "level/laid_nodes.hpp"
+#include "level/boundary_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
@@ -24,6 +24,6 @@ void reserve_ids(Level<Dim>& level, const IncomingNodes<Dim>& incoming);
 // The boundary nodes of this rank and these inner ones, sorted by place, become the nodes of the
 // level. Those without an id get new ones. Collective.
 template <int Dim>
-void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, LaidNodes<Dim> laid);
+void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes<Dim> laid);
 
 }  // namespace pnpbs

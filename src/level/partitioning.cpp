@@ -52,7 +52,7 @@ std::vector<std::int32_t> keep_numbers(const LevelTree<Dim>& level,
 }  // namespace
 
 template <int Dim>
-std::vector<std::int64_t> expected_work(const DomainMap<Dim>& map) {
+std::vector<std::int64_t> expected_work(const SizedTree<Dim>& map) {
   std::vector<std::int64_t> work;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
     const double side = map.tree().cell_side(map.tree().leaf_cell(leaf)),
@@ -71,19 +71,19 @@ std::vector<std::int64_t> expected_work(const DomainMap<Dim>& map) {
 template <int Dim>
 PartitionCells<Dim> cells_of_equal_work(const LevelTree<Dim>& tree,
                                         const std::vector<std::int64_t>& work) {
-  const DomainMap<Dim>& map = tree.map();
+  const SizedTree<Dim>& map = tree.map();
   const LeafFunctions leaves{
       [&](std::int32_t leaf) { return tree.owns(leaf); },
       [&](std::int32_t leaf) { return work[static_cast<std::size_t>(leaf)]; },
       [&](std::int32_t leaf) { return map.leaf_empty(leaf) ? 0 : map.leaf_max_spacing(leaf); }};
-  return {tree.ground().bounds(), cells_of_equal_work(tree.comm(), tree.tree(), leaves)};
+  return {tree.geometry().bounds(), cells_of_equal_work(tree.comm(), tree.tree(), leaves)};
 }
 
 template <int Dim>
 std::vector<std::int32_t> cut_on_first_rank(const Communicator& comm, const Settings& settings,
                                             const PartitionCells<Dim>& cells) {
   Bytes bytes;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     if (comm.rank() == 0) bytes = bytes_of(cut_by_metis(cells, comm.size(), settings.metis_seed));
   });
   comm.broadcast(bytes, 0);
@@ -112,7 +112,7 @@ Distribution<Dim> redistributed(const LevelTree<Dim>& tree, const Settings& sett
   return Distribution<Dim>(std::move(cells), std::move(owner), comm.rank());
 }
 
-template std::vector<std::int64_t> expected_work(const DomainMap<2>&);
+template std::vector<std::int64_t> expected_work(const SizedTree<2>&);
 template PartitionCells<2> cells_of_equal_work(const LevelTree<2>&,
                                                const std::vector<std::int64_t>&);
 template std::vector<std::int32_t> cut_on_first_rank(const Communicator&, const Settings&,
@@ -121,7 +121,7 @@ template std::vector<std::int32_t> cut_like(const Communicator&, const Settings&
                                             const Distribution<2>&, const PartitionCells<2>&);
 template Distribution<2> redistributed(const LevelTree<2>&, const Settings&,
                                        const std::vector<std::int64_t>&);
-template std::vector<std::int64_t> expected_work(const DomainMap<3>&);
+template std::vector<std::int64_t> expected_work(const SizedTree<3>&);
 template PartitionCells<3> cells_of_equal_work(const LevelTree<3>&,
                                                const std::vector<std::int64_t>&);
 template std::vector<std::int32_t> cut_on_first_rank(const Communicator&, const Settings&,

@@ -8,7 +8,7 @@
 #include "comm/communicator.hpp"
 #include "partition/distribution.hpp"
 #include "settings/settings.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 
 namespace pnpbs {
 
@@ -19,7 +19,7 @@ constexpr double kWorkPerNode = 16;  // in estimates
 
 // Of each leaf, by the nodes that d asks for; half of a leaf that the boundary crosses.
 template <int Dim>
-std::vector<std::int64_t> expected_work(const DomainMap<Dim>& map);
+std::vector<std::int64_t> expected_work(const SizedTree<Dim>& map);
 
 // By the work in each leaf of ours. Collective.
 template <int Dim>

@@ -59,7 +59,7 @@ void find_carriers(const Level<3>& level, PopulationChange<3>& change) {
 std::int32_t tag_of_birth(const Level<2>&, const Birth<2>&) { return 0; }
 std::int32_t tag_of_birth(const Level<3>& level, const Birth<3>& birth) {
   if (birth.boundary_node < 0) return 0;
-  return level.ground.boundary().facets[static_cast<std::size_t>(birth.boundary_node)].tag;
+  return level.geometry.boundary().facets[static_cast<std::size_t>(birth.boundary_node)].tag;
 }
 
 // The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
@@ -133,7 +133,7 @@ View<Bid<Dim>> gather_bids(Level<Dim>& level, const View<double>& ratios,
   const Nodes<Dim>& nodes = level.nodes;
   const PopulationRule& rule = level.settings.population;
   View<Bid<Dim>> bids;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     add_lists_around(level, owned_beside_gaps<Dim>(nodes, ratios, rule, thresholds), kRoomHops - 1);
     const PhaseTimer timer(level.timers, Phase::population);
     const View<char> no_room = nodes_without_room(level);
@@ -157,7 +157,7 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
   // As deep as the steps need that follow if nothing changes.
   exchange(level, std::max(kPopulationHops, step_hops(level.settings)));
   View<double> ratios;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     rebuild_lists_for_steps(level, lists_of_steps(level.settings));
     const PhaseTimer timer(level.timers, Phase::population);
     ratios = overlap_ratios<Dim>(nodes, level.lists());
@@ -167,7 +167,7 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
   std::vector<std::int32_t> bidders;
   const View<Bid<Dim>> bids = gather_bids(level, ratios, thresholds, bidders);
   PopulationChange<Dim> change;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     add_lists_around(level, bidders, method::kContestHops - 1);
     const PhaseTimer timer(level.timers, Phase::population);
     change = outcome_of_contest<Dim>(nodes, level.lists(), bids, bidders);
@@ -182,7 +182,7 @@ PopulationCounts repair_defects(Level<2>& level) {
   make_lists_and_stars(level, kDefectHops, level.settings.list_radius, {kDefectRings});
   count_uses_by_event(level, kDefectHops);
   PopulationChange<2> change;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const PhaseTimer timer(level.timers, Phase::population);
     change = choose_defect_repairs(
         level.nodes, level.stars, level.settings.defects.bad_below,
@@ -197,11 +197,11 @@ PopulationCounts repair_defects(Level<3>&) { return {}; }
 PopulationCounts lay_first_row(Level<2>& level) {
   require_finish_lists(level);
   PopulationChange<2> change;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const PhaseTimer timer(level.timers, Phase::population);
     FirstRow row =
-        choose_first_row(level.nodes, level.lists(), level.map(), level.ground.sectors(),
-                         [&](std::int32_t b) { return level.ground.boundary_spacing(b); });
+        choose_first_row(level.nodes, level.lists(), level.map(), level.geometry.sectors(),
+                         [&](std::int32_t b) { return level.geometry.boundary_spacing(b); });
     count_uses_by_event(level, kFirstRowHops);
     for (const FirstRow::Move& move : row.moved) level.nodes.set_position(move.node, move.to);
     level.nodes.moved();

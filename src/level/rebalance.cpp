@@ -43,13 +43,15 @@ void rebalance(Level<Dim>& level) {
   if (!level.distributed()) return;
   const int hops = step_hops(level.settings);
   exchange(level, hops);
-  agreed(*level.comm, [&] { rebuild_lists_for_steps(level, lists_of_steps(level.settings)); });
+  collective_try(*level.comm,
+                 [&] { rebuild_lists_for_steps(level, lists_of_steps(level.settings)); });
   const PhaseTimer timer(level.timers, Phase::partition);
   level.adopt_partition(redistributed(*level.tree, level.settings, counted_work(level)));
   migrate(level);
   exchange(level, hops);
   level.neighbourhood.recount_work();
-  agreed(*level.comm, [&] { rebuild_lists_for_steps(level, lists_of_steps(level.settings)); });
+  collective_try(*level.comm,
+                 [&] { rebuild_lists_for_steps(level, lists_of_steps(level.settings)); });
   ++level.rebalances;
 }
 

@@ -67,10 +67,13 @@ void for_new_nodes_in_triangles(const Level<2>& level, std::int64_t i, double d,
 }
 
 // Nodes on the boundary of a volume are refined with it. What comes on top of it has no room.
-bool on_one_edge(const Ground<2>& ground, const Nodes<2>& nodes, std::int64_t i, std::int64_t j) {
-  return ground.on_one_edge(nodes, i, j);
+bool on_one_edge(const LevelGeometry<2>& geometry, const Nodes<2>& nodes, std::int64_t i,
+                 std::int64_t j) {
+  return geometry.on_one_edge(nodes, i, j);
 }
-bool on_one_edge(const Ground<3>&, const Nodes<3>&, std::int64_t, std::int64_t) { return false; }
+bool on_one_edge(const LevelGeometry<3>&, const Nodes<3>&, std::int64_t, std::int64_t) {
+  return false;
+}
 
 // Calls visit(place) for the new nodes of an owned node, where the spacing will be d. Edges are
 // their node's with the least id.
@@ -78,11 +81,11 @@ template <int Dim, class Visit>
 void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visit& visit) {
   const Nodes<Dim>& nodes = level.nodes;
   // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
-  const int pieces = pieces_of<Dim>(level.ground.spacing_at(nodes, i), d);
-  if (pieces < 2 || level.ground.kind() == GeometryKind::surface) return;
+  const int pieces = pieces_of<Dim>(level.geometry.spacing_at(nodes, i), d);
+  if (pieces < 2 || level.geometry.kind() == GeometryKind::surface) return;
   const Point<Dim> x = nodes.position(i);
   level.stars.for_neighbours(i, [&](std::int64_t j) {
-    if (nodes.id(i) < nodes.id(j) && !on_one_edge(level.ground, nodes, i, j))
+    if (nodes.id(i) < nodes.id(j) && !on_one_edge(level.geometry, nodes, i, j))
       cut_edge<Dim>(x, nodes.position(j), d, pieces, visit);
   });
   if constexpr (Dim == 2)
@@ -91,7 +94,7 @@ void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visi
 
 // Nodes that close a whole sphere are nodes as others where the next level's patch does not reach.
 void leave_patch(const Level<2>& level, IncomingNode<2>& node) {
-  node.inner = node.inner || level.ground.domain().is_in_patch(node.position);
+  node.inner = node.inner || level.geometry.domain().is_in_patch(node.position);
 }
 void leave_patch(const Level<3>&, IncomingNode<3>&) {}
 
@@ -123,14 +126,14 @@ IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   constexpr std::int64_t kChunk = 512;
   level.nodes.set_reference_positions();
   exchange(level, kStarHops);
-  if (level.ground.kind() == GeometryKind::surface)
-    agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
+  if (level.geometry.kind() == GeometryKind::surface)
+    collective_try(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
   else
     make_lists_and_stars(level, kStarHops, level.settings.list_radius, {});
   const View<double> spacing = spacing_at_owned_nodes(level, next);
   const Nodes<Dim>& nodes = level.nodes;
   IncomingNodes<Dim> refined;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
     std::vector<std::size_t> begin(static_cast<std::size_t>(chunks) + 1, 0);
     const auto for_owned_in = [&](std::int64_t chunk, const auto& visit) {
@@ -151,7 +154,7 @@ IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
     for_each("pnpbs::write_refined", chunks, [&](std::int64_t chunk) {
       std::size_t place = begin[static_cast<std::size_t>(chunk)];
       for_owned_in(chunk, [&](std::int64_t i) {
-        const double before = level.ground.spacing_at(nodes, i);
+        const double before = level.geometry.spacing_at(nodes, i);
         const auto put = [&](IncomingNode<Dim> node) {
           stay_unless_coarser(node, spacing(i));
           refined[place++] = node;

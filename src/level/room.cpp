@@ -61,7 +61,7 @@ bool pressed_to_boundary(const Level<Dim>& level, std::int64_t i) {
 
 // What tells the inside and what is near.
 const FacetIndex<2>& facets_of(const Level<2>& level) { return level.map(); }
-const SurfaceIndex& facets_of(const Level<3>& level) { return level.ground.domain().index(); }
+const SurfaceIndex& facets_of(const Level<3>& level) { return level.geometry.domain().index(); }
 
 }  // namespace
 
@@ -69,7 +69,7 @@ template <int Dim>
 bool has_clearance(const Level<Dim>& level, const std::type_identity_t<Point<Dim>>& x, double d) {
   if (level.nodes.moving == Carrier::surface) return true;  // it was walked to
   if (is_closed_at(level, x)) return false;
-  const Box<Dim>& box = level.ground.bounds();
+  const Box<Dim>& box = level.geometry.bounds();
   for (int k = 0; k < Dim; ++k)
     if (!(x[k] > box.low[k] && x[k] < box.high[k])) return false;
   const double clearance = (Dim == 2 ? method::kBoundaryClearance : method::kNewNodeClearance) * d;
@@ -137,7 +137,7 @@ PopulationCounts remove_crowded(Level<Dim>& level) {
   while (true) {
     prepare_finish(level);
     std::vector<std::int32_t> crowded;
-    agreed(*level.comm, [&] {
+    collective_try(*level.comm, [&] {
       crowded = crowded_nodes(level);
       count_uses_by_event(level, kCoincidingHops);
     });

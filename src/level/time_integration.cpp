@@ -20,22 +20,23 @@ Field<Dim>& TimeIntegration<Dim>::scratch(const Nodes<Dim>& nodes) {
 
 template <int Dim>
 void TimeIntegration<Dim>::step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
-                                const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,
                                 const Settings& settings) {
   step(settings.predictor_corrector ? Scheme::predictor_corrector : Scheme::damped, nodes,
-       neighbourhood, map, ground, settings);
+       neighbourhood, map, geometry, settings);
 }
 
 template <int Dim>
 void TimeIntegration<Dim>::runge_kutta_step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
-                                            const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                            const SizedTree<Dim>& map,
+                                            const LevelGeometry<Dim>& geometry,
                                             const Settings& settings) {
-  step(Scheme::runge_kutta, nodes, neighbourhood, map, ground, settings);
+  step(Scheme::runge_kutta, nodes, neighbourhood, map, geometry, settings);
 }
 
 template <int Dim>
 void TimeIntegration<Dim>::step(Scheme scheme, Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
-                                const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,
                                 const Settings& settings) {
   scratch(nodes);
   if (settings.cubic_law)
@@ -46,7 +47,7 @@ void TimeIntegration<Dim>::step(Scheme scheme, Nodes<Dim>& nodes, Neighbourhood<
   else
     move_by(DefaultLaw<Dim>{1, settings.rest_length}, scheme, nodes, neighbourhood.lists(),
             settings);
-  accept(nodes, neighbourhood, map, ground, settings);
+  accept(nodes, neighbourhood, map, geometry, settings);
 }
 
 template <int Dim>
@@ -66,7 +67,7 @@ void TimeIntegration<Dim>::move_by(const Law& law, Scheme scheme, Nodes<Dim>& no
 // Inner nodes near the boundary are held off it; then the new positions become the positions.
 template <int Dim>
 void TimeIntegration<Dim>::accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
-                                  const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                  const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,
                                   const Settings& settings) {
   constexpr std::int64_t kChunk = 64;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
@@ -80,7 +81,7 @@ void TimeIntegration<Dim>::accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbo
     for (std::int64_t i = first; i < last; ++i)
       if ((all || nodes.owned(i)) && nodes.moves(i) &&
           near_boundary.constrains(nodes, i, meeting * nodes.d(i)))
-        hold_off_boundary(i, nodes, near_boundary, map, ground, settings);
+        hold_off_boundary(i, nodes, near_boundary, map, geometry, settings);
     squares_(c) = neighbourhood.squared_displacement(nodes, next_, first, last);
   });
   neighbourhood.set_max_displacement(
@@ -92,10 +93,11 @@ void TimeIntegration<Dim>::accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbo
 template <int Dim>
 void TimeIntegration<Dim>::hold_off_boundary(std::int64_t i, Nodes<Dim>& nodes,
                                              const NearBoundary<Dim>& near_boundary,
-                                             const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                             const SizedTree<Dim>& map,
+                                             const LevelGeometry<Dim>& geometry,
                                              const Settings& settings) {
   const Point<Dim> from = nodes.position(i), to = point_at<Dim>(next_, i),
-                   kept = near_boundary.hold_off(i, nodes, map, ground, to);
+                   kept = near_boundary.hold_off(i, nodes, map, geometry, to);
   for (int k = 0; k < Dim; ++k) {
     if (kept[k] != to[k]) nodes.v[k](i) = (kept[k] - from[k]) / settings.motion.dt;
     next_[k](i) = kept[k];

@@ -14,11 +14,11 @@ template <int Dim>
 class TimeIntegration {
  public:
   // By the scheme of the settings. Lists must be made for it.
-  void step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood, const DomainMap<Dim>& map,
-            const Ground<Dim>& ground, const Settings& settings);
+  void step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood, const SizedTree<Dim>& map,
+            const LevelGeometry<Dim>& geometry, const Settings& settings);
   // One of the classical fourth order, the paper's last.
   void runge_kutta_step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
-                        const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                        const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,
                         const Settings& settings);
 
   // Room for other positions of the nodes, padded as theirs are.
@@ -27,14 +27,15 @@ class TimeIntegration {
  private:
   enum class Scheme { damped, predictor_corrector, runge_kutta };
   void step(Scheme scheme, Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
-            const DomainMap<Dim>& map, const Ground<Dim>& ground, const Settings& settings);
+            const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,
+            const Settings& settings);
   template <class Law>
   void move_by(const Law& law, Scheme scheme, Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
                const Settings& settings);
-  void accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood, const DomainMap<Dim>& map,
-              const Ground<Dim>& ground, const Settings& settings);
+  void accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood, const SizedTree<Dim>& map,
+              const LevelGeometry<Dim>& geometry, const Settings& settings);
   void hold_off_boundary(std::int64_t i, Nodes<Dim>& nodes, const NearBoundary<Dim>& near_boundary,
-                         const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                         const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,
                          const Settings& settings);
 
   Field<Dim> next_;  // positions after the step in progress

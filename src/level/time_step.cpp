@@ -24,7 +24,7 @@ void step(Level<Dim>& level, std::exception_ptr& failure) {
       rebuild_lists_for_steps(level, lists_of_steps(level.settings));
     track_inexact_nodes(level, level.settings.evaluations_per_step());
     const PhaseTimer timer(level.timers, Phase::motion);
-    level.time_integration.step(level.nodes, level.neighbourhood, level.map(), level.ground,
+    level.time_integration.step(level.nodes, level.neighbourhood, level.map(), level.geometry,
                                 level.settings);
     level.timers.add(Phase::motion, level.neighbourhood.nodes_listed());
   });
@@ -34,12 +34,12 @@ void step(Level<Dim>& level, std::exception_ptr& failure) {
 template <int Dim>
 void finish_by_runge_kutta(Level<Dim>& level) {
   exchange(level, runge_kutta_hops(level.settings));
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     rebuild_lists_for_steps(level);
     track_inexact_nodes(level, kRungeKuttaStages);
     const PhaseTimer timer(level.timers, Phase::motion);
     level.time_integration.runge_kutta_step(level.nodes, level.neighbourhood, level.map(),
-                                            level.ground, level.settings);
+                                            level.geometry, level.settings);
     level.timers.add(Phase::motion, level.neighbourhood.nodes_listed());
   });
   count_step(level);

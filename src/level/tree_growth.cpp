@@ -17,10 +17,10 @@ namespace pnpbs {
 
 template <int Dim>
 std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
-                                                     const Ground<Dim>& ground,
+                                                     const LevelGeometry<Dim>& geometry,
                                                      const Settings& settings,
                                                      const LevelTree<Dim>* like) {
-  std::unique_ptr<LevelTree<Dim>> tree(new LevelTree(comm, ground));
+  std::unique_ptr<LevelTree<Dim>> tree(new LevelTree(comm, geometry));
   if (comm.size() == 1)
     tree->grow_whole(settings);
   else
@@ -30,10 +30,10 @@ std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
 
 template <int Dim>
 std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
-                                                     const Ground<Dim>& ground,
+                                                     const LevelGeometry<Dim>& geometry,
                                                      const Settings& settings,
                                                      Distribution<Dim> distribution) {
-  std::unique_ptr<LevelTree<Dim>> tree(new LevelTree(comm, ground));
+  std::unique_ptr<LevelTree<Dim>> tree(new LevelTree(comm, geometry));
   tree->distribution_ = std::move(distribution);
   tree->grow_own_part(settings);
   return tree;
@@ -41,16 +41,16 @@ std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
 
 template <int Dim>
 void LevelTree<Dim>::grow_whole(const Settings& settings) {
-  map_.build(ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
-             kLevelRefinement<Dim>, known_values());
+  map_.build(geometry_.bounds(), geometry_.boundary(), geometry_.evaluator(), settings.node_limit(),
+             kLevelRefinement<Dim>, spacing_hints());
   link_leaves(settings);
 }
 
 // What samples may miss of the spacing: places where it is held down, and those that nodes have
 // come upon. (A cone of d that is as narrow as a leaf is seen by one of its samples, or by none.)
 template <int Dim>
-std::vector<GrowthSource<Dim>> LevelTree<Dim>::known_values() const {
-  return ground_.spacing().known_values().in_domain;
+std::vector<GrowthSource<Dim>> LevelTree<Dim>::spacing_hints() const {
+  return geometry_.spacing().spacing_hints().in_domain;
 }
 
 // First roughly; then what lies in each part is known, and is cut again.
@@ -60,7 +60,7 @@ void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* l
     distribution_ = like->distribution_.without_leaves();
   else
     take_rough_cells(settings);
-  require_same_ground();
+  require_same_geometry();
   std::vector<char> own;
   for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
     own.push_back(distribution_.owner_of_cell(c) == comm_.rank());
@@ -75,7 +75,7 @@ void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* l
 // By a few samples of d.
 template <int Dim>
 void LevelTree<Dim>::take_rough_cells(const Settings& settings) {
-  PartitionCells<Dim> cells(ground_.bounds(), rough_cells(settings));
+  PartitionCells<Dim> cells(geometry_.bounds(), rough_cells(settings));
   std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_.size());
   distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank());
 }
@@ -88,10 +88,11 @@ std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& sett
   std::vector<std::int64_t> work;
   for (int pass = 0; pass < kPasses; ++pass) {
     map_.build_part(
-        comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
+        comm_, geometry_.bounds(), geometry_.boundary(), geometry_.evaluator(),
+        settings.node_limit(),
         [&](const BackgroundTree<Dim>& tree, std::int32_t c, double nodes) {
           return tree.cell(c).depth < kUniformDepth || nodes > max ||
-                 ground_.domain().embedding().varies_much_in(tree.cell_box(c));
+                 geometry_.domain().embedding().varies_much_in(tree.cell_box(c));
         },
         kLevelRefinement<Dim>);
     work = expected_work(map_);
@@ -112,13 +113,13 @@ template <int Dim>
 void LevelTree<Dim>::refine(const Settings& settings, const std::vector<char>& refined) {
   const BackgroundTree<Dim>& cells = distribution_.cells().tree();
   map_.build_part(
-      comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
+      comm_, geometry_.bounds(), geometry_.boundary(), geometry_.evaluator(), settings.node_limit(),
       [&](const BackgroundTree<Dim>& tree, std::int32_t c, double) {
         const typename BackgroundTree<Dim>::Cell& in =
             cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
         return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
       },
-      kLevelRefinement<Dim>, known_values());
+      kLevelRefinement<Dim>, spacing_hints());
   distribution_.take_leaves(&map_.tree(), refined);
 }
 
@@ -132,7 +133,7 @@ void LevelTree<Dim>::link_leaves(const Settings& settings) {
     reach.push_back(map_.leaf_empty(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
   }
   std::vector<double> stretch;
-  const Embedding<Dim>& embedding = ground_.domain().embedding();
+  const Embedding<Dim>& embedding = geometry_.domain().embedding();
   if (embedding.is_sphere())
     for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf)
       stretch.push_back(
@@ -170,10 +171,10 @@ constexpr const char* kSpacingsDiffer =
 
 // Ranks whose callbacks tell different things would wait for each other for ever.
 template <int Dim>
-void LevelTree<Dim>::require_same_ground() const {
+void LevelTree<Dim>::require_same_geometry() const {
   const PartitionCells<Dim>& cells = distribution_.cells();
   std::uint64_t fingerprint = 0;
-  for (const BoundaryNode<Dim>& node : ground_.boundary().nodes)
+  for (const BoundaryNode<Dim>& node : geometry_.boundary().nodes)
     for (double coordinate : node.position) fingerprint = mixed_with(fingerprint, coordinate);
   for (std::int32_t c = 0; c < cells.count(); ++c)
     fingerprint = mixed_with(fingerprint, cells.max_spacing(c));

@@ -229,7 +229,7 @@ std::unique_ptr<DistributedMesh> make_distributed_mesh(NodalResults& results, in
   auto mesh = std::make_unique<DistributedMesh>();
   mesh->dimension = results.coordinates();
   mesh->kind = results.kind();
-  in_its_dimension(results, [&]<int Dim>(Results<Dim>& in) {
+  visit_dimension(results, [&]<int Dim>(Results<Dim>& in) {
     mesh->names = in.domain().names();
     if (in.kind() == GeometryKind::surface)
       make<3>(in, layers, *mesh);

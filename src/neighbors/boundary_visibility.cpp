@@ -8,7 +8,7 @@ namespace pnpbs {
 namespace {
 
 // The boundary nodes at the ends of the edges near x, by number.
-std::vector<std::int32_t> boundary_nodes_near(const DomainMap<2>& map, const Point<2>& x,
+std::vector<std::int32_t> boundary_nodes_near(const SizedTree<2>& map, const Point<2>& x,
                                               double reach) {
   std::vector<std::int32_t> near;
   map.for_facets_near(x, reach, [&](std::int32_t e) {
@@ -35,7 +35,7 @@ void BoundaryVisibility::reset(std::size_t boundary_nodes) {
 }
 
 void BoundaryVisibility::look(const Nodes<2>& nodes, const NearEdges& near_edges,
-                              const DomainMap<2>& map, const IncidentSectors& sectors) {
+                              const SizedTree<2>& map, const IncidentSectors& sectors) {
   constexpr std::int64_t kChunk = 256;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
   for_each("pnpbs::BoundaryVisibility::look", chunks, [&](std::int64_t chunk) {
@@ -46,7 +46,7 @@ void BoundaryVisibility::look(const Nodes<2>& nodes, const NearEdges& near_edges
 }
 
 void BoundaryVisibility::look_from(const Nodes<2>& nodes, std::int64_t i,
-                                   const NearEdges& near_edges, const DomainMap<2>& map,
+                                   const NearEdges& near_edges, const SizedTree<2>& map,
                                    const IncidentSectors& sectors) {
   constexpr double kRounding = 1 + 1e-9;
   const std::int32_t b = nodes.boundary_node(i);

@@ -9,7 +9,7 @@
 #include "base/nodes.hpp"
 #include "geometry/plane/incident_sectors.hpp"
 #include "neighbors/near_edges.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 
 namespace pnpbs {
 
@@ -20,7 +20,7 @@ class BoundaryVisibility {
 
   // Finds what the boundary nodes among these see within the radius of near_edges, times their d,
   // unless that is known.
-  void look(const Nodes<2>& nodes, const NearEdges& near_edges, const DomainMap<2>& map,
+  void look(const Nodes<2>& nodes, const NearEdges& near_edges, const SizedTree<2>& map,
             const IncidentSectors& sectors);
 
   // Does boundary node b, one of those, see the boundary node c that near?
@@ -28,7 +28,7 @@ class BoundaryVisibility {
 
  private:
   void look_from(const Nodes<2>& nodes, std::int64_t i, const NearEdges& near_edges,
-                 const DomainMap<2>& map, const IncidentSectors& sectors);
+                 const SizedTree<2>& map, const IncidentSectors& sectors);
 
   std::vector<std::vector<std::int32_t>> seen_;  // from each boundary node, sorted
   std::vector<double> reach_;                    // how far; 0: nothing is known
@@ -39,7 +39,7 @@ struct VisibilityPastEdges {
   const Nodes<2>& nodes;
   const NearEdges& near_edges;
   const BoundaryVisibility& boundary_visibility;
-  const DomainMap<2>& map;
+  const SizedTree<2>& map;
   const IncidentSectors& sectors;
 
   bool may_occlude(std::int64_t i) const { return near_edges.any(i); }

@@ -9,7 +9,7 @@
 
 namespace pnpbs {
 
-void NearEdges::prepare(const DomainMap<2>& map, const LeafLinks<2>& links, double radius) {
+void NearEdges::prepare(const SizedTree<2>& map, const LeafLinks<2>& links, double radius) {
   radius_ = radius;
   at_boundary_nodes_.assign(map.boundary().nodes.size(), {});
   const std::int32_t leaves = map.tree().leaf_count();
@@ -32,7 +32,7 @@ void NearEdges::prepare(const DomainMap<2>& map, const LeafLinks<2>& links, doub
 }
 
 // All edges within its reach of a leaf, and some more, by number.
-void NearEdges::gather_near(const DomainMap<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
+void NearEdges::gather_near(const SizedTree<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
                             std::vector<std::int32_t>& near) const {
   near.clear();
   const double reach = leaf_reach_[static_cast<std::size_t>(leaf)];
@@ -64,7 +64,7 @@ void NearEdges::add_box(const Point<2>& a, const Point<2>& b, double reach) {
 class NearEdges::Finder {
  public:
   Finder(NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets,
-         const DomainMap<2>& map)
+         const SizedTree<2>& map)
       : of_(edges), nodes_(nodes), buckets_(buckets), map_(map) {}
 
   void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
@@ -172,14 +172,14 @@ class NearEdges::Finder {
   NearEdges& of_;
   const Nodes<2>& nodes_;
   const Buckets<2>& buckets_;
-  const DomainMap<2>& map_;
+  const SizedTree<2>& map_;
   std::int32_t bucket_ = -1;
   Box<2> box_{};               // of the bucket
   bool nothing_near_ = false;  // to any node of it
 };
 
 void NearEdges::build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,
-                      const DomainMap<2>& map) {
+                      const SizedTree<2>& map) {
   at_ = at;
   if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity()) {
     any_ = make_view<char>("pnpbs::NearEdges::any", nodes.capacity());
@@ -189,7 +189,7 @@ void NearEdges::build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2
                [&] { return Finder(*this, nodes, buckets, map); });
 }
 
-bool NearEdges::visible_past_edges(const Nodes<2>& nodes, const DomainMap<2>& map,
+bool NearEdges::visible_past_edges(const Nodes<2>& nodes, const SizedTree<2>& map,
                                    const IncidentSectors& sectors, std::int64_t i, std::int64_t j,
                                    std::int64_t wide) const {
   return visible_between(map, sectors, place_of(i), nodes.boundary_node(i), place_of(j),

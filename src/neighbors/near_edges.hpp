@@ -12,20 +12,20 @@
 #include "geometry/boxes_apart.hpp"
 #include "geometry/plane/incident_sectors.hpp"
 #include "neighbors/buckets.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 
 namespace pnpbs {
 
 class NearEdges {
  public:
   // Once per level: which edges come near which leaf. The links tell which leaves are near it.
-  void prepare(const DomainMap<2>& map, const LeafLinks<2>& links, double radius);
+  void prepare(const SizedTree<2>& map, const LeafLinks<2>& links, double radius);
 
   // At every rebuild of the lists: the edges within radius * d_i of each node, the nodes being at
   // `at`. During the run that is where they were at the last event, so that it does not matter
   // when the lists are made. Those of boundary nodes, which do not move, are found once.
   void build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,
-             const DomainMap<2>& map);
+             const SizedTree<2>& map);
 
   // Is no edge near any place in this leaf?
   bool leaf_is_clear(std::int32_t leaf) const {
@@ -75,7 +75,7 @@ class NearEdges {
   }
 
   // Does none of the edges near node `wide` separate nodes i and j?
-  bool visible_past_edges(const Nodes<2>& nodes, const DomainMap<2>& map,
+  bool visible_past_edges(const Nodes<2>& nodes, const SizedTree<2>& map,
                           const IncidentSectors& sectors, std::int64_t i, std::int64_t j,
                           std::int64_t wide) const;
 
@@ -94,7 +94,7 @@ class NearEdges {
     double beyond = 0;  // to the nearest edge or node of the boundary that is not its own
     std::vector<std::int32_t> edges;
   };
-  void gather_near(const DomainMap<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
+  void gather_near(const SizedTree<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
                    std::vector<std::int32_t>& near) const;
   void add_box(const Point<2>& a, const Point<2>& b, double reach);
 
@@ -113,7 +113,7 @@ class NearEdges {
 // Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
 // lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
 template <class Edges>
-bool visible_between(const DomainMap<2>& map, const IncidentSectors& sectors, const Point<2>& x,
+bool visible_between(const SizedTree<2>& map, const IncidentSectors& sectors, const Point<2>& x,
                      std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
                      const Edges& edges);
 
@@ -124,7 +124,7 @@ bool visible_between(const DomainMap<2>& map, const IncidentSectors& sectors, co
 namespace pnpbs {
 
 template <class Edges>
-bool visible_between(const DomainMap<2>& map, const IncidentSectors& sectors, const Point<2>& x,
+bool visible_between(const SizedTree<2>& map, const IncidentSectors& sectors, const Point<2>& x,
                      std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
                      const Edges& edges) {
   if (boundary_x >= 0 && boundary_y >= 0 && sectors.joined(boundary_x, boundary_y)) return true;

@@ -34,7 +34,7 @@ KnownParticles<Dim> known_particles(Results<Dim>& results) {
   results.prepare_lists();
   make_known_around(*results.shown(), kKnown);
   known.pattern = results.exchange_pattern();
-  agreed(results.communicator(), [&] {
+  collective_try(results.communicator(), [&] {
     const NodeColumns nodes = results.nodes();
     known.owned = results.count();
     for (std::int64_t place = 0; place < nodes.count; ++place) {
@@ -53,7 +53,7 @@ KnownParticles<Dim> known_particles(Results<Dim>& results) {
 template <int Dim>
 double closest_pair(const Communicator& comm, const KnownParticles<Dim>& particles) {
   double closest = std::numeric_limits<double>::infinity();
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     const NearNodes<Dim> near(particles.x, particles.d, particles.kept, 1);
     for (std::int64_t i = 0; i < particles.owned; ++i) {
       const std::size_t n = index(i);
@@ -97,7 +97,7 @@ std::unique_ptr<Particles> make_particles(Results<Dim>& results, const Domain<Di
   KnownParticles<Dim> known = known_particles<Dim>(results);
   std::vector<Point<Dim>> first;
   std::optional<SignedDistance<Dim>> within;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     first = known.x;
     within.emplace(body);
   });
@@ -110,7 +110,7 @@ std::unique_ptr<Particles> make_particles(Results<Dim>& results, const Domain<Di
   const std::vector<double> volumes =
       volumes_within<Dim>(comm, *within, measure_of(body), *cells, first, known);
   std::unique_ptr<Particles> particles;
-  agreed(comm, [&] { particles = collected<Dim>(results, known, first, volumes); });
+  collective_try(comm, [&] { particles = collected<Dim>(results, known, first, volumes); });
   particles->all = static_cast<std::int64_t>(
       comm.allreduce_sum(static_cast<std::uint64_t>(particles->ids.size())));
   particles->left_out = results.global_count() - particles->all;

@@ -25,7 +25,7 @@ class Separation {
   Separation(const Communicator& comm, double least, const Wall<Dim>& wall,
              KnownParticles<Dim>& particles)
       : comm_(comm), least_(least), wall_(wall), particles_(particles) {
-    agreed(comm, [&] {
+    collective_try(comm, [&] {
       const NearNodes<Dim> near(particles.x, particles.d, particles.kept,
                                 least + 2 * kFarthestPush);
       near_ = near_rows(near, particles.owned, particles.ids);
@@ -36,7 +36,7 @@ class Separation {
 
   void run() {
     for (int round = 0; round < kRounds; ++round) {
-      agreed(comm_, [&] {
+      collective_try(comm_, [&] {
         for_each("pnpbs::particles::push", particles_.owned,
                  [&](std::int64_t i) { next_[index(i)] = pushed(i); });
         particles_.x.swap(next_);

@@ -21,7 +21,7 @@ class Contest {
  public:
   Contest(const Communicator& comm, double least, const KnownParticles<Dim>& particles)
       : comm_(comm), particles_(particles) {
-    agreed(comm, [&] {
+    collective_try(comm, [&] {
       const NearNodes<Dim> near(particles.x, particles.d, particles.kept, least);
       close_ = near_rows(near, particles.owned, particles.ids);
       fates_.assign(particles.x.size(), Fate::open);

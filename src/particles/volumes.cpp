@@ -30,7 +30,7 @@ double sum_of(const Communicator& comm, std::span<const double> volumes,
     if ((found_again[n] != 0) == again) sum.add(volumes[n]);
   sum.carry();
   std::vector<std::int64_t> entries;
-  agreed(comm, [&] { entries.assign(sum.entries().begin(), sum.entries().end()); });
+  collective_try(comm, [&] { entries.assign(sum.entries().begin(), sum.entries().end()); });
   comm.allreduce_sum(entries);
   std::ranges::copy(entries, sum.entries().begin());
   return sum.value();
@@ -102,7 +102,7 @@ std::vector<double> volumes_within(const Communicator& comm, const SignedDistanc
                                    const KnownParticles<Dim>& particles) {
   std::vector<char> changed;
   std::vector<double> volumes;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     const ParticleVolumes<Dim> found(body, cells, first, particles);
     changed = found.find_changed();
     volumes = found.find(changed);

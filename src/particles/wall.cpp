@@ -25,7 +25,7 @@ void require_inside(const Communicator& comm, const KnownParticles<Dim>& particl
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const double id = any ? static_cast<double>(particles.ids[i]) : kNone;
   const double first = -comm.allreduce_max(-id);
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     if (!any || id > first) return;
     throw Error(ErrorKind::domain, "argument body: the node " + std::to_string(particles.ids[i]) +
                                        " at " + point_text(particles.x[i]) +
@@ -40,7 +40,7 @@ template <int Dim>
 Wall<Dim>::Wall(const Communicator& comm, const SignedDistance<Dim>& body,
                 const KnownParticles<Dim>& particles, std::span<const char> outermost)
     : body_(body) {
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     least_depths_.resize(index(particles.owned));
     for_each("pnpbs::particles::depths", particles.owned,
              [&](std::int64_t i) { least_depths_[index(i)] = -body(particles.x[index(i)]); });

@@ -25,7 +25,7 @@ std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cel
     });
   std::int64_t in_block = 0;
   for (std::int64_t& entry : before) entry = std::exchange(in_block, wrapping_sum(in_block, entry));
-  const std::int64_t before_block = wrapping_sum(start, comm.sum_before(in_block));
+  const std::int64_t before_block = wrapping_sum(start, comm.exclusive_scan(in_block));
   start = wrapping_sum(
       start, static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(in_block))));
 

@@ -120,7 +120,7 @@ class HaloExchange {
   void fill(const Communicator& comm, const View<double>& values) const {
     std::vector<Bytes> outgoing, incoming;
     std::unique_ptr<PersistentExchange> exchange;
-    agreed(comm, [&] {
+    collective_try(comm, [&] {
       make_buffers(sizeof(double), outgoing, incoming);
       exchange = comm.persistent_exchange(neighbours_, outgoing, incoming);
     });

@@ -8,7 +8,7 @@
 #include <memory>
 #include <numbers>
 
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 
 namespace pnpbs {
 
@@ -17,7 +17,7 @@ std::vector<Point<3>> nodes_around(const StereographicChart& other, const Spacin
   auto disc = std::make_shared<PlaneDomain>(other);
   disc->add_arc(CurveRole::boundary, {0, 0}, 2 * other.radius() * std::tan(radius / 2), 0,
                 2 * std::numbers::pi, 1);
-  PlacementOf<2> placement(serial_communicator(), disc, Options());
+  PlacementImpl<2> placement(serial_communicator(), disc, Options());
   // It lives as long as the placement.
   placement.set_spacing(std::shared_ptr<const Spacing<2>>(&spacing, [](const Spacing<2>*) {}));
   if (placement.run() == Outcome::stopped)

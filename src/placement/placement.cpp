@@ -16,7 +16,7 @@ void Placement::require_same_options() const {
 }
 
 // What was tried has failed: nothing is told of it but that a monitor has stopped it.
-void Placement::put_back(RunState before) noexcept {
+void Placement::restore_run(RunState before) noexcept {
   const StopReason reason = state_.stop_reason;
   state_ = std::move(before);
   if (reason == StopReason::monitor) state_.stop_reason = reason;

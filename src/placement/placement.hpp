@@ -22,7 +22,7 @@
 
 namespace pnpbs {
 
-// What is the same in any dimension. PlacementOf<Dim> is the rest of it.
+// What is the same in any dimension. PlacementImpl<Dim> is the rest of it.
 class Placement {
  public:
   Placement(std::shared_ptr<const Communicator> comm, Options options)
@@ -91,7 +91,7 @@ class Placement {
   void require_same_options() const;
   // Since the checkpoint that is read.
   void adopt_changes(const std::vector<OptionChange>& changes);
-  void put_back(RunState before) noexcept;
+  void restore_run(RunState before) noexcept;
 
   std::shared_ptr<const Communicator> comm_;
   Options options_;

@@ -37,8 +37,8 @@ struct PlacementBefore {
 
   // Gives the level its nodes back and frees the copy. What was derived from the nodes is freed,
   // too, so that a level that another one has replaced takes little memory.
-  void put_back_level() noexcept {
-    if (level) state.level->put_back(std::move(*level));
+  void restore_level() noexcept {
+    if (level) state.level->restore(std::move(*level));
     level.reset();
   }
 };

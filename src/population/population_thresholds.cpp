@@ -120,7 +120,7 @@ PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim
   if (d.empty()) return thresholds;
   const int first = octave_of(d.min), last = octave_of(d.max);
   OctaveCounts counts;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     const auto octaves = static_cast<std::size_t>(last - first + 1);
     counts.values.assign(octaves * kCounts<Dim>, 0);
     counts.distances.resize(octaves);

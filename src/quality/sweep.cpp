@@ -13,7 +13,7 @@ namespace {
 
 // Where the sweep would take the nodes of block b; their own places if they may not move.
 void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-             const DomainMap<2>& map, const SweepRule& rule, Field<2>& proposed, std::int64_t b) {
+             const SizedTree<2>& map, const SweepRule& rule, Field<2>& proposed, std::int64_t b) {
   const DelaunayStars::Block block = stars.block(b);
   const Positions<2> x = positions_of<2>(nodes.x);
   std::array<double, kLanes> sum_x{}, sum_y{};
@@ -44,7 +44,7 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
 
 }  // namespace
 
-void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const DomainMap<2>& map,
+void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const SizedTree<2>& map,
                   const SweepRule& rule, std::int64_t i, Point<2> move, Field<2>& proposed) {
   const Point<2> x = nodes.position(i);
   clamp_move<2>(move, rule.max_move * nodes.d(i));
@@ -72,7 +72,7 @@ void go_where_allowed(Nodes<2>& nodes, const DelaunayStars& stars, const SweepRu
 }
 
 void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-           const DomainMap<2>& map, const SweepRule& rule, Field<2>& proposed,
+           const SizedTree<2>& map, const SweepRule& rule, Field<2>& proposed,
            View<char>& allowed) {
   for_each("pnpbs::sweep::propose", stars.block_count(),
            [&](std::int64_t b) { propose(nodes, stars, near_edges, map, rule, proposed, b); });

@@ -19,11 +19,11 @@ struct SweepRule {
 
 // Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.
 void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-           const DomainMap<2>& map, const SweepRule& rule, Field<2>& proposed, View<char>& allowed);
+           const SizedTree<2>& map, const SweepRule& rule, Field<2>& proposed, View<char>& allowed);
 
 // The parts of it that any sweep has. Where one would take node i by this move, as far as the rule
 // and the boundary let it:
-void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const DomainMap<2>& map,
+void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const SizedTree<2>& map,
                   const SweepRule& rule, std::int64_t i, Point<2> move, Field<2>& proposed);
 void propose_to_stay(const Nodes<2>& nodes, std::int64_t i, Field<2>& proposed);
 // And there they go, as far as the guard lets them.

@@ -26,7 +26,7 @@ std::vector<char> nodes_at_sharp_edges(const Level<3>& level, const SharpEdges& 
 }
 
 SharpEdges sharp_edges(const Level<3>& level) {
-  return {level.ground.boundary(), level.ground.surface().features()};
+  return {level.geometry.boundary(), level.geometry.surface().features()};
 }
 
 bool any_of(const std::vector<char>& nodes, const std::array<std::int64_t, 4>& corners) {
@@ -50,7 +50,7 @@ LeastAngles least_angles(const Level<3>& level, double of_all) {
   const SharpEdges edges = sharp_edges(level);
   if (edges.none() && of_all > kLeastInBulk) return {180, of_all};
   LeastAngles least;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const std::vector<char> at_edge = nodes_at_sharp_edges(level, edges);
     least = sums_over(
         "pnpbs::least_angles", level.nodes.count, LeastAngles(),
@@ -70,7 +70,7 @@ LeastAngles least_angles(const Level<3>& level, double of_all) {
 SmallAngleElements small_angle_elements(const Level<3>& level, double below) {
   const SmallAngles small(below);
   SmallAngleElements found;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const std::vector<char> at_edge = nodes_at_sharp_edges(level, sharp_edges(level));
     for_own_elements_where(
         "pnpbs::small_angle_elements", level,

@@ -17,7 +17,7 @@ class ElementRegions {
   // Of elements as they come from results.for_elements.
   explicit ElementRegions(const Results<Dim>& results)
       : results_(results),
-        regions_(results.has_nodes() ? results.level().ground.domain().regions() : nullptr) {
+        regions_(results.has_nodes() ? results.level().geometry.domain().regions() : nullptr) {
     if (regions_) of_node_.assign(static_cast<std::size_t>(results.held()), kUnknown);
   }
 

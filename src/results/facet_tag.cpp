@@ -14,8 +14,8 @@ namespace {
 std::vector<std::int32_t> patches_at(const Level<3>& level, std::int64_t i) {
   std::vector<std::int32_t> patches;
   if (level.nodes.carrier(i) == Carrier::free) return patches;
-  level.ground.surface().for_sides(
-      level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i)),
+  level.geometry.surface().for_sides(
+      level.geometry.place(level.nodes.carrier(i), level.nodes.boundary_node(i)),
       [&](const SurfaceSide& side) { patches.push_back(side.patch); });
   return patches;
 }
@@ -42,10 +42,10 @@ std::int32_t facet_tag(const Level<3>& level, const std::array<std::int64_t, 3>&
   std::ranges::sort(by_id, {}, [&](std::int64_t i) { return all.id(i); });
   for (const std::int64_t i : by_id)
     if (all.carrier(i) == Carrier::surface)
-      return level.ground.boundary().facets[static_cast<std::size_t>(all.boundary_node(i))].tag;
+      return level.geometry.boundary().facets[static_cast<std::size_t>(all.boundary_node(i))].tag;
   FacetCorners<3> corners;
   for (std::size_t k = 0; k < 3; ++k) corners[k] = all.position(nodes[k]);
-  return boundary_tag(level.ground.domain(), corners, common_patches(level, nodes));
+  return boundary_tag(level.geometry.domain(), corners, common_patches(level, nodes));
 }
 
 }  // namespace pnpbs

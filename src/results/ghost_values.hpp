@@ -16,7 +16,7 @@ inline std::vector<double> with_ghosts(NodalResults& results, std::int64_t compo
   const auto pattern = results.exchange_pattern();
   std::vector<double> all;
   GhostUpdate update;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     all.assign(values, values + results.count() * components);
     all.resize(static_cast<std::size_t>(results.held() * components));
     update.pack(comm, pattern, components, all.data());

@@ -20,7 +20,7 @@ bool is_inner_triangle(const BoundaryTriangle& facet) {
 }  // namespace
 
 InnerFacets::InnerFacets(const Level<3>& level)
-    : level_(level), any_(level.ground.has_inner_surfaces()) {}
+    : level_(level), any_(level.geometry.has_inner_surfaces()) {}
 
 const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
   const Nodes<3>& nodes = level_.nodes;
@@ -49,25 +49,25 @@ const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
 void InnerFacets::judge(const Face& one, const Face& other) {
   const std::int32_t f = crossed_facet(one.centroid, other.centroid);
   if (f < 0) return;
-  const Ground<3>& ground = level_.ground;
-  const std::int32_t patch = ground.domain().features().patch[static_cast<std::size_t>(f)];
+  const LevelGeometry<3>& geometry = level_.geometry;
+  const std::int32_t patch = geometry.domain().features().patch[static_cast<std::size_t>(f)];
   for (const std::int64_t i : one.nodes)
     if (!on_patch(i, patch)) return;
-  const BoundaryTriangle& facet = ground.boundary().facets[static_cast<std::size_t>(f)];
+  const BoundaryTriangle& facet = geometry.boundary().facets[static_cast<std::size_t>(f)];
   InnerFacet found{one.nodes, facet.tag};
   const Nodes<3>& nodes = level_.nodes;
   const Point<3> x = nodes.position(found.nodes[0]);
   const Point<3> normal = cross(difference(nodes.position(found.nodes[1]), x),
                                 difference(nodes.position(found.nodes[2]), x));
-  if (dot(normal, facet_normal(ground.boundary(), facet)) < 0)
+  if (dot(normal, facet_normal(geometry.boundary(), facet)) < 0)
     std::swap(found.nodes[1], found.nodes[2]);
   found_.push_back(found);
 }
 
 bool InnerFacets::on_patch(std::int64_t i, std::int32_t patch) const {
   bool there = false;
-  level_.ground.surface().for_sides(
-      level_.ground.place(level_.nodes.carrier(i), level_.nodes.boundary_node(i)),
+  level_.geometry.surface().for_sides(
+      level_.geometry.place(level_.nodes.carrier(i), level_.nodes.boundary_node(i)),
       [&](const SurfaceSide& side) { there = there || side.patch == patch; });
   return there;
 }
@@ -75,7 +75,7 @@ bool InnerFacets::on_patch(std::int64_t i, std::int32_t patch) const {
 // The first of the inner surfaces' facets that the way crosses, if it crosses them an odd number of
 // times; else -1.
 std::int32_t InnerFacets::crossed_facet(const Point<3>& from, const Point<3>& to) {
-  const FacetIndex<3>& sides = level_.ground.domain().index().sides();
+  const FacetIndex<3>& sides = level_.geometry.domain().index().sides();
   const Point<3> middle = middle_of<3>(from, to);
   constexpr double kRounding = 1 + 1e-9;
   crossed_.clear();

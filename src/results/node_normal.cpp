@@ -19,8 +19,8 @@ Point<3> mean_of(const Point<3>& sum) {
 Point<3> normal_of_facets(const Level<3>& level, std::int64_t i) {
   Point<3> sum{};
   if (level.nodes.carrier(i) == Carrier::free) return sum;
-  level.ground.surface().for_sides(
-      level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i)),
+  level.geometry.surface().for_sides(
+      level.geometry.place(level.nodes.carrier(i), level.nodes.boundary_node(i)),
       [&](const SurfaceSide& side) { sum = shifted(sum, 1, side.normal); });
   return mean_of(sum);
 }
@@ -45,7 +45,7 @@ Point<3> area_around(const Surface& surface, std::int32_t facet) {
 
 void take_gradients(const Level<3>& level, std::span<const std::int64_t> nodes,
                     std::vector<Point<3>>& normals) {
-  const LevelSetTriangles& sets = level.ground.domain().level_sets();
+  const LevelSetTriangles& sets = level.geometry.domain().level_sets();
   for (const auto& set : sets.sets) {
     if (!set) continue;
     std::vector<std::size_t> on_set;
@@ -61,7 +61,7 @@ void take_gradients(const Level<3>& level, std::span<const std::int64_t> nodes,
       const std::int32_t facet = level.nodes.boundary_node(nodes[on_set[k]]);
       const Point<3> up = slopes[k].normal();
       if (up != Point<3>{})
-        normals[on_set[k]] = as_seen(up, area_around(level.ground.surface(), facet));
+        normals[on_set[k]] = as_seen(up, area_around(level.geometry.surface(), facet));
     }
   }
 }
@@ -75,8 +75,8 @@ std::vector<Point<3>> node_normals(const Level<3>& level, std::span<const std::i
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     if (level.nodes.carrier(nodes[k]) != Carrier::curve) continue;
     const FeatureNode& node =
-        level.ground.features().nodes[index(level.nodes.boundary_node(nodes[k]))];
-    const auto [left, right] = normals_beside(level.ground.domain().resolved(), node);
+        level.geometry.features().nodes[index(level.nodes.boundary_node(nodes[k]))];
+    const auto [left, right] = normals_beside(level.geometry.domain().resolved(), node);
     if (left != Point<3>{}) normals[k] = as_seen(mean_of(shifted(left, 1, right)), normals[k]);
   }
   return normals;

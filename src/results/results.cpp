@@ -91,7 +91,7 @@ void Results<Dim>::prepare_lists() {
   require_nodes();
   if (lists_stamp_ == level_->stamp()) return;
   pnpbs::prepare_lists(*level_);
-  agreed(*comm_, [this] { prepare_order(); });
+  collective_try(*comm_, [this] { prepare_order(); });
   lists_stamp_ = level_->stamp();
 }
 
@@ -100,13 +100,13 @@ void Results<Dim>::prepare_stars() {
   require_nodes();
   if (stars_stamp_ == level_->stamp()) return;
   if (restore_stars(*level_)) {
-    agreed(*comm_, [this] { prepare_order(); });
+    collective_try(*comm_, [this] { prepare_order(); });
   } else {
     prepare_lists();
     if (!level_->distributed()) rebuild_stars(*level_);
   }
   settle_elements(*level_, kThoroughRounds);
-  agreed(*comm_, [this] { close_sphere(*level_); });
+  collective_try(*comm_, [this] { close_sphere(*level_); });
   stars_stamp_ = level_->stamp();
 }
 
@@ -139,7 +139,7 @@ std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
   const std::int64_t owned = count();
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;
-  agreed(*comm_, [&] {
+  collective_try(*comm_, [&] {
     ids.reserve(static_cast<std::size_t>(nodes.count));
     for (std::int64_t place = 0; place < nodes.count; ++place) {
       ids.push_back(nodes.id(node_at(place)));
@@ -152,7 +152,7 @@ std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
   return exchange_pattern_;
 }
 
-std::int64_t NodalResults::nodes_on_ranks_before() const { return comm_->sum_before(count()); }
+std::int64_t NodalResults::nodes_on_ranks_before() const { return comm_->exclusive_scan(count()); }
 
 template <int Dim>
 NodeColumns Results<Dim>::nodes() const {
@@ -218,7 +218,8 @@ NearestNeighbourError Results<Dim>::spacing_error() {
   const AdjacencyList<Dim>& lists = level_->lists();
   // Nodes with no listed neighbour count as far as the lists reach.
   View<double> ratio;
-  agreed(*comm_, [&] { ratio = make_view<double>("pnpbs::spacing_error::ratio", nodes.count); });
+  collective_try(*comm_,
+                 [&] { ratio = make_view<double>("pnpbs::spacing_error::ratio", nodes.count); });
   for_each("pnpbs::spacing_error::ratio", nodes.count, [&](std::int64_t i) {
     if (!nodes.owned(i)) return;
     double nearest = lists.radius() * measured.d(i);
@@ -252,7 +253,7 @@ const ElementQuality& Results<Dim>::element_quality() {
       [this](const View<double>& values) { level_->ghosts.fill(*comm_, values); });
   quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
   if constexpr (Dim == 3) {
-    if (level_->ground.kind() != GeometryKind::surface) {
+    if (level_->geometry.kind() != GeometryKind::surface) {
       const LeastAngles least = least_angles(*level_, quality_.simplex.min_angle);
       quality_.simplex.min_angle_at_sharp_edges = least.at_sharp_edges;
       quality_.simplex.min_angle_elsewhere = least.elsewhere;

@@ -88,7 +88,7 @@ class Results : public NodalResults {
   void for_inner_facets(const Visit& visit) const requires(Dim == 3) {
     for_inner_facets(0, count(), visit);
   }
-  GeometryKind kind() const override { return level_ ? level_->ground.kind() : domain_->kind(); }
+  GeometryKind kind() const override { return level_ ? level_->geometry.kind() : domain_->kind(); }
   // Calls visit(places of its nodes, tag) for every facet once, over all ranks: those of the
   // boundary and, in space, those inside. After prepare_stars.
   template <class Visit>
@@ -139,14 +139,15 @@ class Results : public NodalResults {
 
 // While it is there, results are those of another level, which is worked on.
 template <int Dim>
-class Showing {
+class ScopedLevel {
  public:
-  Showing(Results<Dim>& results, Level<Dim>* level) : results_(results), before_(results.shown()) {
+  ScopedLevel(Results<Dim>& results, Level<Dim>* level)
+      : results_(results), before_(results.shown()) {
     results.show(level);
   }
-  Showing(const Showing&) = delete;
-  Showing& operator=(const Showing&) = delete;
-  ~Showing() { results_.show(before_); }
+  ScopedLevel(const ScopedLevel&) = delete;
+  ScopedLevel& operator=(const ScopedLevel&) = delete;
+  ~ScopedLevel() { results_.show(before_); }
 
  private:
   Results<Dim>& results_;
@@ -187,7 +188,7 @@ void Results<Dim>::for_boundary_facets(const Visit& visit) const {
 template <int Dim>
 template <class Visit>
 void Results<Dim>::for_boundary_edges(const Visit& visit) const requires(Dim == 2) {
-  const Boundary& boundary = level_->ground.boundary();
+  const Boundary& boundary = level_->geometry.boundary();
   const Nodes<2>& nodes = level_->nodes;
   std::vector<std::int64_t> place(boundary.nodes.size(), -1);
   for (std::int64_t i = 0; i < nodes.count; ++i)
@@ -195,8 +196,8 @@ void Results<Dim>::for_boundary_edges(const Visit& visit) const requires(Dim == 
       place[static_cast<std::size_t>(b)] = place_of(i);
   const std::int64_t owned = count();
   for (const BoundaryEdge& e : boundary.facets) {
-    if (e.begin == e.end) continue;                                 // a fixed node
-    if (level_->ground.domain().closing() && e.bounds()) continue;  // there is a triangle behind
+    if (e.begin == e.end) continue;                                   // a fixed node
+    if (level_->geometry.domain().closing() && e.bounds()) continue;  // there is a triangle behind
     const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
     if (begin >= 0 && begin < owned)
       visit(std::array<std::int64_t, 2>{begin, place[static_cast<std::size_t>(e.end)]}, e);
@@ -266,7 +267,7 @@ void Results<Dim>::for_open_facets(std::int64_t begin, std::int64_t end, const V
 
 // Calls work(results) with them as what they are.
 template <class Work>
-auto in_its_dimension(NodalResults& results, const Work& work) {
+auto visit_dimension(NodalResults& results, const Work& work) {
   if (results.dimension() == 2) return work(static_cast<Results<2>&>(results));
   return work(static_cast<Results<3>&>(results));
 }

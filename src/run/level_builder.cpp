@@ -46,25 +46,25 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(const SizingField<Dim
     const PhaseTimer timer(timers_, Phase::boundary);
     // A copy: the caller may go on to change the domain.
     auto domain = std::make_shared<Domain<Dim>>(*closed_for(domain_, spacing));
-    if (like) take_bounds(*domain, like->ground.domain());
+    if (like) take_bounds(*domain, like->geometry.domain());
     level = std::make_shared<Level<Dim>>(comm_, std::move(domain),
                                          std::make_shared<const SizingField<Dim>>(spacing),
                                          settings, timers_);
   };
   context_.monitoring.watch("the boundary was laid and the tree grown", context_.results.count(),
                             [&] {
-                              agreed(*comm_, make);
+                              collective_try(*comm_, make);
                               level->grow_tree(like);
                             });
   return level;
 }
 
 template <int Dim>
-std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPlace<Dim>& to_place,
+std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const EffectiveSpacing<Dim>& to_place,
                                                               const Settings& settings,
                                                               PlacedSpacing<Dim>& placed) {
   context_.monitoring.watch("the spacing was made", context_.results.count(), [&] {
-    placed.d = to_place.spacing_to_place(settings, placed.count_factor);
+    placed.d = to_place.effective_spacing(settings, placed.count_factor);
     if (settings.user_limits_growth()) limit_growth(to_place, placed.d, settings);
     hold_down(*comm_, placed, settings);
   });
@@ -73,7 +73,7 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPla
     const PhaseTimer timer(timers_, Phase::spacing);
     placed.steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
-        next->ground.evaluator(), placed.d.without_reductions().known_values(),
+        next->geometry.evaluator(), placed.d.without_reductions().spacing_hints(),
         domain_->embedding());
   }
   if (too_steep(placed.steepest) && settings.growth_limit > 0) {
@@ -91,8 +91,8 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const SpacingToPla
 }
 
 template <int Dim>
-void LevelBuilder<Dim>::limit_growth(const SpacingToPlace<Dim>& to_place, SizingField<Dim>& spacing,
-                                     const Settings& settings) {
+void LevelBuilder<Dim>::limit_growth(const EffectiveSpacing<Dim>& to_place,
+                                     SizingField<Dim>& spacing, const Settings& settings) {
   const PhaseTimer timer(timers_, Phase::spacing);
   to_place.limit_growth(spacing, settings);
 }
@@ -100,11 +100,11 @@ void LevelBuilder<Dim>::limit_growth(const SpacingToPlace<Dim>& to_place, Sizing
 // ------------------------------------------------------------------ first nodes ----------------
 
 template <int Dim>
-MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::shared_ptr<Level<Dim>> level,
-                                                   PlacedSpacing<Dim> placed,
-                                                   const Settings& settings,
-                                                   const NodesBefore<Dim>& before) {
-  MadeLevel<Dim> made;
+BuiltLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::shared_ptr<Level<Dim>> level,
+                                                    PlacedSpacing<Dim> placed,
+                                                    const Settings& settings,
+                                                    const StartNodes<Dim>& before) {
+  BuiltLevel<Dim> made;
   made.level = std::move(level);
   made.placed = std::move(placed);
   made.level->held_rounds = made.placed.held.rounds;
@@ -125,7 +125,7 @@ MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::shared_ptr<Level<Dim>> l
 }
 
 template <int Dim>
-void LevelBuilder<Dim>::take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before) {
+void LevelBuilder<Dim>::take_kept_nodes(BuiltLevel<Dim>& made, Level<Dim>& before) {
   Level<Dim>& level = *made.level;
   IncomingNodes<Dim> kept = refined(before, made.placed.d);
   level.next_id = before.next_id;
@@ -138,14 +138,14 @@ void LevelBuilder<Dim>::take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before
 }
 
 template <int Dim>
-void LevelBuilder<Dim>::take_given_nodes(MadeLevel<Dim>& made, IncomingNodes<Dim> given) {
+void LevelBuilder<Dim>::take_given_nodes(BuiltLevel<Dim>& made, IncomingNodes<Dim> given) {
   Level<Dim>& level = *made.level;
   settle_surfaces(level, given, made.outcome, LevelRole::surfaces, context_);
   made.taken = take(level, std::move(given), level.next_id);
 }
 
 template <int Dim>
-void LevelBuilder<Dim>::begin_anew(MadeLevel<Dim>& made, const Settings& settings) {
+void LevelBuilder<Dim>::begin_anew(BuiltLevel<Dim>& made, const Settings& settings) {
   int& coarser_levels = context_.run.coarser_levels;
   filled_levels_ = coarser_levels = coarser_levels_that_pay(*made.level, *domain_, made.placed.d);
   coarser_levels = std::max(coarser_levels, surface_levels_that_pay(*made.level));
@@ -157,18 +157,18 @@ void LevelBuilder<Dim>::begin_anew(MadeLevel<Dim>& made, const Settings& setting
 // The nodes that surfaces alone begin with: those there are, those given, or what coarser levels
 // lead to.
 template <int Dim>
-void LevelBuilder<Dim>::begin_on_surfaces(MadeLevel<Dim>& made, const Settings& settings,
-                                          const NodesBefore<Dim>& before) {
+void LevelBuilder<Dim>::begin_on_surfaces(BuiltLevel<Dim>& made, const Settings& settings,
+                                          const StartNodes<Dim>& before) {
   if constexpr (Dim == 3) {
     IncomingNodes<3> nodes;
-    TakenNodes& taken = made.taken;
+    ImportedNodes& taken = made.taken;
     if (before.level) {
       nodes = refined(*before.level, made.placed.d);
       made.level->next_id = before.level->next_id;
       taken.numbered = over_ranks(std::ranges::count(nodes, -1, &IncomingNode<3>::id));
     } else if (before.given) {
       nodes = *before.given;
-      agreed(*comm_, [&] { taken.left_out = bring_to_surfaces(*made.level, nodes); });
+      collective_try(*comm_, [&] { taken.left_out = bring_to_surfaces(*made.level, nodes); });
       taken.left_out = over_ranks(taken.left_out);
     } else {
       int& coarser_levels = context_.run.coarser_levels;
@@ -183,7 +183,7 @@ void LevelBuilder<Dim>::begin_on_surfaces(MadeLevel<Dim>& made, const Settings& 
 // From the coarsest level down to twice the spacing, each with a simulation of its own. If the
 // monitor stops them, refined nodes are returned nevertheless, as they are.
 template <int Dim>
-IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const MadeLevel<Dim>& finest,
+IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const BuiltLevel<Dim>& finest,
                                                                 const Settings& settings,
                                                                 Outcome& outcome) {
   const auto spacing_of = [&](int level) { return spacing_of_level(finest.placed.d, level); };
@@ -191,7 +191,7 @@ IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const MadeLevel<
   const int levels = run.coarser_levels;
   IncomingNodes<Dim> nodes;
   std::shared_ptr<Level<Dim>> coarser;
-  const Showing<Dim> showing(context_.results, nullptr);
+  const ScopedLevel<Dim> showing(context_.results, nullptr);
   for (int l = levels; l > 0; --l) {
     std::shared_ptr<Level<Dim>> level =
         empty_level(spacing_of(l), settings_of_level(settings, l == levels), finest.level.get());
@@ -232,7 +232,7 @@ void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& f
   level.next_id = 0;
   if (which > filled_levels_) return;  // surfaces alone
   if (which == filled_levels_) {
-    fill(level, laid_nodes(level.ground, from_coarser));
+    fill(level, boundary_nodes(level.geometry, from_coarser));
     return;
   }
   take(level, std::move(from_coarser), 0);
@@ -240,7 +240,7 @@ void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& f
 }
 
 template <int Dim>
-void LevelBuilder<Dim>::fill(Level<Dim>& level, LaidNodes<Dim> laid) {
+void LevelBuilder<Dim>::fill(Level<Dim>& level, BoundaryNodes<Dim> laid) {
   context_.monitoring.watch("the first nodes were laid", context_.results.count(), [&] {
     pnpbs::fill(
         level, std::move(laid), [this] { context_.monitoring.beat(); },

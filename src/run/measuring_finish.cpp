@@ -31,7 +31,7 @@ void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunStat
   const Level<3>& level = results.level();
   const PhaseTimer timer(level.timers, Phase::conformity);
   const View<char> held = held_nodes(level, placed);  // there d is not the user's
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     run.edge_bands = edge_bands_to_judge<3>(*level.comm, {level.nodes}, level.stars, held);
   });
   run.surface_fit = measure_surface_fit(level);
@@ -41,7 +41,7 @@ namespace {
 
 // Elements that can be used, but hardly: d is held down there next, if the user wants that.
 void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unresolved) {
-  if (level.ground.kind() == GeometryKind::surface) return;
+  if (level.geometry.kind() == GeometryKind::surface) return;
   const double min_angle = level.settings.min_angle,
                below = min_angle > 0 ? min_angle : method::kSmallAngle;
   SmallAngleElements found = small_angle_elements(level, below);

@@ -21,7 +21,7 @@ std::int64_t Monitoring::over_ranks(std::int64_t own_nodes) const {
 bool Monitoring::stops(double fraction, std::int64_t own_nodes) {
   bool stop = false;
   const std::int64_t nodes = over_ranks(own_nodes);
-  agreed(comm_, [&] { stop = asks_to_stop(fraction, nodes); });
+  collective_try(comm_, [&] { stop = asks_to_stop(fraction, nodes); });
   last_asked_ = Clock::now();
   return comm_.allreduce_max(stop) > 0;
 }

@@ -39,7 +39,7 @@ struct NodesByCarrier {
 // nodes that are to come, and parts of even work on the surfaces would have jagged borders inside.
 Settings settings_on_surfaces(const Level<3>& level) {
   Settings settings = surface_settings(level.settings);
-  if (level.ground.kind() != GeometryKind::surface)
+  if (level.geometry.kind() != GeometryKind::surface)
     settings.rebalance_above = std::numeric_limits<double>::infinity();
   return settings;
 }
@@ -68,7 +68,7 @@ void rest_on_surfaces(Level<3>& level, IncomingNodes<3> on_surfaces,
   simulation.remove_crowded();  // nodes that coincide have no star
   context.run.inserted += fill_vacancies(level);
   sweep_on_surfaces(level, settings.sweeps);
-  if (role != LevelRole::surfaces || level.ground.kind() != GeometryKind::body) return;
+  if (role != LevelRole::surfaces || level.geometry.kind() != GeometryKind::body) return;
   const PopulationCounts opposite = place_opposite_nodes(level);
   context.run.inserted += opposite.inserted;
   context.run.deleted += opposite.deleted;
@@ -83,7 +83,7 @@ void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outco
   NodesByCarrier nodes(incoming);
   const Settings inside = level.settings;
   {
-    const Showing<3> showing(context.results, &level);
+    const ScopedLevel<3> showing(context.results, &level);
     level.change_settings(settings_on_surfaces(level));
     rest_on_surfaces(level, std::move(nodes.on_surfaces), nodes.on_features, outcome, role,
                      context);
@@ -91,18 +91,18 @@ void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outco
     level.change_settings(inside);
   }
   incoming = surface_nodes(level);
-  agreed(*level.comm, [&] { put_on_level_sets(level.ground, incoming); });
+  collective_try(*level.comm, [&] { put_on_level_sets(level.geometry, incoming); });
   scatter_to_owners(level, incoming);  // some have moved on since the last exchange
   incoming.insert(incoming.end(), nodes.inner.begin(), nodes.inner.end());
 }
 
 int surface_levels_that_pay(const Level<3>& finest) {
-  const Surface& surface = finest.ground.surface();
+  const Surface& surface = finest.geometry.surface();
   bool flat = true;
   for (std::int32_t p = 0; p < surface.features().patches; ++p) flat = flat && surface.is_flat(p);
   const SpacingVariation d = spacing_variation(finest);
   if (flat && d.max <= method::kPatchVariation * d.min) return 0;
-  const double nodes = 1.15 * finest.ground.domain().area() / (d.max * d.max);
+  const double nodes = 1.15 * finest.geometry.domain().area() / (d.max * d.max);
   int levels = 0;
   while (levels < finest.settings.levels &&
          nodes >= method::kMinNodesOfCoarsestSurface * std::ldexp(1.0, 2 * levels + 2))
@@ -119,24 +119,24 @@ std::int64_t put_on_surfaces(Level<3>& level, IncomingNodes<3> incoming) {
 }
 
 std::int64_t bring_to_surfaces(const Level<3>& level, IncomingNodes<3>& incoming) {
-  const Ground<3>& ground = level.ground;
+  const LevelGeometry<3>& geometry = level.geometry;
   std::vector<Point<3>> places;
   for (IncomingNode<3>& node : incoming) {
-    const NearestPoint<3> nearest = ground.domain().index().nearest(node.position, kFarAway);
+    const NearestPoint<3> nearest = geometry.domain().index().nearest(node.position, kFarAway);
     node.carrier = Carrier::surface;
     node.boundary_node = nearest.facet;
-    node.tag = ground.boundary().facets[static_cast<std::size_t>(nearest.facet)].tag;
+    node.tag = geometry.boundary().facets[static_cast<std::size_t>(nearest.facet)].tag;
     places.push_back(nearest.x);
   }
   std::vector<double> d(places.size());
-  ground.evaluator()(std::ssize(places), places.data(), d.data());
+  geometry.evaluator()(std::ssize(places), places.data(), d.data());
   IncomingNodes<3> brought;
   for (std::size_t k = 0; k < incoming.size(); ++k) {
     IncomingNode<3> node = incoming[k];
     const SurfacePoint at{node.boundary_node, places[k]};
     const double room = method::kBoundaryClearance * d[k];
-    if (ground.surface().patch(at.facet) < 0 || distance<3>(node.position, places[k]) > d[k] ||
-        ground.surface().feature_clearance(at, room) < room)
+    if (geometry.surface().patch(at.facet) < 0 || distance<3>(node.position, places[k]) > d[k] ||
+        geometry.surface().feature_clearance(at, room) < room)
       continue;
     node.position = places[k];
     node.d = d[k];

@@ -17,7 +17,7 @@ namespace pnpbs {
 
 // Of a run on this level. Where d is held down it jumps in slope, and bubbles take longer to rest.
 template <int Dim>
-std::int64_t most_steps(const Level<Dim>& level) {
+std::int64_t max_steps(const Level<Dim>& level) {
   return (level.held_rounds > 0 ? method::kStepsWhereHeld : 1) * level.settings.steps;
 }
 

@@ -8,7 +8,6 @@
 
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
-#include "level/finer_places.hpp"
 #include "level/finish.hpp"
 #include "level/node_spacing.hpp"
 #include "level/plane/closed_sphere.hpp"
@@ -17,6 +16,7 @@
 #include "level/room.hpp"
 #include "level/speeds.hpp"
 #include "level/time_step.hpp"
+#include "level/undersampled_points.hpp"
 #include "level/volume/boundary_refinement.hpp"
 #include "method/constants.hpp"
 #include "run/simulation.hpp"
@@ -83,7 +83,7 @@ void Simulation<Dim>::event() {
   refresh_spacing(level_);
   if (schedule_.role != LevelRole::coarser) require_sampled_spacing(level_);
   const double population_until =
-      std::floor(settings.population_share * static_cast<double>(most_steps(level_)));
+      std::floor(settings.population_share * static_cast<double>(max_steps(level_)));
   if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
     schedule_.population_settled = true;
   if (!schedule_.population_settled)

@@ -9,7 +9,7 @@
 #include "level/found_nodes.hpp"
 #include "level/volume/loose_pieces.hpp"
 #include "sizing/limiting_growth.hpp"
-#include "spacing/beside_domain.hpp"
+#include "spacing/outside_domain.hpp"
 
 namespace pnpbs {
 
@@ -80,7 +80,7 @@ std::optional<Warning> warning_of_partial_extent(const Level<Dim>& level, const 
   const Communicator& comm = *level.comm;
   const Nodes<Dim>& nodes = level.nodes;
   FoundNodes<Dim> beyond;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     std::vector<Point<Dim>> x;
     std::vector<double> distance;
     for (std::int64_t begin = 0; begin < nodes.count; begin += kBatch) {
@@ -156,10 +156,11 @@ std::vector<Warning> warnings_of_level(const Level<Dim>& level, const Domain<Dim
                                        const SteepestGrowth<Dim>& steepest,
                                        const Options& options) {
   std::vector<Warning> warnings = domain.warnings();
-  warnings.insert(warnings.end(), level.ground.warnings().begin(), level.ground.warnings().end());
+  warnings.insert(warnings.end(), level.geometry.warnings().begin(),
+                  level.geometry.warnings().end());
   if (too_steep(steepest))
     warnings.push_back(warning_of_growth(steepest, level.settings.growth_limit));
-  if (level.ground.kind() == GeometryKind::surface && options.is_set("growth_limit") &&
+  if (level.geometry.kind() == GeometryKind::surface && options.is_set("growth_limit") &&
       options.real("growth_limit") > 0)
     warnings.emplace_back(WarningCode::option_without_effect,
                           "the option growth_limit has no effect on surfaces alone");

@@ -61,8 +61,8 @@ class FromOtherSide : public Spacing<2> {
     for (std::size_t i = 0; i < u.size(); ++i) d[i] *= factor[i];
   }
 
-  KnownValues<2> known_values() const override {
-    KnownValues<2> known = spacing_.known_values();
+  SpacingHints<2> spacing_hints() const override {
+    SpacingHints<2> known = spacing_.spacing_hints();
     turn_all(known.values, [](auto& value) -> Point<2>& { return value.x; });
     turn_all(known.in_domain, [](auto& value) -> Point<2>& { return value.x; });
     turn_all(known.slopes, [](auto& slope) -> Point<2>& { return slope.at; });

@@ -28,14 +28,14 @@ double coarser_by(int level) { return std::ldexp(1.0, level); }
 bool boundary_leaves_room(const Level<2>& finest, const PlaneDomain& domain,
                           const Spacing<2>& coarser, double factor, double nodes) {
   double laid = 0;
-  agreed(*finest.comm, [&] {
+  collective_try(*finest.comm, [&] {
     const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
       evaluate_spacing<2>(coarser, measure_of(domain), n, x, d);
     };
     laid = boundary_nodes(domain, discretize_boundary(domain, checked).nodes.size());
   });
-  const Ground<2>& ground = finest.ground;
-  return laid - boundary_nodes(ground.domain(), ground.boundary().nodes.size()) / factor <=
+  const LevelGeometry<2>& geometry = finest.geometry;
+  return laid - boundary_nodes(geometry.domain(), geometry.boundary().nodes.size()) / factor <=
          method::kMaxForced * (nodes / std::pow(factor, 2));
 }
 bool boundary_leaves_room(const Level<3>&, const VolumeDomain&, const Spacing<3>&, double, double) {

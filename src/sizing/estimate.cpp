@@ -29,11 +29,11 @@ double nodes_per_second(const Options& options) {
 }  // namespace
 
 template <int Dim>
-Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settings) {
+Estimate estimate_of(const EffectiveSpacing<Dim>& to_place, const Settings& settings) {
   const Communicator& comm = to_place.comm();
   const double ranks = comm.size();
   const double nodes =
-      estimated_nodes(to_place, to_place.spacing_to_place(settings), settings, Samples::many);
+      estimated_nodes(to_place, to_place.effective_spacing(settings), settings, Samples::many);
   const auto threads =
       static_cast<double>(comm.allreduce_sum(static_cast<std::uint64_t>(thread_count())));
   return {static_cast<std::int64_t>(std::round(nodes)),
@@ -44,7 +44,7 @@ Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settin
 // With the growth of d limited as the run limits it, which takes a tree as the run does; so it is
 // refused where that would be.
 template <int Dim>
-double estimated_nodes(const SpacingToPlace<Dim>& to_place, SizingField<Dim> spacing,
+double estimated_nodes(const EffectiveSpacing<Dim>& to_place, SizingField<Dim> spacing,
                        const Settings& settings, Samples samples) {
   const auto estimate_with = [&](const Spacing<Dim>& d) {
     return estimate_nodes<Dim>(
@@ -66,9 +66,11 @@ double bytes_allowed(const Communicator& comm, const Options& options) {
   return share * -comm.allreduce_max(-mine) * comm.size();
 }
 
-template Estimate estimate_of(const SpacingToPlace<2>&, const Settings&);
-template Estimate estimate_of(const SpacingToPlace<3>&, const Settings&);
-template double estimated_nodes(const SpacingToPlace<2>&, SizingField<2>, const Settings&, Samples);
-template double estimated_nodes(const SpacingToPlace<3>&, SizingField<3>, const Settings&, Samples);
+template Estimate estimate_of(const EffectiveSpacing<2>&, const Settings&);
+template Estimate estimate_of(const EffectiveSpacing<3>&, const Settings&);
+template double estimated_nodes(const EffectiveSpacing<2>&, SizingField<2>, const Settings&,
+                                Samples);
+template double estimated_nodes(const EffectiveSpacing<3>&, SizingField<3>, const Settings&,
+                                Samples);
 
 }  // namespace pnpbs

@@ -9,11 +9,11 @@ namespace pnpbs {
 
 // Collective.
 template <int Dim>
-Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settings);
+Estimate estimate_of(const EffectiveSpacing<Dim>& to_place, const Settings& settings);
 
 // The nodes with which a run with this spacing is expected to end. Collective.
 template <int Dim>
-double estimated_nodes(const SpacingToPlace<Dim>& to_place, SizingField<Dim> spacing,
+double estimated_nodes(const EffectiveSpacing<Dim>& to_place, SizingField<Dim> spacing,
                        const Settings& settings, Samples samples);
 
 // Of memory, for the nodes of all ranks: these share what their machines have, and hold equal

@@ -29,11 +29,11 @@ template <int Dim>
 std::vector<double> spacing_at(const Level<Dim>& level,
                                const std::vector<GrowthSource<Dim>>& places) {
   std::vector<double> d(places.size());
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     std::vector<Point<Dim>> x;
     for (const GrowthSource<Dim>& place : places) x.push_back(place.x);
-    evaluate_spacing<Dim>(level.ground.spacing(), measure_of(level.ground.domain()), std::ssize(x),
-                          x.data(), d.data());
+    evaluate_spacing<Dim>(level.geometry.spacing(), measure_of(level.geometry.domain()),
+                          std::ssize(x), x.data(), d.data());
   });
   return d;
 }
@@ -72,16 +72,16 @@ void hold_down(const Communicator& comm, PlacedSpacing<Dim>& placed, const Setti
   const double growth = settings.growth_limit > 0
                             ? std::min(settings.growth_limit, method::kGrowthFollowed)
                             : method::kGrowthFollowed;
-  agreed(comm, [&] { placed.d.reduce_at(placed.held.places, growth); });
+  collective_try(comm, [&] { placed.d.reduce_at(placed.held.places, growth); });
 }
 
 template <int Dim>
 View<char> held_nodes(const Level<Dim>& level, const PlacedSpacing<Dim>& placed) {
   if (placed.held.places.empty()) return {};
-  const View<double> d = spacing_at_nodes(level, level.ground.spacing());
+  const View<double> d = spacing_at_nodes(level, level.geometry.spacing());
   const View<double> unheld = spacing_at_nodes(level, placed.d.without_reductions());
   View<char> held;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     held = make_view<char>("pnpbs::held_nodes", level.nodes.count);
     for_each("pnpbs::held_nodes", level.nodes.count,
              [&](std::int64_t i) { held(i) = d(i) < unheld(i); });
@@ -91,7 +91,7 @@ View<char> held_nodes(const Level<Dim>& level, const PlacedSpacing<Dim>& placed)
 
 template <int Dim>
 bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
-                           Held<Dim>& held) {
+                           LocalReduction<Dim>& held) {
   const Communicator& comm = *level.comm;
   const auto global_count = [&] {
     return static_cast<std::int64_t>(
@@ -105,12 +105,12 @@ bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unres
       small ? unresolved.small_angles
             : static_cast<std::int64_t>(comm.allreduce_sum(unresolved.places.size()));
   if (found > std::max(global_count(), small ? kFewElements : std::int64_t{0})) return false;
-  if (held.rounds++ == 0) held.nodes_before = global_count();
+  if (held.rounds++ == 0) held.start_nodes = global_count();
   const std::vector<GrowthSource<Dim>> wanted =
       places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved.places), held.rounds);
   const std::vector<double> d = spacing_at(level, wanted);
   if (held.rounds == 1 && !d.empty()) held.least_before = *std::ranges::min_element(d);
-  const double finest = resolution_of(level.ground.domain());
+  const double finest = resolution_of(level.geometry.domain());
   const std::size_t before = held.places.size();
   for (std::size_t k = 0; k < wanted.size(); ++k)
     if (const double to = std::max(wanted[k].d, finest); to < d[k])
@@ -119,50 +119,50 @@ bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unres
 }
 
 template <int Dim>
-bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms) {
-  const auto nodes = static_cast<double>(held.nodes_before);
+bool takes_too_many(double expected_nodes, const LocalReduction<Dim>& held, bool conforms) {
+  const auto nodes = static_cast<double>(held.start_nodes);
   return expected_nodes >
          (conforms ? method::kMaxGrowthOfNodes * nodes
                    : std::max(method::kMaxGrowthToConform * nodes, method::kFewNodesToConform));
 }
 
 template <int Dim>
-Warning warning_of_too_many(double expected_nodes, const Held<Dim>& held) {
+Warning warning_of_too_many(double expected_nodes, const LocalReduction<Dim>& held) {
   const GrowthSource<Dim>& finest = *std::ranges::min_element(
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
   const auto nodes = static_cast<std::int64_t>(expected_nodes);
   return {WarningCode::not_conforming,
           "the shape takes about " + std::to_string(nodes) + " nodes or more, with a spacing of " +
               rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) + ", and the " +
-              "spacing that is set asks for " + std::to_string(held.nodes_before) +
+              "spacing that is set asks for " + std::to_string(held.start_nodes) +
               ": set the option resolve to place them, or a smaller spacing there",
           nodes, finest.d};
 }
 
 template <int Dim>
-Warning warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes) {
+Warning warning_of_held_spacing(const LocalReduction<Dim>& held, std::int64_t nodes) {
   const GrowthSource<Dim>& finest = *std::ranges::min_element(
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
   return {WarningCode::spacing_held,
           "the spacing did not resolve the shape at " + std::to_string(held.places.size()) +
               " places, and is held down there, to " + rounded_text(finest.d) + " at " +
               rounded_point_text<Dim>(finest.x) + ": " + std::to_string(nodes) +
-              " nodes instead of " + std::to_string(held.nodes_before) +
+              " nodes instead of " + std::to_string(held.start_nodes) +
               " (option conforming_rounds, 0 to have d as it is given)",
           std::ssize(held.places), finest.d};
 }
 
 template void hold_down(const Communicator&, PlacedSpacing<2>&, const Settings&);
 template View<char> held_nodes(const Level<2>&, const PlacedSpacing<2>&);
-template bool add_unresolved_places<2>(const Level<2>&, const Unresolved<2>&, Held<2>&);
-template bool takes_too_many(double, const Held<2>&, bool);
-template Warning warning_of_held_spacing(const Held<2>&, std::int64_t);
-template Warning warning_of_too_many(double, const Held<2>&);
+template bool add_unresolved_places<2>(const Level<2>&, const Unresolved<2>&, LocalReduction<2>&);
+template bool takes_too_many(double, const LocalReduction<2>&, bool);
+template Warning warning_of_held_spacing(const LocalReduction<2>&, std::int64_t);
+template Warning warning_of_too_many(double, const LocalReduction<2>&);
 template void hold_down(const Communicator&, PlacedSpacing<3>&, const Settings&);
 template View<char> held_nodes(const Level<3>&, const PlacedSpacing<3>&);
-template bool add_unresolved_places<3>(const Level<3>&, const Unresolved<3>&, Held<3>&);
-template bool takes_too_many(double, const Held<3>&, bool);
-template Warning warning_of_held_spacing(const Held<3>&, std::int64_t);
-template Warning warning_of_too_many(double, const Held<3>&);
+template bool add_unresolved_places<3>(const Level<3>&, const Unresolved<3>&, LocalReduction<3>&);
+template bool takes_too_many(double, const LocalReduction<3>&, bool);
+template Warning warning_of_held_spacing(const LocalReduction<3>&, std::int64_t);
+template Warning warning_of_too_many(double, const LocalReduction<3>&);
 
 }  // namespace pnpbs

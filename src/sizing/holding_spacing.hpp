@@ -37,19 +37,19 @@ struct Unresolved {
 // rank unresolved; false if there are none, or that was tried often enough. Collective.
 template <int Dim>
 bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
-                           Held<Dim>& held);
+                           LocalReduction<Dim>& held);
 
 // Would a round with so many nodes take far more than the spacing asks for? More may come if the
 // last one does not conform.
 template <int Dim>
-bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms);
+bool takes_too_many(double expected_nodes, const LocalReduction<Dim>& held, bool conforms);
 
 // That a round with so many nodes was not begun, where elements do not conform.
 template <int Dim>
-Warning warning_of_too_many(double expected_nodes, const Held<Dim>& held);
+Warning warning_of_too_many(double expected_nodes, const LocalReduction<Dim>& held);
 
 // That d is held down, of a run with so many nodes.
 template <int Dim>
-Warning warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes);
+Warning warning_of_held_spacing(const LocalReduction<Dim>& held, std::int64_t nodes);
 
 }  // namespace pnpbs

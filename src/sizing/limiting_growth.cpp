@@ -26,8 +26,8 @@ constexpr double kTooSteep = method::kTooSteep * method::kGrowthFollowed;
 }  // namespace
 
 template <int Dim>
-SizingField<Dim> SpacingToPlace<Dim>::spacing_to_place(const Settings& settings,
-                                                       double count_factor) const {
+SizingField<Dim> EffectiveSpacing<Dim>::effective_spacing(const Settings& settings,
+                                                          double count_factor) const {
   const double wanted = options_.real("wanted_nodes");
   if (wanted == 0) return bounded(spacing_, settings);
   const double factor = count_factor * factor_for(wanted, settings);
@@ -40,7 +40,7 @@ SizingField<Dim> SpacingToPlace<Dim>::spacing_to_place(const Settings& settings,
 // there is nothing to find, and the search ends where the number does not change any more. Few
 // samples lead near it, and an estimate by many corrects the rest; another one, if that is much.
 template <int Dim>
-double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
+double EffectiveSpacing<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
   constexpr int kMaxRounds = 10;
   constexpr double kNear = 0.05, kNearByMany = 0.02, kSame = 1e-3, kMinPower = 0.5, kMaxStep = 64;
   const double steepest = settings.bubble_dimension;
@@ -73,14 +73,14 @@ double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& sett
 }
 
 template <int Dim>
-SizingField<Dim> SpacingToPlace<Dim>::bounded(SizingField<Dim> spacing,
-                                              const Settings& settings) const {
+SizingField<Dim> EffectiveSpacing<Dim>::bounded(SizingField<Dim> spacing,
+                                                const Settings& settings) const {
   spacing.set_bound(kMaxSizes * size_of(domain_->bounds()));
   if constexpr (Dim == 3) {
     if (!settings.resolve) return spacing;
     const double growth =
         settings.growth_limit > 0 ? settings.growth_limit : method::kGrowthFollowed;
-    agreed(*comm_, [&] {
+    collective_try(*comm_, [&] {
       spacing.resolve(resolving_sources(spacing, *domain_, settings.node_limit(), kResolved,
                                         [&] { spacing.beat(); }),
                       growth);
@@ -90,17 +90,18 @@ SizingField<Dim> SpacingToPlace<Dim>::bounded(SizingField<Dim> spacing,
 }
 
 template <int Dim>
-void SpacingToPlace<Dim>::limit_growth(SizingField<Dim>& spacing, const Settings& settings) const {
+void EffectiveSpacing<Dim>::limit_growth(SizingField<Dim>& spacing,
+                                         const Settings& settings) const {
   const auto explained = [&](const Error& error) {
     return error.message() + " (where d grows by at most " + number_text(settings.growth_limit) +
            ": option growth_limit, 0 is no limit)";
   };
-  agreed(*comm_, [&] {
+  collective_try(*comm_, [&] {
     try {
       const SpacingEvaluator<Dim> unlimited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
         evaluate_spacing<Dim>(spacing, measure_of(*domain_), n, x, d);
       };
-      auto ways = std::make_unique<const OpenWays<Dim>>(
+      auto ways = std::make_unique<const LineOfSight<Dim>>(
           domain_->bounds(), measure_of(*domain_),
           indexed_boundary(*domain_, unlimited, settings.max_nodes));
       spacing.limit_growth(comm_, std::move(ways),
@@ -117,10 +118,10 @@ void SpacingToPlace<Dim>::limit_growth(SizingField<Dim>& spacing, const Settings
 }
 
 // As the spacing itself has them: on the level it may be multiplied by a factor.
-void add_finer_places(const FinerPlaces& found, const Communicator& comm,
-                      const VolumeDomain& domain, SizingField<3>& spacing) {
-  KnownValues<3> places;
-  agreed(comm, [&] {
+void add_undersampled_points(const UndersampledSpacing& found, const Communicator& comm,
+                             const VolumeDomain& domain, SizingField<3>& spacing) {
+  SpacingHints<3> places;
+  collective_try(comm, [&] {
     const SpacingEvaluator<3> raw = [&](std::int64_t n, const Point<3>* x, double* d) {
       evaluate_spacing<3>(spacing, measure_of(domain), n, x, d);
     };
@@ -129,7 +130,7 @@ void add_finer_places(const FinerPlaces& found, const Communicator& comm,
     };
     places = finer_region(found.places(), raw, inside);
     SizingField<3> with_places = spacing;
-    with_places.add_finer_places(places);
+    with_places.add_undersampled_points(places);
     spacing = std::move(with_places);
   });
 }
@@ -153,8 +154,8 @@ Warning warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_lim
   return {WarningCode::growth, found + what_helps, 0, steepest.growth};
 }
 
-template class SpacingToPlace<2>;
-template class SpacingToPlace<3>;
+template class EffectiveSpacing<2>;
+template class EffectiveSpacing<3>;
 template bool too_steep(const SteepestGrowth<2>&);
 template bool too_steep(const SteepestGrowth<3>&);
 template Warning warning_of_growth(const SteepestGrowth<2>&, double);

@@ -11,7 +11,7 @@
 #include "base/warning.hpp"
 #include "comm/communicator.hpp"
 #include "domain/domain.hpp"
-#include "level/finer_places.hpp"
+#include "level/undersampled_points.hpp"
 #include "settings/options.hpp"
 #include "settings/settings.hpp"
 #include "spacing/sizing_field.hpp"
@@ -27,17 +27,17 @@ inline bool lattice_is_stretched(const Options& options) {
 
 // All functions are collective.
 template <int Dim>
-class SpacingToPlace {
+class EffectiveSpacing {
  public:
   // From the user's spacing.
-  SpacingToPlace(std::shared_ptr<const Communicator> comm,
-                 std::shared_ptr<const Domain<Dim>> domain, const SizingField<Dim>& spacing,
-                 const Options& options)
+  EffectiveSpacing(std::shared_ptr<const Communicator> comm,
+                   std::shared_ptr<const Domain<Dim>> domain, const SizingField<Dim>& spacing,
+                   const Options& options)
       : comm_(std::move(comm)), domain_(std::move(domain)), spacing_(spacing), options_(options) {}
 
   // No larger than makes sense, and with so many nodes as are wanted, by an estimate whose error
   // `count_factor` corrects.
-  SizingField<Dim> spacing_to_place(const Settings& settings, double count_factor = 1) const;
+  SizingField<Dim> effective_spacing(const Settings& settings, double count_factor = 1) const;
   void limit_growth(SizingField<Dim>& spacing, const Settings& settings) const;
 
   const Communicator& comm() const { return *comm_; }
@@ -54,12 +54,12 @@ class SpacingToPlace {
   const Options& options_;
 };
 
-extern template class SpacingToPlace<2>;
-extern template class SpacingToPlace<3>;
+extern template class EffectiveSpacing<2>;
+extern template class EffectiveSpacing<3>;
 
 // Adds places at which nodes came upon more than the samples of d had told of it. Collective.
-void add_finer_places(const FinerPlaces& found, const Communicator& comm,
-                      const VolumeDomain& domain, SizingField<3>& spacing);
+void add_undersampled_points(const UndersampledSpacing& found, const Communicator& comm,
+                             const VolumeDomain& domain, SizingField<3>& spacing);
 
 // Is it steeper than nodes can follow?
 template <int Dim>

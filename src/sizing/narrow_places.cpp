@@ -52,8 +52,8 @@ std::vector<GrowthSource<2>> narrow_places(const Level<2>&, const std::vector<Gr
 std::vector<GrowthSource<3>> narrow_places(const Level<3>& level,
                                            const std::vector<GrowthSource<3>>& near) {
   std::vector<GrowthSource<3>> narrow;
-  agreed(*level.comm, [&] {
-    narrow = resolving_sources(level.ground.spacing(), level.ground.domain(),
+  collective_try(*level.comm, [&] {
+    narrow = resolving_sources(level.geometry.spacing(), level.geometry.domain(),
                                level.settings.node_limit(), kApart);
     if (near.empty()) return;
     const Surroundings surroundings(near);

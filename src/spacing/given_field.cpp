@@ -13,9 +13,9 @@
 #include "domain/given_values.hpp"
 #include "predicates/plane.hpp"
 #include "predicates/space.hpp"
-#include "spacing/beside_domain.hpp"
-#include "spacing/cloud_spacing.hpp"
 #include "spacing/mesh_spacing.hpp"
+#include "spacing/outside_domain.hpp"
+#include "spacing/scattered_spacing.hpp"
 #include "spacing/sphere_spacing.hpp"
 
 namespace pnpbs {
@@ -104,7 +104,7 @@ std::shared_ptr<const LocalSpacing<Dim>> spacing_from_field(GivenField<Dim> fiel
   check_points(field);
   check_elements(field);
   require_meeting_boxes(field.points_name, box_of(field), domain);
-  if (field.elements.empty()) return std::make_shared<CloudSpacing<Dim>>(field);
+  if (field.elements.empty()) return std::make_shared<ScatteredSpacing<Dim>>(field);
   return std::make_shared<MeshSpacing<Dim>>(field);
 }
 
@@ -119,7 +119,7 @@ std::shared_ptr<const LocalSpacing<2>> spacing_from_field(SphereField field,
   check_elements(field);
   std::shared_ptr<const LocalSpacing<3>> along;
   if (field.elements.empty())
-    along = std::make_shared<SphereCloudSpacing>(field, radius);
+    along = std::make_shared<SphereScatteredSpacing>(field, radius);
   else
     along = std::make_shared<SphereMeshSpacing>(field, radius);
   return std::make_shared<SphereSpacing>(std::move(along), chart);

@@ -76,7 +76,7 @@ struct GrowthLabels<Dim>::Waiting {
 };
 
 template <int Dim>
-GrowthLabels<Dim>::GrowthLabels(const Communicator& comm, const OpenWays<Dim>& ways,
+GrowthLabels<Dim>::GrowthLabels(const Communicator& comm, const LineOfSight<Dim>& ways,
                                 const std::vector<GrowthLeaf<Dim>>& own,
                                 const GrowthRule<Dim>& rule, const Beat& beat)
     : rule_(rule), tree_(tree_of(comm, ways.bounds(), own)) {
@@ -96,7 +96,7 @@ GrowthLabels<Dim>::GrowthLabels(const Communicator& comm, const OpenWays<Dim>& w
 
 // In rounds: all that go next hand on what they have at the same time, wherever they are.
 template <int Dim>
-void GrowthLabels<Dim>::settle(const Communicator& comm, const OpenWays<Dim>& ways,
+void GrowthLabels<Dim>::settle(const Communicator& comm, const LineOfSight<Dim>& ways,
                                const Beat& beat) {
   Waiting waiting(labels_);
   std::vector<Label> copies_before;
@@ -115,7 +115,7 @@ void GrowthLabels<Dim>::settle(const Communicator& comm, const OpenWays<Dim>& wa
 // Does the straight way from a source lead to the place that stands for a leaf? Between two places
 // on the boundary it may lie outside of the domain and cross nothing.
 template <int Dim>
-bool GrowthLabels<Dim>::open_way(const OpenWays<Dim>& ways, const Point<Dim>& from,
+bool GrowthLabels<Dim>::open_way(const LineOfSight<Dim>& ways, const Point<Dim>& from,
                                  const Spot& to) const {
   if (!to.placed || !ways.open(from, to.place)) return false;
   return to.inside || ways.inside(middle_of<Dim>(from, to.place));
@@ -123,7 +123,8 @@ bool GrowthLabels<Dim>::open_way(const OpenWays<Dim>& ways, const Point<Dim>& fr
 
 // To own leaves; copies get what their owners find.
 template <int Dim>
-void GrowthLabels<Dim>::hand_on(const OpenWays<Dim>& ways, const std::vector<std::int32_t>& leaves,
+void GrowthLabels<Dim>::hand_on(const LineOfSight<Dim>& ways,
+                                const std::vector<std::int32_t>& leaves,
                                 std::vector<std::int32_t>& changed, const Beat& beat) {
   constexpr std::size_t kBetweenBeats = 4096;
   std::vector<Label> handed;  // as they are before the first of them changes
@@ -149,7 +150,7 @@ void GrowthLabels<Dim>::hand_on(const OpenWays<Dim>& ways, const std::vector<std
 }
 
 template <int Dim>
-double GrowthLabels<Dim>::limit_at(const OpenWays<Dim>& ways, const Point<Dim>& x) const {
+double GrowthLabels<Dim>::limit_at(const LineOfSight<Dim>& ways, const Point<Dim>& x) const {
   const std::int64_t leaf = tree_.leaf_at(x);
   if (!tree_.owns(leaf)) return kInfinite;
   double limit = rule_.limit(label(leaf).source, x);

@@ -10,7 +10,7 @@
 
 #include "spacing/growth_leaf.hpp"
 #include "spacing/growth_source.hpp"
-#include "spacing/open_ways.hpp"
+#include "spacing/line_of_sight.hpp"
 #include "tree/tree_part.hpp"
 
 namespace pnpbs {
@@ -22,14 +22,14 @@ class GrowthLabels {
 
   GrowthLabels() = default;
   // Collective.
-  GrowthLabels(const Communicator& comm, const OpenWays<Dim>& ways,
+  GrowthLabels(const Communicator& comm, const LineOfSight<Dim>& ways,
                const std::vector<GrowthLeaf<Dim>>& own, const GrowthRule<Dim>& rule,
                const Beat& beat);
 
   const TreePart<Dim>& tree() const { return tree_; }
   // The limit of d at a point in one of this rank's leaves: by the source of that leaf, and by
   // those of touching ones where no boundary is between.
-  double limit_at(const OpenWays<Dim>& ways, const Point<Dim>& x) const;
+  double limit_at(const LineOfSight<Dim>& ways, const Point<Dim>& x) const;
 
  private:
   using Label = GrowthLabel<Dim>;
@@ -40,10 +40,10 @@ class GrowthLabels {
   };
   struct Waiting;
 
-  void settle(const Communicator& comm, const OpenWays<Dim>& ways, const Beat& beat);
-  void hand_on(const OpenWays<Dim>& ways, const std::vector<std::int32_t>& leaves,
+  void settle(const Communicator& comm, const LineOfSight<Dim>& ways, const Beat& beat);
+  void hand_on(const LineOfSight<Dim>& ways, const std::vector<std::int32_t>& leaves,
                std::vector<std::int32_t>& changed, const Beat& beat);
-  bool open_way(const OpenWays<Dim>& ways, const Point<Dim>& from, const Spot& to) const;
+  bool open_way(const LineOfSight<Dim>& ways, const Point<Dim>& from, const Spot& to) const;
   const Spot& spot(std::int64_t leaf) const { return spots_[static_cast<std::size_t>(leaf)]; }
   const Label& label(std::int64_t leaf) const { return labels_[static_cast<std::size_t>(leaf)]; }
 

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "spacing/growth_source.hpp"
-#include "spacing/open_ways.hpp"
+#include "spacing/line_of_sight.hpp"
 #include "tree/leaf_cells.hpp"
 
 namespace pnpbs {
 
 template <int Dim>
 struct GrowthLeaf {
-  using Side = typename OpenWays<Dim>::Side;
+  using Side = typename LineOfSight<Dim>::Side;
 
   LeafCell<Dim> cell;
   Side side = Side::crossed;

@@ -9,13 +9,13 @@
 #include "base/point_text.hpp"
 #include "method/constants.hpp"
 #include "spacing/dips.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 #include "tree/cell_samples.hpp"
 
 namespace pnpbs {
 
 template <int Dim>
-GrowthLeaves<Dim>::GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways,
+GrowthLeaves<Dim>::GrowthLeaves(const Communicator& comm, const LineOfSight<Dim>& ways,
                                 const GrowthRule<Dim>& rule, const NodeLimit& limit,
                                 std::vector<Point<Dim>> places)
     : comm_(comm), ways_(ways), rule_(rule), limit_(limit), points_(ways, std::move(places)) {
@@ -166,7 +166,7 @@ void GrowthLeaves<Dim>::refine(const SpacingEvaluator<Dim>& raw,
     if constexpr (Dim == 3) look_beside(raw);
     expect_known(samples, expected);
     take_sources(samples);
-    require_few_nodes();
+    require_small_node_set();
     split_open(rule_.growth);
   }
   spread_evenly(comm_, leaves_);
@@ -184,7 +184,7 @@ bool GrowthLeaves<Dim>::fit(const SpacingEvaluator<Dim>& limited) {
     move_into_cells(in_slivers);
     limited(std::ssize(in_slivers.x), in_slivers.x.data(), in_slivers.d.data());
     take_range(in_slivers);
-    require_few_nodes();
+    require_small_node_set();
     any = split_open(0) || any;
   }
   return comm_.allreduce_max(any) > 0;
@@ -285,7 +285,7 @@ void GrowthLeaves<Dim>::split(const GrowthLeaf<Dim>& leaf,
 
 // Even with the largest d of each leaf there would be more nodes than allowed: stop early.
 template <int Dim>
-void GrowthLeaves<Dim>::require_few_nodes() const {
+void GrowthLeaves<Dim>::require_small_node_set() const {
   constexpr double kMaxThatAddUp = 9e18;  // on all ranks together, as 64 bits hold
   double own = 0;
   for (const GrowthLeaf<Dim>& leaf : leaves_)

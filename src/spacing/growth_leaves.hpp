@@ -14,7 +14,7 @@
 #include "spacing/growth_source.hpp"
 #include "spacing/growth_sources.hpp"
 #include "spacing/leaf_points.hpp"
-#include "spacing/open_ways.hpp"
+#include "spacing/line_of_sight.hpp"
 
 namespace pnpbs {
 
@@ -22,7 +22,7 @@ template <int Dim>
 class GrowthLeaves {
  public:
   // All of the domain in one leaf. `places` in it are samples like the boundary nodes.
-  GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, const GrowthRule<Dim>& rule,
+  GrowthLeaves(const Communicator& comm, const LineOfSight<Dim>& ways, const GrowthRule<Dim>& rule,
                const NodeLimit& limit, std::vector<Point<Dim>> places = {});
 
   // Splits leaves wider than some d, and those over which d grows faster than the limit, so that
@@ -65,11 +65,11 @@ class GrowthLeaves {
   bool too_wide(const GrowthLeaf<Dim>& leaf, double steepest) const;
   bool split_open(double steepest);
   void split(const GrowthLeaf<Dim>& leaf, std::vector<GrowthLeaf<Dim>>& next) const;
-  void require_few_nodes() const;
+  void require_small_node_set() const;
   [[noreturn]] void report_too_many(double nodes) const;
 
   const Communicator& comm_;
-  const OpenWays<Dim>& ways_;
+  const LineOfSight<Dim>& ways_;
   GrowthRule<Dim> rule_;
   NodeLimit limit_;
   LeafPoints<Dim> points_;

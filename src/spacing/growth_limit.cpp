@@ -29,21 +29,21 @@ struct Answer {
 
 template <int Dim>
 GrowthLimit<Dim>::GrowthLimit(std::shared_ptr<const Communicator> comm,
-                              std::unique_ptr<const OpenWays<Dim>> ways, const Spacing<Dim>& raw,
+                              std::unique_ptr<const LineOfSight<Dim>> ways, const Spacing<Dim>& raw,
                               const GrowthRule<Dim>& rule, const NodeLimit& limit, const Beat& beat)
     : comm_(std::move(comm)), rule_(rule), ways_(std::move(ways)) {
   const SpacingEvaluator<Dim> checked = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     beat();
     evaluate_spacing<Dim>(raw, ways_->measure(), n, x, d);
   };
-  agreed(*comm_, [&] { find_labels(checked, raw.known_values(), limit, beat); });
+  collective_try(*comm_, [&] { find_labels(checked, raw.spacing_hints(), limit, beat); });
 }
 
 // The first leaves are as large as the unlimited d allows, and one source stands for all of a leaf:
 // next to a jump that is too coarse, and what is fine in a corner of a leaf was not sampled. With
 // leaves by the limited d it is not.
 template <int Dim>
-void GrowthLimit<Dim>::find_labels(const SpacingEvaluator<Dim>& raw, const KnownValues<Dim>& known,
+void GrowthLimit<Dim>::find_labels(const SpacingEvaluator<Dim>& raw, const SpacingHints<Dim>& known,
                                    const NodeLimit& limit, const Beat& beat) {
   constexpr int kMaxPasses = 6;
   const SpacingEvaluator<Dim> limited = [&](std::int64_t n, const Point<Dim>* x, double* d) {

@@ -16,7 +16,7 @@
 #include "domain/node_limit.hpp"
 #include "spacing/growth_labels.hpp"
 #include "spacing/growth_leaves.hpp"
-#include "spacing/open_ways.hpp"
+#include "spacing/line_of_sight.hpp"
 #include "spacing/spacing.hpp"
 
 namespace pnpbs {
@@ -30,7 +30,7 @@ class GrowthLimit {
   // Calls beat() again and again while it is made; what that throws on one rank ends it on all.
   // Collective.
   GrowthLimit(
-      std::shared_ptr<const Communicator> comm, std::unique_ptr<const OpenWays<Dim>> ways,
+      std::shared_ptr<const Communicator> comm, std::unique_ptr<const LineOfSight<Dim>> ways,
       const Spacing<Dim>& raw, const GrowthRule<Dim>& rule, const NodeLimit& limit,
       const Beat& beat = [] {});
 
@@ -43,7 +43,7 @@ class GrowthLimit {
   std::int64_t leaves_held() const { return labels_.tree().count(); }
 
  private:
-  void find_labels(const SpacingEvaluator<Dim>& raw, const KnownValues<Dim>& known,
+  void find_labels(const SpacingEvaluator<Dim>& raw, const SpacingHints<Dim>& known,
                    const NodeLimit& limit, const Beat& beat);
   std::vector<double> limits(std::int64_t n, const Point<Dim>* x) const;
   void take_answers_of_all(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;
@@ -51,7 +51,7 @@ class GrowthLimit {
 
   std::shared_ptr<const Communicator> comm_;
   GrowthRule<Dim> rule_;
-  std::unique_ptr<const OpenWays<Dim>> ways_;
+  std::unique_ptr<const LineOfSight<Dim>> ways_;
   GrowthLabels<Dim> labels_;
 };
 

@@ -7,13 +7,13 @@
 
 #include "base/lattice.hpp"
 #include "method/constants.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 #include "tree/cell_samples.hpp"
 
 namespace pnpbs {
 
 template <int Dim>
-LeafPoints<Dim>::LeafPoints(const OpenWays<Dim>& ways, std::vector<Point<Dim>> places)
+LeafPoints<Dim>::LeafPoints(const LineOfSight<Dim>& ways, std::vector<Point<Dim>> places)
     : ways_(ways), places_(std::move(places)) {
   root_.build(ways.bounds(),
               [](const BackgroundTree<Dim>&, std::int32_t, std::int32_t, std::vector<char>&) {});

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "spacing/growth_leaf.hpp"
-#include "spacing/open_ways.hpp"
+#include "spacing/line_of_sight.hpp"
 #include "tree/leaf_cells.hpp"
 
 namespace pnpbs {
@@ -16,7 +16,7 @@ namespace pnpbs {
 template <int Dim>
 class LeafPoints {
  public:
-  LeafPoints(const OpenWays<Dim>& ways, std::vector<Point<Dim>> places);
+  LeafPoints(const LineOfSight<Dim>& ways, std::vector<Point<Dim>> places);
 
   void add_places(const std::vector<Point<Dim>>& places);
 
@@ -42,7 +42,7 @@ class LeafPoints {
   void sort_nodes();
   const Point<Dim>& node(std::int64_t n) const;
 
-  const OpenWays<Dim>& ways_;
+  const LineOfSight<Dim>& ways_;
   std::vector<Point<Dim>> places_;
   BackgroundTree<Dim> root_;         // one cell, for its arithmetic
   std::vector<std::int64_t> nodes_;  // of the boundary, then the places, in Morton order

@@ -19,13 +19,13 @@ namespace pnpbs {
 // linear there, by edges that are made orthogonal, one by one, to those before. What is left of the
 // values along them are its components.
 template <int Dim, int In>
-typename KnownValues<In>::Slope slope_of(const Patch<Dim, In>& patch,
-                                         const std::array<std::int32_t, Dim + 1>& simplex) {
+typename SpacingHints<In>::Slope slope_of(const Patch<Dim, In>& patch,
+                                          const std::array<std::int32_t, Dim + 1>& simplex) {
   constexpr std::size_t kCorners = Dim + 1;
   const auto node = [&](std::size_t k) -> const PatchNode<In>& {
     return patch.nodes[static_cast<std::size_t>(simplex[k])];
   };
-  typename KnownValues<In>::Slope slope{0, node(0).value, {}};
+  typename SpacingHints<In>::Slope slope{0, node(0).value, {}};
   std::array<Point<In>, kCorners - 1> edges;
   std::array<double, kCorners - 1> rises, squares;
   double square_of_growth = 0;
@@ -96,8 +96,8 @@ Patch<Dim, In> patch_of_mesh(const GivenField<In, Dim + 1>& field) {
 
 // At the nodes of its simplices, and how steep it is on these.
 template <int Dim, int In>
-KnownValues<In> known_values_of(const Patch<Dim, In>& patch) {
-  KnownValues<In> known;
+SpacingHints<In> spacing_hints_of(const Patch<Dim, In>& patch) {
+  SpacingHints<In> known;
   std::vector<bool> used(patch.nodes.size(), false);
   for (const auto& simplex : patch.simplices) {
     for (const std::int32_t i : simplex) used[static_cast<std::size_t>(i)] = true;

@@ -40,8 +40,8 @@ void MeshSpacing<Dim>::distance_to_extent(std::int64_t n, const Point<Dim>* x,
 }
 
 template <int Dim>
-KnownValues<Dim> MeshSpacing<Dim>::known_values() const {
-  return known_values_of(mesh_.patch());
+SpacingHints<Dim> MeshSpacing<Dim>::spacing_hints() const {
+  return spacing_hints_of(mesh_.patch());
 }
 
 template class MeshSpacing<2>;
@@ -74,6 +74,6 @@ void SphereMeshSpacing::distance_to_extent(std::int64_t n, const Point<3>* x,
   });
 }
 
-KnownValues<3> SphereMeshSpacing::known_values() const { return known_values_of(mesh_.patch()); }
+SpacingHints<3> SphereMeshSpacing::spacing_hints() const { return spacing_hints_of(mesh_.patch()); }
 
 }  // namespace pnpbs

@@ -18,7 +18,7 @@ class MeshSpacing : public LocalSpacing<Dim> {
   // Of a checked field with elements.
   explicit MeshSpacing(const GivenField<Dim>& field);
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
-  KnownValues<Dim> known_values() const override;
+  SpacingHints<Dim> spacing_hints() const override;
   std::optional<GivenExtent<Dim>> extent() const override;
   void distance_to_extent(std::int64_t n, const Point<Dim>* x, double* distance) const override;
 
@@ -40,7 +40,7 @@ class SphereMeshSpacing : public LocalSpacing<3> {
   SphereMeshSpacing(const SphereField& field, double radius);
 
   void evaluate(std::int64_t n, const Point<3>* x, double* d) const override;
-  KnownValues<3> known_values() const override;
+  SpacingHints<3> spacing_hints() const override;
   std::optional<GivenExtent<3>> extent() const override;
   void distance_to_extent(std::int64_t n, const Point<3>* x, double* distances) const override;
 

@@ -15,7 +15,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }
 
 template <int Dim>
-void multiply(KnownValues<Dim>& known, double factor) {
+void multiply(SpacingHints<Dim>& known, double factor) {
   if (factor == 1) return;
   for (GrowthSource<Dim>& value : known.values) value.d *= factor;
   for (GrowthSource<Dim>& value : known.in_domain) value.d *= factor;
@@ -33,9 +33,9 @@ void multiply(std::int64_t n, double* d, double factor) {
 }  // namespace
 
 template <int Dim>
-void SizingField<Dim>::add_finer_places(const KnownValues<Dim>& places) {
-  append(finer_places_.in_domain, places.in_domain);
-  append(finer_places_.slopes, places.slopes);
+void SizingField<Dim>::add_undersampled_points(const SpacingHints<Dim>& places) {
+  append(undersampled_points_.in_domain, places.in_domain);
+  append(undersampled_points_.slopes, places.slopes);
 }
 
 template <int Dim>
@@ -43,7 +43,7 @@ SizingField<Dim> SizingField<Dim>::multiplied(double factor) const {
   SizingField result = *this;
   if (auto sizes = source_->with_sizes_multiplied(factor)) {
     result.source_ = std::move(sizes);
-    multiply(result.finer_places_, factor);
+    multiply(result.undersampled_points_, factor);
   } else {
     result.factor_ *= factor;
   }
@@ -57,7 +57,7 @@ void SizingField<Dim>::resolve(std::vector<GrowthSource<Dim>> sources, double gr
 
 template <int Dim>
 void SizingField<Dim>::limit_growth(std::shared_ptr<const Communicator> comm,
-                                    std::unique_ptr<const OpenWays<Dim>> ways,
+                                    std::unique_ptr<const LineOfSight<Dim>> ways,
                                     const GrowthRule<Dim>& rule, const NodeLimit& limit) {
   growth_limit_ = std::make_shared<const GrowthLimit<Dim>>(std::move(comm), std::move(ways), *this,
                                                            rule, limit, [this] { beat(); });
@@ -106,12 +106,12 @@ void SizingField<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) 
 
 // Where the growth is limited, samples miss nothing that would have to be known besides.
 template <int Dim>
-KnownValues<Dim> SizingField<Dim>::known_values() const {
-  KnownValues<Dim> known;
+SpacingHints<Dim> SizingField<Dim>::spacing_hints() const {
+  SpacingHints<Dim> known;
   if (!growth_limit_) {
-    known = source_->known_values();
-    append(known.in_domain, finer_places_.in_domain);
-    append(known.slopes, finer_places_.slopes);
+    known = source_->spacing_hints();
+    append(known.in_domain, undersampled_points_.in_domain);
+    append(known.slopes, undersampled_points_.slopes);
     multiply(known, factor_);
   }
   append(known.in_domain, reduced_places_);

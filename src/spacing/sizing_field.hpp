@@ -38,9 +38,11 @@ class SizingField : public Spacing<Dim> {
   const Spacing<Dim>& source() const { return *source_; }  // the user's
   // Places where nodes came upon a smaller d than the samples around had told. The tree is refined
   // there. They are part of what a checkpoint stores.
-  const KnownValues<Dim>& finer_places() const { return finer_places_; }
-  void add_finer_places(const KnownValues<Dim>& places);
-  void set_finer_places(KnownValues<Dim> places) { finer_places_ = std::move(places); }
+  const SpacingHints<Dim>& undersampled_points() const { return undersampled_points_; }
+  void add_undersampled_points(const SpacingHints<Dim>& places);
+  void set_undersampled_points(SpacingHints<Dim> places) {
+    undersampled_points_ = std::move(places);
+  }
 
   // For `factor` times the distance between nodes. A spacing with a growth of its own keeps that.
   SizingField multiplied(double factor) const;
@@ -52,7 +54,7 @@ class SizingField : public Spacing<Dim> {
   // Limits the growth of what the field is so far. The arguments are those of GrowthLimit.
   // Collective.
   void limit_growth(std::shared_ptr<const Communicator> comm,
-                    std::unique_ptr<const OpenWays<Dim>> ways, const GrowthRule<Dim>& rule,
+                    std::unique_ptr<const LineOfSight<Dim>> ways, const GrowthRule<Dim>& rule,
                     const NodeLimit& limit);
   const GrowthLimit<Dim>* growth_limit() const { return growth_limit_.get(); }
   // Reduces d at these places and around them, in addition to all else. The tree is refined there.
@@ -63,7 +65,7 @@ class SizingField : public Spacing<Dim> {
   SizingField coarsened(double factor) const;
 
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
-  KnownValues<Dim> known_values() const override;
+  SpacingHints<Dim> spacing_hints() const override;
   std::optional<GivenExtent<Dim>> extent() const override { return source_->extent(); }
   void distance_to_extent(std::int64_t n, const Point<Dim>* x, double* distances) const override {
     source_->distance_to_extent(n, x, distances);
@@ -75,7 +77,7 @@ class SizingField : public Spacing<Dim> {
   static void reduce(const Sources& sources, std::int64_t n, const Point<Dim>* x, double* d);
 
   std::shared_ptr<const Spacing<Dim>> source_;
-  KnownValues<Dim> finer_places_;
+  SpacingHints<Dim> undersampled_points_;
   double factor_ = 1;
   double bound_ = std::numeric_limits<double>::infinity();
   std::shared_ptr<const Sources> resolving_;

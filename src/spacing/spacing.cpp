@@ -81,9 +81,9 @@ Point<Dim> GridSpacing<Dim>::grid_point(std::int64_t index) const {
 
 // Noise of a fine grid is steep, too, but changes d by a small part.
 template <int Dim>
-KnownValues<Dim> GridSpacing<Dim>::known_values() const {
+SpacingHints<Dim> GridSpacing<Dim>::spacing_hints() const {
   constexpr double kMatters = 0.1;
-  KnownValues<Dim> known;
+  SpacingHints<Dim> known;
   const auto count = static_cast<std::int64_t>(values_.size());
   std::vector<char> is_low(values_.size(), 0);
   std::int64_t next = 1;  // grid points from one to the next along an axis

@@ -18,7 +18,7 @@ namespace pnpbs {
 // Where a spacing has its values from, if from places of its own: samples of d in cells may miss
 // what is fine between them. The same on all ranks.
 template <int Dim>
-struct KnownValues {
+struct SpacingHints {
   struct Slope {
     double growth, d;  // d at its lower end
     Point<Dim> at;
@@ -51,7 +51,7 @@ class Spacing {
   // them: checked by evaluate_spacing. Collective: all ranks ask at the same time, as many points
   // as each wants.
   virtual void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const = 0;
-  virtual KnownValues<Dim> known_values() const { return {}; }
+  virtual SpacingHints<Dim> spacing_hints() const { return {}; }
   // With the sizes that it is made of multiplied, but its growth as it is, if there is a growth of
   // its own; others return nothing.
   virtual std::shared_ptr<const Spacing> with_sizes_multiplied(double) const { return nullptr; }
@@ -100,7 +100,7 @@ class GridSpacing : public LocalSpacing<Dim> {
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
   // The ends of steps between grid points in which d changes by a part that matters, and their
   // slopes. The least d of a cell is at one of its corners.
-  KnownValues<Dim> known_values() const override;
+  SpacingHints<Dim> spacing_hints() const override;
   std::optional<GivenExtent<Dim>> extent() const override;
 
  private:

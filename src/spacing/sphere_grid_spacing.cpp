@@ -71,9 +71,9 @@ void SphereGridSpacing::join_at_pole(double pole, std::int64_t row, std::optiona
   if (away <= kRounding) std::fill_n(begin, grid_.columns, *value);
 }
 
-KnownValues<3> SphereGridSpacing::known_values() const {
+SpacingHints<3> SphereGridSpacing::spacing_hints() const {
   constexpr double kMatters = 0.1;
-  KnownValues<3> known;
+  SpacingHints<3> known;
   std::vector<char> is_low(grid_.values.size(), 0);
   const auto point = [&](std::int64_t row, std::int64_t column) {
     return shifted({}, radius_, direction_at({grid_.longitude(column), grid_.latitude(row)}));

@@ -40,7 +40,7 @@ class SphereGridSpacing : public LocalSpacing<3> {
 
   void evaluate(std::int64_t n, const Point<3>* x, double* d) const override;
   // As of a grid in the plane, with lengths along the sphere.
-  KnownValues<3> known_values() const override;
+  SpacingHints<3> spacing_hints() const override;
   std::optional<GivenExtent<3>> extent() const override;
   void distance_to_extent(std::int64_t n, const Point<3>* x, double* distances) const override;
 

@@ -24,9 +24,9 @@ void SphereSpacing::evaluate(std::int64_t n, const Point<2>* u, double* d) const
 }
 
 // Without those so near to the point that is projected from that the chart has no place for them.
-KnownValues<2> SphereSpacing::known_values() const {
-  const KnownValues<3> along = along_->known_values();
-  KnownValues<2> known;
+SpacingHints<2> SphereSpacing::spacing_hints() const {
+  const SpacingHints<3> along = along_->spacing_hints();
+  SpacingHints<2> known;
   const auto add = [&](const Point<3>& x, const auto& take) {
     const Point<2> u = chart_.in_chart(x);
     const double stretch = chart_.stretch(u);

@@ -18,7 +18,7 @@ class SphereSpacing : public LocalSpacing<2> {
 
   // Throws Error(ErrorKind::spacing) where d is not finite and greater than 0.
   void evaluate(std::int64_t n, const Point<2>* u, double* d) const override;
-  KnownValues<2> known_values() const override;
+  SpacingHints<2> spacing_hints() const override;
   std::optional<GivenExtent<2>> extent() const override;
   void distance_to_extent(std::int64_t n, const Point<2>* u, double* distances) const override;
 

@@ -18,7 +18,7 @@ struct Sample {
 };
 
 template <int Dim>
-std::vector<Sample<Dim>> samples_of_own(const DomainMap<Dim>& map,
+std::vector<Sample<Dim>> samples_of_own(const SizedTree<Dim>& map,
                                         const std::function<bool(std::int32_t)>& owns_leaf) {
   const BackgroundTree<Dim>& tree = map.tree();
   std::vector<Sample<Dim>> samples;
@@ -53,7 +53,7 @@ struct Slope {
 };
 
 template <int Dim>
-std::vector<Slope<Dim>> slopes_of_own(const DomainMap<Dim>& map,
+std::vector<Slope<Dim>> slopes_of_own(const SizedTree<Dim>& map,
                                       const std::function<bool(std::int32_t)>& owns_leaf,
                                       const SpacingEvaluator<Dim>& spacing,
                                       const GrowthRule<Dim>& rule) {
@@ -102,10 +102,10 @@ void add_finest(std::vector<Slope<Dim>>& known, double growth, const IsOwn& is_o
 }  // namespace
 
 template <int Dim>
-SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Dim>& map,
+SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const SizedTree<Dim>& map,
                                     const std::function<bool(std::int32_t)>& owns_leaf,
                                     const SpacingEvaluator<Dim>& spacing,
-                                    const KnownValues<Dim>& known,
+                                    const SpacingHints<Dim>& known,
                                     const Embedding<Dim>& embedding) {
   std::vector<Slope<Dim>> slopes;
   std::vector<Slope<Dim>> known_slopes;
@@ -115,7 +115,7 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
     if (!owns_leaf(leaf)) return false;
     return slope.in_domain || (!map.leaf_outside(leaf) && map.inside_in_leaf(leaf, slope.at));
   };
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     slopes = slopes_of_own<Dim>(map, owns_leaf, spacing, {0, embedding});
     for (const auto& [growth, d, at, in_domain] : known.slopes)
       known_slopes.push_back({growth, d, at, in_domain});
@@ -133,7 +133,8 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
   for (const Slope<Dim>& slope : slopes) max = std::max(max, slope.growth);
   SteepestGrowth<Dim> steepest;
   steepest.growth = comm.allreduce_max(max);
-  agreed(comm, [&] { add_finest<Dim>(known_slopes, 0.5 * steepest.growth, is_own, slopes); });
+  collective_try(comm,
+                 [&] { add_finest<Dim>(known_slopes, 0.5 * steepest.growth, is_own, slopes); });
   std::erase_if(slopes,
                 [&](const Slope<Dim>& slope) { return slope.growth < 0.5 * steepest.growth; });
   keep_max([](const Slope<Dim>& slope) { return -slope.d; });
@@ -142,13 +143,13 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
   return steepest;
 }
 
-template SteepestGrowth<2> steepest_growth<2>(const Communicator&, const DomainMap<2>&,
+template SteepestGrowth<2> steepest_growth<2>(const Communicator&, const SizedTree<2>&,
                                               const std::function<bool(std::int32_t)>&,
-                                              const SpacingEvaluator<2>&, const KnownValues<2>&,
+                                              const SpacingEvaluator<2>&, const SpacingHints<2>&,
                                               const Embedding<2>&);
-template SteepestGrowth<3> steepest_growth<3>(const Communicator&, const DomainMap<3>&,
+template SteepestGrowth<3> steepest_growth<3>(const Communicator&, const SizedTree<3>&,
                                               const std::function<bool(std::int32_t)>&,
-                                              const SpacingEvaluator<3>&, const KnownValues<3>&,
+                                              const SpacingEvaluator<3>&, const SpacingHints<3>&,
                                               const Embedding<3>&);
 
 }  // namespace pnpbs

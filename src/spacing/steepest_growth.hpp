@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 #include "spacing/spacing.hpp"
 #include "sphere/embedding.hpp"
 
@@ -22,10 +22,10 @@ struct SteepestGrowth {
 // nodes in them: of each pair with one inside the domain and no boundary between. The same on any
 // number of ranks. Lengths are those that users measure. Collective.
 template <int Dim>
-SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Dim>& map,
+SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const SizedTree<Dim>& map,
                                     const std::function<bool(std::int32_t)>& owns_leaf,
                                     const SpacingEvaluator<Dim>& spacing,
-                                    const KnownValues<Dim>& known = {},
+                                    const SpacingHints<Dim>& known = {},
                                     const Embedding<Dim>& embedding = {});
 
 }  // namespace pnpbs

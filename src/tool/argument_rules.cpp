@@ -36,13 +36,13 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
 }
 
 void require_depth_rule_that_fits(const Arguments& arguments) {
-  const DepthWish& wish = *arguments.depth_rule;
-  const std::string option = DepthWish::option;
+  const DepthRequest& request = *arguments.depth_rule;
+  const std::string option = DepthRequest::option;
   if (arguments.spacing == "auto" || spacing_file(arguments.spacing))
     refuse(option + " and a --spacing that is no formula exclude each other");
-  if (wish.rule.wave == 0 && arguments.spacing.empty() && !arguments.max_spacing)
+  if (request.rule.wave == 0 && arguments.spacing.empty() && !arguments.max_spacing)
     refuse(option + ": with wave=0 nothing bounds d where the bottom is flat: --max-spacing");
-  if (arguments.sphere) metres_per_unit(wish, "");
+  if (arguments.sphere) metres_per_unit(request, "");
 }
 
 void require_what_spheres_have(const Arguments& arguments) {

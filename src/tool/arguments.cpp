@@ -38,19 +38,19 @@ void take_sphere(const std::string& text, Arguments& arguments) {
         "--sphere: expected RADIUS or RADIUS,LON,LAT with a radius greater than 0 and degrees, "
         "found '" +
         text + "'");
-  arguments.sphere = SphereWish{(*numbers)[0], deep_in_land};
+  arguments.sphere = SphereRequest{(*numbers)[0], deep_in_land};
   if (numbers->size() == 3) arguments.sphere->outside = {(*numbers)[1], (*numbers)[2]};
 }
 
 void take_view(const std::string& text, Arguments& arguments) {
   if (text == "map") {
-    arguments.view = ViewWish{true, {}};
+    arguments.view = ViewRequest{true, {}};
     return;
   }
   const auto numbers = numbers_between_commas(text);
   if (!numbers || numbers->size() != 2 || !(std::fabs((*numbers)[1]) <= 90))
     refuse("--view: expected LON,LAT in degrees, or map, found '" + text + "'");
-  arguments.view = ViewWish{false, {(*numbers)[0], (*numbers)[1]}};
+  arguments.view = ViewRequest{false, {(*numbers)[0], (*numbers)[1]}};
 }
 
 void take_simplify(const std::string& text, Arguments& arguments) {
@@ -231,7 +231,7 @@ void add_input(CLI::App& app, Arguments& arguments) {
   app.get_option("--spacing-grid")->type_name("[NAME=]FILE[:VARIABLE]")->group(group);
   app.add_option_function<std::string>(
          "--depth-rule",
-         [&arguments](const std::string& text) { arguments.depth_rule = depth_wish_in(text); },
+         [&arguments](const std::string& text) { arguments.depth_rule = depth_request_in(text); },
          "d by the depth on such a grid, in metres: 30 nodes per length of a\n"
          "tide wave, or wave=NODES and period=SECONDS; with slope=NODES also\n"
          "on slopes; with up for elevations; no depth is below 10, or\n"

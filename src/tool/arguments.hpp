@@ -11,7 +11,7 @@
 #include "base/types.hpp"
 #include "picture/element_colour.hpp"
 #include "tool/checkpoints.hpp"
-#include "tool/depth_wish.hpp"
+#include "tool/depth_request.hpp"
 
 namespace pnpbs::tool {
 
@@ -26,12 +26,12 @@ struct Region {
 };
 
 // Of which a domain is the part that coasts bound.
-struct SphereWish {
+struct SphereRequest {
   double radius;
   Point<2> outside;  // longitude and latitude of a point that is not in the domain
 };
 
-struct ViewWish {
+struct ViewRequest {
   bool as_map;
   Point<2> from;  // longitude and latitude
 };
@@ -40,7 +40,7 @@ struct Arguments {
   std::string domain;                      // a file, "-", or a body in words
   std::string spacing;                     // a formula; may be empty with a grid
   std::vector<std::string> spacing_grids;  // files, or NAME=FILE
-  std::optional<DepthWish> depth_rule;
+  std::optional<DepthRequest> depth_rule;
   std::optional<double> min_spacing, max_spacing;  // of d that no formula gives
   std::vector<std::string> outputs;
   std::string format;               // of standard output and of unknown extensions
@@ -53,12 +53,12 @@ struct Arguments {
   std::optional<double> simplify;                            // tolerance, over d
   double smallest = 0;                                       // extent of curves, over d
   std::string layer, projection, unit, tag_field;            // of files that GDAL reads
-  std::optional<SphereWish> sphere;
+  std::optional<SphereRequest> sphere;
   std::vector<std::string> inner;                           // groups of triangles, by name or tag
   std::vector<std::pair<std::int32_t, std::string>> names;  // of tags
   std::vector<Region> regions;
   std::optional<picture::ElementColour> colour;  // of elements in pictures
-  std::optional<ViewWish> view;                  // of a sphere, in pictures
+  std::optional<ViewRequest> view;               // of a sphere, in pictures
   std::string cut;                  // where pictures cut a body open; empty: through its middle
   std::optional<double> repair;     // its resolution, 0 for the default
   std::optional<double> resurface;  // likewise

@@ -38,7 +38,7 @@ std::vector<double> Density::at(std::span<const double> x) const {
 
 void Density::check_at_nodes_of(pnpbs_placement placement, pnpbs_context context,
                                 const Ranks& ranks) const {
-  ranks.agreed([&] { at(coordinates_of(placement, dimension_, context)); });
+  ranks.collective_try([&] { at(coordinates_of(placement, dimension_, context)); });
 }
 
 std::vector<double> coordinates_of(pnpbs_placement placement, int dimension,
@@ -53,7 +53,7 @@ std::vector<double> coordinates_of(pnpbs_placement placement, int dimension,
 double add_masses(const Density& density, std::span<const double> x,
                   std::span<const double> volumes, const AddField& add, const Ranks& ranks) {
   ExactSum own, all;
-  ranks.agreed([&] {
+  ranks.collective_try([&] {
     const std::vector<double> densities = density.at(x);
     std::vector<double> masses(densities.size());
     for (std::size_t i = 0; i < masses.size(); ++i) {

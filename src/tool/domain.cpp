@@ -195,7 +195,7 @@ DomainSource::DomainSource(const Arguments& arguments)
 void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks& ranks) const {
   const bool from_input = path_ == "-";
   const std::string text = from_input ? ranks.from_first(standard_input) : "";
-  ranks.agreed([&] {
+  ranks.collective_try([&] {
     if (from_input) {
       check(pnpbs_domain_parse_poly(domain, text.data(), static_cast<std::int64_t>(text.size()),
                                     "standard input"),

@@ -79,7 +79,7 @@ class DomainSource {
   std::unique_ptr<GeoFile> geo_;
   std::unique_ptr<LevelSet> level_set_;
   std::optional<Primitive> primitive_;
-  std::optional<SphereWish> sphere_;
+  std::optional<SphereRequest> sphere_;
   int dimension_ = 2;
   double feature_angle_;
   double corner_angle_;  // in the plane

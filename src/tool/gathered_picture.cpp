@@ -102,7 +102,7 @@ std::vector<std::int64_t> take(const std::vector<Node<3>>& nodes, picture::Body&
 picture::NodeSet gathered_nodes(pnpbs_placement placement, pnpbs_context context,
                                 const Ranks& ranks) {
   std::vector<Node<2>> own;
-  ranks.agreed([&] { own = own_nodes<2>(placement, context); });
+  ranks.collective_try([&] { own = own_nodes<2>(placement, context); });
   std::vector<Corners<3>> triangles = own_triangles(placement, context);
   name_corners(triangles, own, ghost_ids(placement, context));
   picture::NodeSet set;
@@ -113,7 +113,7 @@ picture::NodeSet gathered_nodes(pnpbs_placement placement, pnpbs_context context
 
 picture::Body gathered_body(pnpbs_placement placement, pnpbs_context context, const Ranks& ranks) {
   std::vector<Node<3>> own;
-  ranks.agreed([&] { own = own_nodes<3>(placement, context); });
+  ranks.collective_try([&] { own = own_nodes<3>(placement, context); });
   const std::vector<std::int64_t> ghosts = ghost_ids(placement, context);
   std::vector<Corners<4>> tetrahedra = own_tetrahedra(placement, context);
   std::vector<Corners<3>> boundary = own_boundary(placement, context);
@@ -137,7 +137,7 @@ std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
 // From above the middle of what is around the point opposite to the one that is projected from:
 // there the domain is.
 picture::SphereView view_of(const Arguments& arguments) {
-  const SphereWish& sphere = *arguments.sphere;
+  const SphereRequest& sphere = *arguments.sphere;
   if (!arguments.view) return {sphere.radius, false, {sphere.outside[0] + 180, -sphere.outside[1]}};
   return {sphere.radius, arguments.view->as_map, arguments.view->from};
 }
@@ -162,7 +162,7 @@ GatheredPicture::GatheredPicture(pnpbs_placement placement, pnpbs_domain domain,
     return;
   }
   nodes_ = gathered_nodes(placement, context, ranks);
-  ranks.agreed([&] {
+  ranks.collective_try([&] {
     if (ranks.is_first()) nodes_.outline = outline_of(domain, context);
   });
 }

@@ -67,7 +67,7 @@ bool is_in(const std::string& word, const List& list) {
   return std::ranges::find(list, word) != std::end(list);
 }
 
-std::string projection_of(const SphereWish& sphere) {
+std::string projection_of(const SphereRequest& sphere) {
   return "sphere(" + number_text(sphere.outside[0]) + "," + number_text(sphere.outside[1]) + ")";
 }
 

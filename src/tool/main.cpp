@@ -39,15 +39,15 @@ namespace {
 
 // What the user asks for, before there is a domain: made before anything is done, so that mistakes
 // of the user are told first.
-struct Wishes {
+struct Requests {
   std::optional<Outputs> outputs;
   std::optional<DomainSource> source;
   std::optional<NamedGrids> grids;
   std::optional<Spacing> spacing;
   std::optional<Density> density;
   std::optional<NodeFields> fields;
-  Wishes(const Arguments& arguments, const Ranks& ranks) {
-    ranks.agreed([&] {
+  Requests(const Arguments& arguments, const Ranks& ranks) {
+    ranks.collective_try([&] {
       if (!arguments.dry_run) outputs.emplace(arguments, ranks);
       source.emplace(arguments);
       refuse_other_dimension(arguments, source->dimension());
@@ -59,8 +59,8 @@ struct Wishes {
     });
   }
 
-  Wishes(const Wishes&) = delete;  // formulas refer to the grids
-  Wishes& operator=(const Wishes&) = delete;
+  Requests(const Requests&) = delete;  // formulas refer to the grids
+  Requests& operator=(const Requests&) = delete;
 
  private:
   void require_use_of_grids() const {
@@ -161,7 +161,7 @@ std::int64_t statistic(pnpbs_placement placement, const char* key, pnpbs_context
 // Initialises, or goes on from a checkpoint; looks at what d is made of there; warns; runs, unless
 // that was done already; checks.
 pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Arguments& arguments,
-                   const std::function<void()>& check_wishes, const Ranks& ranks) {
+                   const std::function<void()>& check_requests, const Ranks& ranks) {
   const bool talk = ranks.is_first() && !arguments.quiet;
   Progress progress(talk, arguments.progress);
   Checkpoints checkpoints(arguments.checkpoint, arguments.checkpoint_interval, placement, context,
@@ -175,7 +175,7 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   else
     check(pnpbs_placement_read_checkpoint(placement, arguments.restart.c_str()), context);
   progress.clear();
-  check_wishes();
+  check_requests();
   const std::vector<std::string> warnings = warnings_for(arguments, context, placement);
   if (talk) warn(warnings);
   const bool finished = statistic(placement, "finished", context) != 0;
@@ -229,7 +229,7 @@ void set_options(pnpbs_context context, const Arguments& arguments) {
 struct Work {
   const Arguments& arguments;
   const Ranks& ranks;
-  Wishes wishes;
+  Requests requests;
   Context context;
   Domain domain;
   ParticleDomains particles;
@@ -241,32 +241,33 @@ struct Work {
 };
 
 void measure_body(Work& work) {
-  if (work.wishes.source->dimension() < 3) return;
+  if (work.requests.source->dimension() < 3) return;
   const bool filled = !work.arguments.surfaces_only && !work.arguments.sphere;
-  work.ranks.agreed([&] { work.body = body_figures(work.domain, filled, work.context); });
+  work.ranks.collective_try([&] { work.body = body_figures(work.domain, filled, work.context); });
 }
 
 void centre_nodes(Work& work) {
-  const int dimension = work.wishes.source->dimension();
-  work.ranks.agreed([&] {
-    work.particles.make(work.arguments, *work.wishes.spacing, work.domain, dimension, work.context);
+  const int dimension = work.requests.source->dimension();
+  work.ranks.collective_try([&] {
+    work.particles.make(work.arguments, *work.requests.spacing, work.domain, dimension,
+                        work.context);
   });
 }
 
 void read_domain(Work& work) {
   const Arguments& arguments = work.arguments;
-  const DomainSource& source = *work.wishes.source;
-  Spacing& spacing = *work.wishes.spacing;
+  const DomainSource& source = *work.requests.source;
+  Spacing& spacing = *work.requests.spacing;
   work.ranks.create_context(work.context.out());
-  work.ranks.agreed([&] {
+  work.ranks.collective_try([&] {
     set_options(work.context, arguments);
     source.create(work.context, work.domain.out());
   });
   source.read(work.domain, work.context, work.ranks);
   if (source.geo() && work.talks()) tell_projection(*source.geo());
-  work.ranks.agreed([&] {
-    work.wishes.grids->read(work.domain, work.context, source.geo());
-    spacing.take_what_was_read(*work.wishes.grids);
+  work.ranks.collective_try([&] {
+    work.requests.grids->read(work.domain, work.context, source.geo());
+    spacing.take_what_was_read(*work.requests.grids);
     if (arguments.simplify)
       spacing.simplify(work.domain, work.context, *arguments.simplify, arguments.smallest);
     work.look = look_of(arguments, source.dimension(), work.domain, work.context);
@@ -277,24 +278,24 @@ void read_domain(Work& work) {
 
 void create(Work& work, Placement& placement) {
   check(pnpbs_placement_create(work.context, work.filled(), placement.out()), work.context);
-  work.wishes.spacing->give_to(placement, work.domain, work.context, work.ranks);
+  work.requests.spacing->give_to(placement, work.domain, work.context, work.ranks);
 }
 
 pnpbs_status place(Work& work, pnpbs_placement placement) {
-  Wishes& wishes = work.wishes;
-  const auto check_wishes = [&] {
-    if (wishes.density) wishes.density->check_at_nodes_of(placement, work.context, work.ranks);
-    if (!wishes.spacing->is_grid())
-      wishes.grids->require_values(placement, work.domain, work.context, work.ranks);
-    wishes.fields->check_at_nodes_of(placement, work.domain, work.context, work.ranks);
+  Requests& requests = work.requests;
+  const auto check_requests = [&] {
+    if (requests.density) requests.density->check_at_nodes_of(placement, work.context, work.ranks);
+    if (!requests.spacing->is_grid())
+      requests.grids->require_values(placement, work.domain, work.context, work.ranks);
+    requests.fields->check_at_nodes_of(placement, work.domain, work.context, work.ranks);
   };
-  return place(work.context, placement, work.arguments, check_wishes, work.ranks);
+  return place(work.context, placement, work.arguments, check_requests, work.ranks);
 }
 
 // Where the elements of a body do not conform in the end, the body is repaired to what d can
 // resolve, if the user wants that. Is there anything to place anew?
 bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) {
-  if (status != PNPBS_NOT_CONFORMING || !work.wishes.source->may_be_repaired() ||
+  if (status != PNPBS_NOT_CONFORMING || !work.requests.source->may_be_repaired() ||
       real_statistic(placement, "repaired.resolution", work.context) > 0)
     return false;
   const double d = real_statistic(placement, "unresolved_spacing", work.context);
@@ -302,28 +303,28 @@ bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) 
     std::cerr
         << "pnpbs: note: the elements do not conform: the body is repaired, and nodes are placed "
            "again\n";
-  work.ranks.agreed([&] { work.wishes.source->repair(work.domain, d, work.context); });
+  work.ranks.collective_try([&] { work.requests.source->repair(work.domain, d, work.context); });
   measure_body(work);
   return true;
 }
 
 ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status status) {
-  auto& [arguments, ranks, wishes, context, domain, particles, look, body] = work;
-  Outputs& outputs = *wishes.outputs;
-  const GeoFile* geo = wishes.source->geo();
+  auto& [arguments, ranks, requests, context, domain, particles, look, body] = work;
+  Outputs& outputs = *requests.outputs;
+  const GeoFile* geo = requests.source->geo();
   Statistics statistics(placement);
   if (outputs.has_pictures()) outputs.write_pictures({placement, domain, context, ranks, look});
   if (body && !arguments.at_centres && !arguments.sphere)
     body->area = boundary_area(placement, context, ranks);
-  const Matter matter(arguments, wishes.density, wishes.source->dimension(), placement,
+  const Matter matter(arguments, requests.density, requests.source->dimension(), placement,
                       work.body_of_particles(), context, ranks);
-  wishes.fields->add_to(placement, matter.particles, domain, context, ranks);
+  requests.fields->add_to(placement, matter.particles, domain, context, ranks);
   const std::vector<std::string> of_grids =
-      wishes.grids->warnings(placement, domain, context, ranks, wishes.spacing->is_grid());
+      requests.grids->warnings(placement, domain, context, ranks, requests.spacing->is_grid());
   if (work.talks()) warn(of_grids);
   const std::vector<std::string> warnings =
       for_report(arguments, geo, context, placement, of_grids);
-  if (geo && !wishes.source->on_sphere()) outputs.write_projection(geo->projection().prj);
+  if (geo && !requests.source->on_sphere()) outputs.write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
   const auto report = [&] {
     return report_text(work.arguments, geo, statistics, matter.volumes, matter.figures, groups,
@@ -352,7 +353,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
     tell_estimate(work.context, given, work.body, arguments, ranks);
     return ExitCode::done;
   }
-  work.wishes.outputs->check_with_library(given, work.context);
+  work.requests.outputs->check_with_library(given, work.context);
   pnpbs_status status = place(work, given);
   if (!repair_if_torn(work, status, given)) return write_results(work, given, status);
   check(pnpbs_placement_destroy(given.out()), work.context);
@@ -371,9 +372,9 @@ void print(const std::string& text) {
 ExitCode command(int argc, char** argv, const Ranks& ranks) {
   Arguments arguments;
   std::string answer;
-  ranks.agreed([&] { answer = parse_arguments(argc, argv, arguments); });
+  ranks.collective_try([&] { answer = parse_arguments(argc, argv, arguments); });
   const ExitCode code = answer.empty() ? run(arguments, ranks) : ExitCode::done;
-  ranks.agreed([&] {
+  ranks.collective_try([&] {
     if (ranks.is_first()) print(answer);
   });
   return code;

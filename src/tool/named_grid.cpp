@@ -19,7 +19,7 @@
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "base/small_letters.hpp"
-#include "spacing/beside_domain.hpp"
+#include "spacing/outside_domain.hpp"
 #include "sphere/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/library.hpp"

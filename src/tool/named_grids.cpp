@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "spacing/beside_domain.hpp"
+#include "spacing/outside_domain.hpp"
 #include "sphere/slopes.hpp"
 #include "tool/density.hpp"
 #include "tool/formula_text.hpp"
@@ -75,7 +75,7 @@ GridCoverage::GridCoverage(const NamedGrid& grid, pnpbs_placement placement, int
       on_sphere_(on_sphere),
       beyond_{0, {none_yet, none_yet, none_yet}},
       without_data_(beyond_) {
-  ranks.agreed([&] {
+  ranks.collective_try([&] {
     const std::vector<double> x = coordinates_of(placement, dimension, context);
     nodes_ = std::ssize(x) / dimension;
     std::vector<double> values(static_cast<std::size_t>(nodes_));
@@ -172,12 +172,12 @@ NamedGrids::NamedGrids(const Arguments& arguments, int dimension)
   for (const std::string& text : arguments.spacing_grids)
     grids_.push_back(std::make_unique<NamedGrid>(text, dimension_, sphere_));
   if (depth_)
-    grids_.push_back(
-        std::make_unique<NamedGrid>(depth_->grid, dimension_, sphere_, DepthWish::option, "depth"));
+    grids_.push_back(std::make_unique<NamedGrid>(depth_->grid, dimension_, sphere_,
+                                                 DepthRequest::option, "depth"));
 }
 
 std::string NamedGrids::option_of(const NamedGrid& grid) const {
-  return depth_ && &grid == grids_.back().get() ? DepthWish::option : "--spacing-grid";
+  return depth_ && &grid == grids_.back().get() ? DepthRequest::option : "--spacing-grid";
 }
 
 Expression::Field NamedGrids::values_of(const NamedGrid& grid) const {
@@ -205,7 +205,7 @@ Expression::Field NamedGrids::spacing_by_depth() const {
     for (std::size_t i = 0; i < count; ++i)
       d[i] = depth_->rule.spacing(depth_->elevations ? -depths[i] : depths[i], slopes[i]);
   };
-  return {DepthWish::name, values, DepthWish::option};
+  return {DepthRequest::name, values, DepthRequest::option};
 }
 
 std::vector<Expression::Field> NamedGrids::fields_in(const std::string& formula) const {
@@ -214,7 +214,7 @@ std::vector<Expression::Field> NamedGrids::fields_in(const std::string& formula)
     if (mentions(formula, grid->name())) fields.push_back(values_of(*grid));
     if (mentions(formula, slope_name(grid->name()))) fields.push_back(slope_of(*grid));
   }
-  if (depth_ && mentions(formula, DepthWish::name)) fields.push_back(spacing_by_depth());
+  if (depth_ && mentions(formula, DepthRequest::name)) fields.push_back(spacing_by_depth());
   return fields;
 }
 
@@ -228,8 +228,8 @@ void NamedGrids::require_use_in(const std::vector<std::string>& formulas) const 
                    name + "'");
   };
   for (const auto& grid : grids_)
-    if (option_of(*grid) != DepthWish::option) require(grid->name(), option_of(*grid));
-  if (depth_) require(DepthWish::name, DepthWish::option);
+    if (option_of(*grid) != DepthRequest::option) require(grid->name(), option_of(*grid));
+  if (depth_) require(DepthRequest::name, DepthRequest::option);
 }
 
 void NamedGrids::read(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo) {
@@ -245,7 +245,7 @@ void NamedGrids::require_values(pnpbs_placement placement, pnpbs_domain domain,
                                 pnpbs_context context, const Ranks& ranks) const {
   for (const auto& each : grids_) {
     const GridCoverage coverage(*each, placement, dimension_, sphere_, context, ranks);
-    ranks.agreed([&] {
+    ranks.collective_try([&] {
       if (coverage.is_nowhere())
         throw BadInput(coverage.words_for_nowhere() + ". " +
                        extents_in_words(*each, domain, context));

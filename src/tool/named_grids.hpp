@@ -54,7 +54,7 @@ class NamedGrids {
   int dimension_;
   bool sphere_;
   std::vector<std::unique_ptr<NamedGrid>> grids_;
-  std::optional<DepthWish> depth_;  // on the last grid
+  std::optional<DepthRequest> depth_;  // on the last grid
 };
 
 }  // namespace pnpbs::tool

@@ -99,7 +99,7 @@ void NodeFields::check_at_nodes_of(pnpbs_placement placement, pnpbs_domain domai
 void NodeFields::add_to(pnpbs_placement placement, pnpbs_particles particles, pnpbs_domain domain,
                         pnpbs_context context, const Ranks& ranks) {
   if (fields_.empty()) return;
-  ranks.agreed([&] {
+  ranks.collective_try([&] {
     const std::vector<double> x = particles ? coordinates_of(particles, context)
                                             : coordinates_of(placement, dimension_, context);
     add(x, domain, context, [&](const char* name, const std::vector<double>& values) {

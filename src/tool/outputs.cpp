@@ -148,7 +148,7 @@ void Outputs::check_writable() const {
 }
 
 void Outputs::write_pictures(const GatheredPicture& picture) {
-  ranks_.agreed([&] {
+  ranks_.collective_try([&] {
     if (!ranks_.is_first()) return;
     const picture::Drawing drawing = picture.drawing();
     for (Output& output : outputs_) {
@@ -161,7 +161,7 @@ void Outputs::write_pictures(const GatheredPicture& picture) {
 }
 
 void Outputs::write_text(bool is_projection, const std::string& text) {
-  ranks_.agreed([&] {
+  ranks_.collective_try([&] {
     if (!ranks_.is_first()) return;
     for (Output& output : outputs_) {
       if (output.format || output.is_projection != is_projection) continue;
@@ -206,7 +206,7 @@ void Outputs::write_nodes(pnpbs_placement placement, pnpbs_particles particles,
   const pnpbs_status status = ask_for_nodes(placement, particles);
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
   settle_own(status >= 0 && status != PNPBS_STOPPED);
-  ranks_.agreed([&] {
+  ranks_.collective_try([&] {
     if (failure_) std::rethrow_exception(failure_);
   });
   if (status == PNPBS_STOPPED) throw Interrupted();

@@ -80,7 +80,7 @@ VolumeFigures add_volumes(pnpbs_placement placement, int dimension,
           context);
   };
   check(pnpbs_voronoi_create(placement, cells.out()), context);
-  ranks.agreed([&] {
+  ranks.collective_try([&] {
     volumes = volumes_of(cells, context);
     spacing = spacing_at_nodes(placement, volumes.size(), context);
     add("volume", volumes);
@@ -136,7 +136,7 @@ void Matter::make_particles(const std::optional<Density>& density, const Centred
   check(pnpbs_particles_create(placement, body, particles.out()), context);
   ParticleFigures& all = figures.emplace();
   std::optional<Arrays> own;
-  ranks.agreed([&] {
+  ranks.collective_try([&] {
     check(pnpbs_particles_sizes(particles, nullptr, nullptr, &all.count), context);
     check(pnpbs_particles_figures(particles, &all.left_out, &all.moved, &all.closest), context);
     all.closest *= centred.bubbles;

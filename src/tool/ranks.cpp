@@ -39,9 +39,9 @@ Launch launch_of_this_process() {
     if (value) launch = {true, std::max(launch.processes, std::atoi(value))};
   }
   for (const char* variable : tell_rank) launch.by_mpi |= std::getenv(variable) != nullptr;
-  const char* wish = std::getenv("PNPBS_MPI");
-  if (wish && std::string_view(wish) == "0") return {};
-  if (wish && std::string_view(wish) == "1") launch.by_mpi = true;
+  const char* request = std::getenv("PNPBS_MPI");
+  if (request && std::string_view(request) == "0") return {};
+  if (request && std::string_view(request) == "1") launch.by_mpi = true;
   return launch;
 }
 
@@ -59,7 +59,7 @@ Failure described(std::exception_ptr failure) {
 
 }  // namespace
 
-void Ranks::agreed(const std::function<void()>& work) const {
+void Ranks::collective_try(const std::function<void()>& work) const {
   std::exception_ptr failure;
   try {
     work();
@@ -75,7 +75,7 @@ void Ranks::agreed(const std::function<void()>& work) const {
 
 std::string Ranks::from_first(const std::function<std::string()>& work) const {
   std::string text;
-  agreed([&] {
+  collective_try([&] {
     if (is_first()) text = work();
   });
   if (size_ > 1) broadcast(text, 0);

@@ -30,7 +30,7 @@ class Ranks {
   void create_context(pnpbs_context* context) const;
   bool any(bool mine) const;
   // Does local work; if it throws on one rank, all throw the same Failure. It must not communicate.
-  void agreed(const std::function<void()>& work) const;
+  void collective_try(const std::function<void()>& work) const;
   // The same on the first rank only, and its text for all.
   std::string from_first(const std::function<std::string()>& work) const;
   // All ranks' values on the first one, in the order of ranks; nothing on the others.

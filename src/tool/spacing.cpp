@@ -121,7 +121,7 @@ void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_cont
           context);
     return;
   }
-  if (expression_) ranks.agreed([&] { expression_->ask_shape_of(domain, context); });
+  if (expression_) ranks.collective_try([&] { expression_->ask_shape_of(domain, context); });
   const bool is_constant = expression_ && expression_->is_constant();
   if (is_constant) {
     constexpr double anywhere[3] = {0, 0, 0};

@@ -49,7 +49,7 @@ std::vector<double> integrals(const Communicator& comm, const Space& space,
                               std::int64_t components, const std::vector<double>& values) {
   std::vector<ExactSum> sums;
   std::vector<std::int64_t> entries;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     if constexpr (Space::kDim == 3) {
       if (on_border) sums = integrals_here(space, patch, patch.border, components, values);
     }
@@ -183,7 +183,7 @@ template <class Space>
 void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* values) const {
   const Communicator& comm = search_.communicator();
   std::vector<Point<In>> points;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     given_values::require_points<In>("argument coordinates", n, x);
     points.resize(static_cast<std::size_t>(n));
     for (std::int64_t i = 0; i < n; ++i) {
@@ -193,15 +193,15 @@ void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* v
   });
   const auto found = search_.find(n, points.data());
   Outbox questions;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     for (std::size_t i = 0; i < points.size(); ++i)
       pack(questions.to(found[i].rank), Question{points[i], found[i].row});
   });
   const std::vector<Message> asked = comm.sparse_all_to_all(questions.messages());
   std::vector<Message> answers;
-  agreed(comm, [&] { answers = answered(asked); });
+  collective_try(comm, [&] { answers = answered(asked); });
   const std::vector<Message> told = comm.sparse_all_to_all(answers);
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     RankPlaces places;
     for (const Message& theirs : told) places.add(theirs.rank);
     std::vector<std::size_t> at(told.size());  // answers come in the order of the questions
@@ -235,7 +235,7 @@ void FieldTransferOf<Space>::evaluate_at_nodes(NodalResults& results, bool conse
                                                double* values) const {
   auto& in = static_cast<Results<Dim>&>(results);
   std::vector<double> x;
-  agreed(search_.communicator(), [&] {
+  collective_try(search_.communicator(), [&] {
     in.prepare_order();
     const std::int64_t owned = in.count();
     for (std::int64_t p = 0; p < owned; ++p) {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "sphere/stereographic_chart.hpp"
-#include "transfer/parabolic_fits.hpp"
+#include "transfer/quadratic_fits.hpp"
 
 namespace pnpbs {
 
-// The interface of ParabolicFits.
+// The interface of QuadraticFits.
 class SphereFits {
  public:
   // nodes: at all places, on the sphere; values: [places][components]. Collective.
@@ -27,7 +27,7 @@ class SphereFits {
  private:
   struct InChart {
     StereographicChart chart;
-    ParabolicFits<2> fits;
+    QuadraticFits<2> fits;
 
     InChart(const StereographicChart& chart, Results<2>& results,
             const std::vector<PatchNode<3>>& nodes, std::int64_t components,

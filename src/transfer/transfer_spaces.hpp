@@ -12,7 +12,7 @@
 #include "spacing/nodal_patch.hpp"
 #include "spacing/sphere_patch.hpp"
 #include "sphere/sphere_geometry.hpp"
-#include "transfer/parabolic_fits.hpp"
+#include "transfer/quadratic_fits.hpp"
 #include "transfer/sphere_fits.hpp"
 
 namespace pnpbs {
@@ -22,7 +22,7 @@ struct FlatSpace {
   static constexpr int kDim = Dim, kIn = Dim;
   using Data = Patch<Dim>;
   using Searched = NodalPatch<Dim>;
-  using Fits = ParabolicFits<Dim>;
+  using Fits = QuadraticFits<Dim>;
 
   explicit FlatSpace(const Results<Dim>&) {}
   Data patch(Results<Dim>& results) const { return patch_of(results); }

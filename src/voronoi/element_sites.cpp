@@ -15,7 +15,7 @@
 #include "base/rank_limit.hpp"
 #include "comm/records.hpp"
 #include "voronoi/divided_element.hpp"
-#include "voronoi/few_nodes.hpp"
+#include "voronoi/small_node_set.hpp"
 #include "voronoi/sphere_parts.hpp"
 
 namespace pnpbs {

@@ -14,7 +14,7 @@
 #include "base/counting_sort.hpp"
 #include "results/results.hpp"
 #include "voronoi/element_sites.hpp"
-#include "voronoi/few_nodes.hpp"
+#include "voronoi/small_node_set.hpp"
 #include "voronoi/sphere_parts.hpp"
 
 namespace pnpbs {

@@ -453,7 +453,8 @@ START_TEST(bad_starts_are_mended) {
     MUST_COMPUTE(pnpbs_placement_run(it.placement));
     nodes = result_of(it.placement);
     check_result(&nodes, 1);
-    /* From nothing nothing grows. A boundary node, of 68, owns half of the ground of an inner one.
+    /* From nothing nothing grows. A boundary node, of 68, owns half of the geometry of an inner
+     * one.
      */
     wanted = n == 0 ? 68 : 2 / sqrt(3) / (0.06 * 0.06) + 34;
     ck_assert_msg(fabs((double)nodes.n / wanted - 1) < 0.2, "%d nodes, %d wanted", (int)nodes.n,

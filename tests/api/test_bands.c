@@ -149,7 +149,7 @@ START_TEST(a_jump_is_limited) {
 }
 END_TEST
 
-/* Another limit is the user's wish, and none, too: the warning says what that means. */
+/* Another limit is the user's request, and none, too: the warning says what that means. */
 START_TEST(a_jump_as_the_user_wants_it) {
   static double fine = 0.01;
   job it = square_job(1);

@@ -175,7 +175,7 @@ START_TEST(a_rough_body_closes_at_once) {
 END_TEST
 
 /* And where nodes from inside are in the way, which leave. */
-START_TEST(nodes_in_the_way_leave) {
+START_TEST(blocking_nodes_leave) {
   job it = rough_job(0.5, 6.5, 0.32);
   MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
   run_and_check_closed(&it);
@@ -309,7 +309,7 @@ TEST_SUITE(test_closing) {
   tcase_add_loop_test(tests, rough_bodies_close, 0, WHEN_SANITIZED(1, 3));
   tcase_add_test(tests, a_slit_closes);
   tcase_add_test(tests, a_rough_body_closes_at_once);
-  tcase_add_test(tests, nodes_in_the_way_leave);
+  tcase_add_test(tests, blocking_nodes_leave);
   tcase_add_test(tests, torn_bodies_are_told);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, repaired_to_the_spacing_it_closes);
   /* Sanitizers see in rounds_are_monitored what they would see in these two. */

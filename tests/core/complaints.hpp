@@ -12,7 +12,7 @@
 #include "base/point_text.hpp"
 #include "check/result_check.hpp"
 #include "check_runner.h"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 
 template <std::size_t Dim>
 std::string place_text(const std::array<double, Dim>& point) {
@@ -21,7 +21,7 @@ std::string place_text(const std::array<double, Dim>& point) {
 
 // Empty where it finds nothing wrong.
 template <int Dim>
-std::string complaint_of(pnpbs::PlacementOf<Dim>& placement) {
+std::string complaint_of(pnpbs::PlacementImpl<Dim>& placement) {
   try {
     const auto lacking = pnpbs::check_results(placement.results());
     return lacking ? lacking->text() : "";
@@ -34,8 +34,8 @@ std::string complaint_of(pnpbs::PlacementOf<Dim>& placement) {
 // Spoils right results; their check must then say all of the words that `spoil` returns.
 template <int Dim>
 void expect_check_to_say(
-    pnpbs::PlacementOf<Dim>& placement,
-    const std::function<std::vector<std::string>(pnpbs::PlacementOf<Dim>&)>& spoil) {
+    pnpbs::PlacementImpl<Dim>& placement,
+    const std::function<std::vector<std::string>(pnpbs::PlacementImpl<Dim>&)>& spoil) {
   const std::string before = complaint_of(placement);
   ck_assert_str_eq(before.c_str(), "");
   const std::vector<std::string> words = spoil(placement);

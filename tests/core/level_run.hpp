@@ -16,13 +16,13 @@
 #include "level/finding_stars.hpp"
 #include "level/finish.hpp"
 #include "level/first_nodes.hpp"
+#include "level/imported_nodes.hpp"
 #include "level/level.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/node_spacing.hpp"
 #include "level/population_events.hpp"
 #include "level/refinement.hpp"
 #include "level/room.hpp"
-#include "level/taken_nodes.hpp"
 #include "level/time_step.hpp"
 
 using Plane = std::function<double(double x, double y)>;
@@ -54,7 +54,7 @@ using Build = std::function<void(pnpbs::PlaneDomain&)>;
 using OptionList = std::vector<std::pair<const char*, const char*>>;
 
 inline void fill_level(pnpbs::Level<2>& level) {
-  pnpbs::fill(level, pnpbs::LaidNodes<2>(level.ground.boundary()));
+  pnpbs::fill(level, pnpbs::BoundaryNodes<2>(level.geometry.boundary()));
 }
 
 // The inner nodes, as nodes to start from (placed for a spacing that take() does not know).

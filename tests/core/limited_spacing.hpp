@@ -11,7 +11,7 @@
 template <int Dim>
 pnpbs::SizingField<Dim> limited_spacing(
     std::shared_ptr<const pnpbs::Communicator> comm,
-    std::unique_ptr<const pnpbs::OpenWays<Dim>> ways,
+    std::unique_ptr<const pnpbs::LineOfSight<Dim>> ways,
     std::shared_ptr<const pnpbs::Spacing<Dim>> spacing, double growth,
     const pnpbs::NodeLimit& limit, const std::function<void()>& beat = [] {}) {
   pnpbs::SizingField<Dim> field(std::move(spacing));

@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 #include "surfaces.hpp"
 
 using VolumeSpacing = std::function<double(const pnpbs::Point<3>&)>;
@@ -24,7 +24,7 @@ inline VolumeSpacing constant(double d) {
 struct Mapped {
   surfaces::Surface surface;
   pnpbs::BoundaryMesh<3> mesh;
-  pnpbs::DomainMap<3> map;
+  pnpbs::SizedTree<3> map;
 
   Mapped(surfaces::Surface s, const VolumeSpacing& d, std::int64_t max_nodes = 1'000'000'000)
       : surface(std::move(s)) {

@@ -22,7 +22,7 @@ inline Triangle sorted(Triangle t) {
 
 // Memory index of each boundary node.
 inline std::vector<std::int64_t> boundary_places(const pnpbs::Level<2>& level) {
-  std::vector<std::int64_t> places(level.ground.boundary().nodes.size(), -1);
+  std::vector<std::int64_t> places(level.geometry.boundary().nodes.size(), -1);
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     if (!level.nodes.moves(i)) places[static_cast<std::size_t>(level.nodes.boundary_node(i))] = i;
   return places;
@@ -50,7 +50,7 @@ inline std::vector<Triangle> star_triangles(const pnpbs::Level<2>& level) {
     triangles.push_back(t);
   }
   const std::vector<std::int64_t> places = boundary_places(level);
-  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().facets) {
+  for (const pnpbs::BoundaryEdge& e : level.geometry.boundary().facets) {
     if (e.begin == e.end) continue;
     const std::int64_t a = places[static_cast<std::size_t>(e.begin)];
     const std::int64_t b = places[static_cast<std::size_t>(e.end)];

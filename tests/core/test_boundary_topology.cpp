@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "check/boundary_topology.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 #include "quick_assert.hpp"
 #include "run_kernel_suite.hpp"
 
 using Point3 = pnpbs::Point<3>;
-using Placement3 = pnpbs::PlacementOf<3>;
+using Placement3 = pnpbs::PlacementImpl<3>;
 
 namespace {
 
@@ -35,7 +35,7 @@ std::unique_ptr<Placement3> cube_without(const std::function<bool(const Point3&)
                      level.neighbourhood.buckets(),
                      level.lists(),
                      {},
-                     &level.ground.domain().index().sides(),
+                     &level.geometry.domain().index().sides(),
                      [](std::int64_t) { return false; }});
   return placement;
 }

@@ -10,7 +10,7 @@
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_layout.hpp"
 #include "io/file_seal.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 
 using namespace pnpbs;
 
@@ -27,7 +27,7 @@ void make_file(const std::function<void(io::hdf5::NewFile&)>& fill, bool sealed 
 }
 
 void expect_refusal(const std::string& words) {
-  PlacementOf<2> placement(serial_communicator(), std::make_shared<PlaneDomain>(), Options());
+  PlacementImpl<2> placement(serial_communicator(), std::make_shared<PlaneDomain>(), Options());
   try {
     io::read_checkpoint(placement, file_name);
     ck_abort_msg("it was read");

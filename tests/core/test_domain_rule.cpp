@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "delaunay/volume/domain_rule.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 #include "quick_assert.hpp"
 #include "run_kernel_suite.hpp"
 
 using Point3 = pnpbs::Point<3>;
 using pnpbs::Carrier;
-using Placement3 = pnpbs::PlacementOf<3>;
+using Placement3 = pnpbs::PlacementImpl<3>;
 
 namespace {
 
@@ -46,7 +46,7 @@ pnpbs::VolumeStarInput input_of(const Placement3& placement) {
   static const pnpbs::KnownRegion<3> everywhere;
   const pnpbs::Level<3>& level = placement.level();
   return {level.nodes,   level.tree->tree(), level.neighbourhood.buckets(),
-          level.lists(), everywhere,         &level.ground.domain().index().sides()};
+          level.lists(), everywhere,         &level.geometry.domain().index().sides()};
 }
 
 // Is it an element if a feature edge goes from corner `first` to corner `second`? (-1: none does.)
@@ -63,7 +63,7 @@ bool is_element(const std::array<Point3, 4>& x, int first = -1, int second = -1)
     return edge == Edge{i, j} || edge == Edge{j, i};
   };
   input.nearest = [&](const Point3& at, double reach) {
-    return level.ground.domain().index().nearest(at, reach);
+    return level.geometry.domain().index().nearest(at, reach);
   };
   return pnpbs::in_domain(input, nodes);
 }

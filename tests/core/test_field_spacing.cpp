@@ -11,8 +11,8 @@
 #include "geometry/expect_error.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
-#include "spacing/cloud_spacing.hpp"
 #include "spacing/given_field.hpp"
+#include "spacing/scattered_spacing.hpp"
 #include "spacing/sizing_field.hpp"
 #include "unit_box.hpp"
 
@@ -204,7 +204,7 @@ void check_bounds_in_cloud(int n) {
       near.emplace_back(pnpbs::squared_distance<Dim>(field.points[i], x), field.values[i]);
     std::sort(near.begin(), near.end());
     double min = near[0].second, max = min;
-    for (std::size_t i = 0; i < pnpbs::CloudSpacing<Dim>::kNeighbours; ++i) {
+    for (std::size_t i = 0; i < pnpbs::ScatteredSpacing<Dim>::kNeighbours; ++i) {
       min = std::min(min, near[i].second);
       max = std::max(max, near[i].second);
     }
@@ -422,7 +422,7 @@ void check_slopes(int n) {
   const auto spacing = spacing_from(mesh_of_cube<Dim>(random, n));
   pnpbs::SizingField<Dim> twice = pnpbs::SizingField<Dim>(spacing).multiplied(2);
   twice.set_bound(1e9);
-  const pnpbs::KnownValues<Dim> known = twice.known_values();
+  const pnpbs::SpacingHints<Dim> known = twice.spacing_hints();
   double square = 0;
   for (int k = 0; k < Dim; ++k) square += (0.5 - 0.3 * k) * (0.5 - 0.3 * k);
   ck_assert(!known.slopes.empty());
@@ -440,7 +440,7 @@ END_TEST
 
 START_TEST(slopes_of_a_cloud) {
   Random random(13);
-  const pnpbs::KnownValues<3> known = spacing_from(cloud<3>(random, 200))->known_values();
+  const pnpbs::SpacingHints<3> known = spacing_from(cloud<3>(random, 200))->spacing_hints();
   ck_assert_uint_eq(known.values.size(), 200);
   for (const auto& slope : known.slopes)
     ck_assert(slope.growth <= std::sqrt(0.25 + 0.04 + 0.01) + 1e-9);

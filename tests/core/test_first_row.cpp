@@ -52,8 +52,8 @@ std::int64_t inner_nodes_within(const Level& level, const P& x, double reach) {
 // Calls visit(place, edge length) for the places over all edges, on the sides inside the domain.
 template <class Visit>
 void for_apexes(const Level& level, const Visit& visit) {
-  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().facets) {
-    const auto [a, b] = pnpbs::corners_of<2>(level.ground.boundary(), e);
+  for (const pnpbs::BoundaryEdge& e : level.geometry.boundary().facets) {
+    const auto [a, b] = pnpbs::corners_of<2>(level.geometry.boundary(), e);
     const double length = pnpbs::distance<2>(a, b);
     if (e.left_inside) visit(apex_over(a, b, true), length);
     if (e.right_inside) visit(apex_over(a, b, false), length);

@@ -23,7 +23,7 @@ namespace {
 struct Filled {
   PlaneDomain domain;
   pnpbs::Boundary boundary;
-  pnpbs::DomainMap<2> map;
+  pnpbs::SizedTree<2> map;
   std::vector<P> nodes;
 
   Filled(const Build& build, const Plane& d) {
@@ -214,12 +214,13 @@ START_TEST(levels_number_their_nodes) {
       ck_assert_int_eq(nodes.tag(i), 0);
       continue;
     }
-    const pnpbs::BoundaryNode<2>& node = run.level->ground.boundary().nodes[nodes.boundary_node(i)];
+    const pnpbs::BoundaryNode<2>& node =
+        run.level->geometry.boundary().nodes[nodes.boundary_node(i)];
     quick_assert(nodes.position(i) == node.position);
     ck_assert_int_eq(nodes.tag(i), node.tag);
     ++laid;
   }
-  ck_assert_int_eq(laid, run.level->ground.boundary_nodes());
+  ck_assert_int_eq(laid, run.level->geometry.boundary_nodes());
   ck_assert_int_eq(run.level->next_id, nodes.count);
 }
 END_TEST

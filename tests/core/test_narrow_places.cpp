@@ -5,14 +5,14 @@
 #include <memory>
 #include <vector>
 
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 #include "quick_assert.hpp"
 #include "run_kernel_suite.hpp"
 #include "sizing/narrow_places.hpp"
 
 using Point3 = pnpbs::Point<3>;
 using Source = pnpbs::GrowthSource<3>;
-using Placement3 = pnpbs::PlacementOf<3>;
+using Placement3 = pnpbs::PlacementImpl<3>;
 
 namespace {
 

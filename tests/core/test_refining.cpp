@@ -31,7 +31,7 @@ struct Rested {
     fill_level(*run.level);
     run.steps(60);
     n = run.level->owned_count();
-    b = run.level->ground.boundary_nodes();
+    b = run.level->geometry.boundary_nodes();
   }
 };
 
@@ -116,10 +116,10 @@ START_TEST(a_refined_level_is_nearly_right) {
   Rested coarse(constant(0.05));
   LevelRun fine(square, constant(0.025));
   const IncomingNodes nodes = pnpbs::refined(*coarse.run.level, *spacing_of(constant(0.025)));
-  const pnpbs::TakenNodes taken = pnpbs::take(*fine.level, nodes, coarse.run.level->next_id);
+  const pnpbs::ImportedNodes taken = pnpbs::take(*fine.level, nodes, coarse.run.level->next_id);
   ck_assert_int_eq(taken.thinned, 0);
   // The boundary is laid anew, at half of the spacing.
-  ck_assert_int_eq(fine.level->ground.boundary_nodes(), 2 * coarse.b);
+  ck_assert_int_eq(fine.level->geometry.boundary_nodes(), 2 * coarse.b);
   ck_assert_int_eq(fine.level->owned_count() + taken.left_out,
                    coarse.n - coarse.b + (3 * coarse.n - 3 - 2 * coarse.b) + 2 * coarse.b);
   const double wanted = pnpbs::Lattice<2>::kDensity / (0.025 * 0.025) + 0.5 * 160;

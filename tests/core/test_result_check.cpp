@@ -9,7 +9,7 @@
 #include "run_kernel_suite.hpp"
 
 using pnpbs::DelaunayStars;
-using Placement = pnpbs::PlacementOf<2>;
+using Placement = pnpbs::PlacementImpl<2>;
 
 namespace {
 
@@ -134,7 +134,8 @@ START_TEST(finds_a_node_of_a_patch_missing) {
   expect_check_to_say<2>(*laid_sphere(), [](Placement& p) -> std::vector<std::string> {
     pnpbs::Nodes<2>& nodes = nodes_of(p);
     std::int64_t i = 0;
-    while (nodes.boundary_node(i) < 0 || !p.level().ground.domain().is_in_margin(nodes.position(i)))
+    while (nodes.boundary_node(i) < 0 ||
+           !p.level().geometry.domain().is_in_margin(nodes.position(i)))
       ++i;
     nodes.boundary_node(i) = -1;
     nodes.carrier(i) = pnpbs::Carrier::free;
@@ -182,7 +183,7 @@ END_TEST
 
 START_TEST(finds_triangles_on_the_wrong_side_of_the_boundary) {
   expect_complaint([](Placement& p) -> std::vector<std::string> {
-    auto& edges = const_cast<pnpbs::Boundary&>(p.level().ground.boundary()).facets;
+    auto& edges = const_cast<pnpbs::Boundary&>(p.level().geometry.boundary()).facets;
     for (pnpbs::BoundaryEdge& e : edges)
       if (e.left_inside && e.right_inside) e.left_inside = false;  // the slit's
     return {"a triangle outside the domain"};
@@ -192,7 +193,7 @@ END_TEST
 
 START_TEST(finds_a_boundary_edge_that_is_no_edge) {
   expect_complaint([](Placement& p) -> std::vector<std::string> {
-    auto& boundary = const_cast<pnpbs::Boundary&>(p.level().ground.boundary());
+    auto& boundary = const_cast<pnpbs::Boundary&>(p.level().geometry.boundary());
     const std::int64_t i = node_near(p, {0.2, 0.2}), j = node_near(p, {0.8, 0.2});
     for (const std::int64_t node : {i, j}) {
       nodes_of(p).boundary_node(node) = static_cast<std::int32_t>(boundary.nodes.size());

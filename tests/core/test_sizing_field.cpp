@@ -29,8 +29,8 @@ class Told : public pnpbs::LocalSpacing<3> {
   void evaluate(std::int64_t n, const P* x, double* d) const override {
     for (std::int64_t i = 0; i < n; ++i) d[i] = raw(x[i]);
   }
-  pnpbs::KnownValues<3> known_values() const override {
-    pnpbs::KnownValues<3> known;
+  pnpbs::SpacingHints<3> spacing_hints() const override {
+    pnpbs::SpacingHints<3> known;
     known.values.push_back({{0, 0, 0}, raw({0, 0, 0})});
     return known;
   }
@@ -38,10 +38,10 @@ class Told : public pnpbs::LocalSpacing<3> {
 
 pnpbs::SizingField<3> field() {
   pnpbs::SizingField<3> f(std::make_shared<Told>());
-  pnpbs::KnownValues<3> finer;
+  pnpbs::SpacingHints<3> finer;
   finer.in_domain.push_back({{0.5, 0.5, 0.5}, 0.03});
   finer.slopes.push_back({0.4, 0.03, {0.5, 0.5, 0.5}, true});
-  f.add_finer_places(finer);
+  f.add_undersampled_points(finer);
   f = f.multiplied(kFactor);
   f.set_bound(kBound);
   f.resolve({kResolved}, kGrowth);
@@ -88,7 +88,7 @@ END_TEST
 
 // Of the source by both factors, as are the places that runs found; then those of the reductions.
 START_TEST(places_are_told) {
-  const pnpbs::KnownValues<3> known = field().known_values();
+  const pnpbs::SpacingHints<3> known = field().spacing_hints();
   ck_assert_int_eq(std::ssize(known.values), 1);
   ck_assert_double_eq_tol(known.values[0].d, kLevel * kFactor * raw({0, 0, 0}), 1e-12);
   ck_assert_int_eq(std::ssize(known.in_domain), 2);
@@ -97,7 +97,7 @@ START_TEST(places_are_told) {
   ck_assert_double_eq_tol(known.in_domain[1].d, kLevel * kReduced.d, 1e-12);
   ck_assert_int_eq(std::ssize(known.slopes), 1);
   ck_assert_double_eq_tol(known.slopes[0].growth, kLevel * kFactor * 0.4, 1e-12);
-  ck_assert_int_eq(std::ssize(field().without_reductions().known_values().in_domain), 1);
+  ck_assert_int_eq(std::ssize(field().without_reductions().spacing_hints().in_domain), 1);
 }
 END_TEST
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "predicates/space.hpp"
-#include "quality/volume/few_nodes.hpp"
 #include "quality/volume/mean_sweep.hpp"
 #include "quality/volume/sliver_repair.hpp"
+#include "quality/volume/small_node_set.hpp"
 #include "quality/volume/tetrahedron_quality.hpp"
 #include "run_kernel_suite.hpp"
 #include "sliver_rounds.hpp"
@@ -131,9 +131,9 @@ START_TEST(angles_of_any_tetrahedron) {
 }
 END_TEST
 
-START_TEST(few_nodes_are_found) {
+START_TEST(small_node_set_is_found) {
   Random random(4);
-  pnpbs::FewNodes few;
+  pnpbs::SmallNodeSet few;
   std::vector<std::int32_t> all;
   quick_assert(!few.contains(0) && few.all().empty());
   while (all.size() < 70) {
@@ -439,7 +439,7 @@ END_TEST
 TEST_SUITE(test_slivers) {
   return run_kernel_suite(
       "slivers",
-      {known_angles, angles_of_any_tetrahedron, few_nodes_are_found, surely_no_small_angles,
+      {known_angles, angles_of_any_tetrahedron, small_node_set_is_found, surely_no_small_angles,
        stars_follow_nodes, no_sliver_is_left, stars_that_are_left, rounds_only_help,
        nodes_keep_off_where_they_must, the_same_in_another_order, the_same_from_two_halves,
        sweeps_go_to_the_mean, sweeps_move_owned_nodes_alone});

@@ -8,7 +8,7 @@
 #include "geometry/expect_error.hpp"
 #include "level_run.hpp"
 #include "limited_spacing.hpp"
-#include "open_ways.hpp"
+#include "line_of_sight.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 #include "spacing/steepest_growth.hpp"
@@ -42,8 +42,9 @@ struct Limited {
   Limited(const Build& build, Plane d, double growth = kGrowth) : raw(std::move(d)) {
     build(domain);
     domain.check();
-    spacing = limited_spacing<2>(pnpbs::serial_communicator(), open_ways(domain, *spacing_of(raw)),
-                                 spacing_of(raw), growth, 1'000'000'000);
+    spacing =
+        limited_spacing<2>(pnpbs::serial_communicator(), line_of_sight(domain, *spacing_of(raw)),
+                           spacing_of(raw), growth, 1'000'000'000);
   }
   double at(const P& x) const { return value_at<2>(spacing, x); }
   double raw_at(const P& x) const { return raw(x[0], x[1]); }
@@ -113,7 +114,7 @@ START_TEST(grids_know_their_low_points) {
   for (int i = 0; i < kSize * kSize * kSize; ++i) values.push_back(random.between(1, 1.01));
   for (const std::size_t low : {0, 50, 100, 215}) values[low] = 0.01;
   const GridSpacing<3> grid({kSize, kSize, kSize}, origin, step, values);
-  const pnpbs::KnownValues<3> known = grid.known_values();
+  const pnpbs::SpacingHints<3> known = grid.spacing_hints();
   ck_assert_uint_eq(known.values.size(), 4);
   for (const auto& value : known.values) {
     ck_assert_double_eq(value.d, 0.01);
@@ -271,7 +272,7 @@ pnpbs::SteepestGrowth<2> steepest_of(const Build& build, const Plane& d) {
     for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[i][0], x[i][1]);
   };
   const pnpbs::Boundary boundary = pnpbs::discretize_boundary(domain, spacing);
-  pnpbs::DomainMap<2> map;
+  pnpbs::SizedTree<2> map;
   map.build(domain.bounds(), boundary, spacing, {1'000'000'000});
   return pnpbs::steepest_growth<2>(
       *pnpbs::serial_communicator(), map, [](std::int32_t) { return true; }, spacing);
@@ -469,7 +470,8 @@ START_TEST(growth_limit_reports_bad_values) {
   add_square(domain);
   domain.check();
   expect_error(pnpbs::ErrorKind::spacing, {"d = -1 at ("}, [&] {
-    limited_spacing<2>(pnpbs::serial_communicator(), open_ways(domain, *spacing_of(constant(0.1))),
+    limited_spacing<2>(pnpbs::serial_communicator(),
+                       line_of_sight(domain, *spacing_of(constant(0.1))),
                        spacing_of([](double x, double y) {
                          return std::hypot(x - 0.5, y - 0.5) < 0.3 ? -1 : 0.1;
                        }),
@@ -478,7 +480,7 @@ START_TEST(growth_limit_reports_bad_values) {
   // What is bad later, where nobody has looked, stays and is seen then.
   bool broken = false;
   const pnpbs::SizingField<2> limited = limited_spacing<2>(
-      pnpbs::serial_communicator(), open_ways(domain, *spacing_of(constant(0.1))),
+      pnpbs::serial_communicator(), line_of_sight(domain, *spacing_of(constant(0.1))),
       spacing_of([&broken](double, double) { return broken ? std::nan("") : 0.1; }), 0.1, 1000000);
   broken = true;
   quick_assert(std::isnan(value_at<2>(limited, {0.5, 0.5})));

@@ -31,7 +31,7 @@ std::vector<Triangle> reference(const Level& level) {
     set.d.push_back(level.nodes.d(i));
   }
   const std::vector<std::int64_t> places = boundary_places(level);
-  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().facets) {
+  for (const pnpbs::BoundaryEdge& e : level.geometry.boundary().facets) {
     if (e.begin == e.end) continue;
     const std::array<std::int64_t, 2> ends{places[static_cast<std::size_t>(e.begin)],
                                            places[static_cast<std::size_t>(e.end)]};
@@ -107,7 +107,7 @@ pnpbs::IncomingNodes<2> scattered(const LevelRun& run, std::uint64_t seed, std::
 }
 
 void take_all(const LevelRun& run, const pnpbs::IncomingNodes<2>& nodes) {
-  const pnpbs::TakenNodes taken = pnpbs::take(*run.level, nodes, 0);
+  const pnpbs::ImportedNodes taken = pnpbs::take(*run.level, nodes, 0);
   quick_assert_msg(taken.left_out == 0 && taken.thinned == 0, "%lld nodes left out, %lld thinned",
                    static_cast<long long>(taken.left_out), static_cast<long long>(taken.thinned));
 }

@@ -151,7 +151,7 @@ END_TEST
 
 // Where nodes are only in another order, stars are put back, open ones, too; but for those around
 // which some are not known any more.
-START_TEST(put_back) {
+START_TEST(restore) {
   constexpr double kFar = 1e9, kBeyond = 5;
   Random random(9);
   const volume_box::Crystal crystal{8};
@@ -172,7 +172,7 @@ START_TEST(put_back) {
   listed.give_away(kBeyond);
   VolumeStars stars;
   stars.build_none(listed.input());
-  before.put_back(listed.input(), stars);
+  before.restore(listed.input(), stars);
   ck_assert(!before.any());
   ck_assert_uint_eq(before.digest(), 0);
   std::int64_t missing = 0;
@@ -234,5 +234,5 @@ END_TEST
 
 TEST_SUITE(test_stars_before) {
   return run_kernel_suite("stars_before", {little_moves, large_moves, ties, nodes_given_away,
-                                           put_back, other_nodes, stars_of_others});
+                                           restore, other_nodes, stars_of_others});
 }

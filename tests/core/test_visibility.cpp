@@ -31,7 +31,7 @@ class Walls {
   // Ways from x are asked for next, none longer than this.
   void stand_at(const P& x, double longest) {
     near_.clear();
-    for (const BoundaryEdge& e : level_.ground.boundary().facets)
+    for (const BoundaryEdge& e : level_.geometry.boundary().facets)
       if (gap(at(e.begin), at(e.end), x) < longest + 2 * close_) near_.push_back(e);
   }
 
@@ -55,7 +55,7 @@ class Walls {
   }
 
  private:
-  const P& at(std::int32_t node) const { return level_.ground.boundary().nodes[node].position; }
+  const P& at(std::int32_t node) const { return level_.geometry.boundary().nodes[node].position; }
 
   static double gap(const P& a, const P& b, const P& x) {
     const double ux = b[0] - a[0], uy = b[1] - a[1], length2 = ux * ux + uy * uy;
@@ -72,7 +72,7 @@ class Walls {
 
   bool inside(const P& x) const {
     bool inside = false;
-    for (const BoundaryEdge& e : level_.ground.boundary().facets) {
+    for (const BoundaryEdge& e : level_.geometry.boundary().facets) {
       const P &a = at(e.begin), &b = at(e.end);
       if (e.left_inside != e.right_inside && (a[1] > x[1]) != (b[1] > x[1]) &&
           (pnpbs::orientation(a, b, x) > 0) == (b[1] > a[1]))
@@ -156,7 +156,7 @@ END_TEST
 START_TEST(ways_through_boundary_nodes) {
   const auto listed = [](const Build& build, const P& x, const P& y) {
     LevelRun run(build, constant(0.2));
-    const pnpbs::TakenNodes taken = pnpbs::take(*run.level, {{x, -1}, {y, -1}}, 0);
+    const pnpbs::ImportedNodes taken = pnpbs::take(*run.level, {{x, -1}, {y, -1}}, 0);
     ck_assert_int_eq(taken.left_out, 0);
     pnpbs::rebuild_lists(*run.level, 1.7);
     const pnpbs::Nodes<2>& nodes = run.level->nodes;

@@ -340,7 +340,7 @@ std::vector<std::int32_t> all_facets(const pnpbs::BoundaryMesh<3>& mesh) {
 struct Chambers {
   Surface box, wall;
   pnpbs::BoundaryMesh<3> mesh;
-  pnpbs::DomainMap<3> map;
+  pnpbs::SizedTree<3> map;
   static constexpr P kFixed{0.5, 0.5, 0.5};
 
   Chambers() {
@@ -444,7 +444,7 @@ START_TEST(no_nodes_of_level_sets_outside) {
   const pnpbs::BoundaryMesh<3>& mesh = domain.mesh();
   ck_assert_double_ge(mesh.node_distance, kDeviation);
   ck_assert_double_le(mesh.node_distance, 2 * kDeviation);
-  pnpbs::DomainMap<3> map;
+  pnpbs::SizedTree<3> map;
   map.build(domain.bounds(), mesh, evaluator_of(constant(0.03)), 1'000'000);
   Random random(1);
   std::vector<P> nodes;

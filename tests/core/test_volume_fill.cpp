@@ -215,7 +215,7 @@ START_TEST(the_same_from_a_tree_of_which_a_part_is_fine) {
   const VolumeSpacing d = [](const P& x) { return 0.04 + 0.02 * x[1]; };
   const Mapped m(pierced(), d);
   const auto low = [](const P& x) { return x[2] < 0.5; };
-  pnpbs::DomainMap<3> part;
+  pnpbs::SizedTree<3> part;
   part.build_part(*pnpbs::serial_communicator(), m.surface.bounds(), m.mesh, evaluator_of(d),
                   1'000'000, [&](const pnpbs::BackgroundTree<3>& tree, std::int32_t c, double) {
                     return tree.cell(c).depth < 2 || low(tree.cell_centre(c));

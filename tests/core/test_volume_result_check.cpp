@@ -14,7 +14,7 @@
 
 using Point3 = pnpbs::Point<3>;
 using pnpbs::Carrier;
-using Placement3 = pnpbs::PlacementOf<3>;
+using Placement3 = pnpbs::PlacementImpl<3>;
 
 namespace {
 
@@ -159,7 +159,7 @@ START_TEST(finds_stars_that_do_not_agree) {
     const pnpbs::BackgroundTree<3>& tree = p.level().tree->tree();
     std::vector<char> known(static_cast<std::size_t>(tree.leaf_count()), 1);
     known[static_cast<std::size_t>(tree.leaf_at({0.2, 0.2, 0.2}))] = 0;
-    rebuild_stars(p, &p.level().ground.domain().index().sides(),
+    rebuild_stars(p, &p.level().geometry.domain().index().sides(),
                   pnpbs::KnownRegion<3>(tree, known));
     return {"lacks the tetrahedron with nodes"};
   });
@@ -172,7 +172,7 @@ START_TEST(finds_gaps_inside) {
     const std::int64_t i = inner_node(p);
     const double d = nodes_of(p).d(i);
     nodes_of(p).d(i) = 1e-3;
-    rebuild_stars(p, &p.level().ground.domain().index().sides(), {});
+    rebuild_stars(p, &p.level().geometry.domain().index().sides(), {});
     nodes_of(p).d(i) = d;
     return {"lies inside, but "};
   });

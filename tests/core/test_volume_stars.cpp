@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "run_kernel_suite.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 #include "surfaces.hpp"
 #include "volume_box.hpp"
 #include "volume_tetrahedra.hpp"
@@ -262,7 +262,7 @@ START_TEST(tetrahedra_of_a_domain) {
           nodes.push_back({x, step, std::ssize(nodes), !on});
         }
     random.shuffle(nodes);
-    pnpbs::DomainMap<3> map;
+    pnpbs::SizedTree<3> map;
     const Box<3> box = surface.bounds();
     map.build(
         box, boundary, [=](std::int64_t n, const P*, double* d) { std::fill(d, d + n, step); },

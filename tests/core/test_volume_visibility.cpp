@@ -7,12 +7,12 @@
 
 #include "level/finish.hpp"
 #include "level/lists_and_stars.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 #include "run_kernel_suite.hpp"
 
 using pnpbs::Carrier;
 using Level = pnpbs::Level<3>;
-using Placement = pnpbs::PlacementOf<3>;
+using Placement = pnpbs::PlacementImpl<3>;
 
 namespace {
 
@@ -98,7 +98,7 @@ START_TEST(nodes_that_went_on) {
       const double after = distance_to_boundary(to);
       const bool clear = to[2] > 0 && (after >= kClearance * d || after >= before);
       if (std::fabs(after - kClearance * d) < 1e-9 || std::fabs(after - before) < 1e-9) break;
-      ck_assert_int_eq(level.neighbourhood.near_boundary().stays_clear(i, nodes, level.ground, to,
+      ck_assert_int_eq(level.neighbourhood.near_boundary().stays_clear(i, nodes, level.geometry, to,
                                                                        kClearance * d),
                        clear);
       refused += clear ? 0 : 1;

@@ -10,7 +10,7 @@
 #include "geometry/shapes.hpp"
 #include "io/hdf5.hpp"
 #include "io/write_files.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 #include "run_kernel_suite.hpp"
 
 namespace {
@@ -34,25 +34,25 @@ std::int64_t kernels_of(const Work& work) {
 }
 
 template <int Dim, class SomeDomain>
-std::unique_ptr<pnpbs::PlacementOf<Dim>> placed(std::shared_ptr<SomeDomain> domain, double d) {
+std::unique_ptr<pnpbs::PlacementImpl<Dim>> placed(std::shared_ptr<SomeDomain> domain, double d) {
   pnpbs::Options options;
   options.set("steps", "4");
   options.set("sweeps", "0");
-  auto placement = std::make_unique<pnpbs::PlacementOf<Dim>>(pnpbs::serial_communicator(),
-                                                             std::move(domain), options);
+  auto placement = std::make_unique<pnpbs::PlacementImpl<Dim>>(pnpbs::serial_communicator(),
+                                                               std::move(domain), options);
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<Dim>>(d));
   ck_assert(placement->run() != pnpbs::Outcome::stopped);
   placement->results().prepare_stars();
   return placement;
 }
 
-std::unique_ptr<pnpbs::PlacementOf<2>> square(double d) {
+std::unique_ptr<pnpbs::PlacementImpl<2>> square(double d) {
   auto domain = std::make_shared<pnpbs::PlaneDomain>();
   shapes::add_loop(*domain, shapes::rectangle(0, 0, 1, 1));
   return placed<2>(std::move(domain), d);
 }
 
-std::unique_ptr<pnpbs::PlacementOf<3>> cube(double d) {
+std::unique_ptr<pnpbs::PlacementImpl<3>> cube(double d) {
   auto domain = std::make_shared<pnpbs::VolumeDomain>();
   domain->add_box({0, 0, 0}, {1, 1, 1}, 1);
   return placed<3>(std::move(domain), d);
@@ -96,10 +96,10 @@ void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
       if (elements && (format.elements == pnpbs::io::Elements::never || !format.fields.empty()))
         continue;
       const auto kernels_to_write = [&](pnpbs::Placement& placement) {
-        std::vector<pnpbs::io::FileWish> wishes;
-        pnpbs::io::add_wish(path, "", elements, pnpbs::io::wished_of(placement), wishes);
+        std::vector<pnpbs::io::FileRequest> requests;
+        pnpbs::io::add_request(path, "", elements, pnpbs::io::requested_of(placement), requests);
         const pnpbs::io::OutputFields fields = fields_of(placement);
-        return kernels_of([&] { pnpbs::io::write_files(placement, fields, wishes); });
+        return kernels_of([&] { pnpbs::io::write_files(placement, fields, requests); });
       };
       const std::int64_t of_few = kernels_to_write(few), of_more = kernels_to_write(more);
       ck_assert_msg(of_more <= of_few + kMaxMore, "%s: %lld kernels for %lld nodes, %lld for %lld",

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "geometry/volume/surface_index.hpp"
-#include "spacing/open_ways.hpp"
+#include "spacing/line_of_sight.hpp"
 #include "spacing/spacing.hpp"
 #include "surfaces.hpp"
 
@@ -26,7 +26,7 @@ class Block {
   pnpbs::Box<3> bounds() const { return {{0, 0, 0}, {1, 1, 1}}; }
   bool inside(const pnpbs::Point<3>& x) const { return !l_shaped_ || x[0] < 0.5 || x[1] < 0.5; }
 
-  std::unique_ptr<const pnpbs::OpenWays<3>> ways() const {
+  std::unique_ptr<const pnpbs::LineOfSight<3>> ways() const {
     surfaces::Surface surface =
         surfaces::cubes(2, [this](std::int64_t i, std::int64_t j, std::int64_t) {
           return !l_shaped_ || i == 0 || j == 0;
@@ -41,7 +41,7 @@ class Block {
     const auto indexed = std::make_shared<Indexed>();
     surface.add_to(indexed->mesh, pnpbs::SurfaceRole::boundary);
     indexed->index = pnpbs::SurfaceIndex(indexed->mesh, bounds());
-    return std::make_unique<const pnpbs::OpenWays<3>>(
+    return std::make_unique<const pnpbs::LineOfSight<3>>(
         bounds(), l_shaped_ ? 0.75 : 1.0,
         std::shared_ptr<const pnpbs::FacetIndex<3>>(indexed, &indexed->index.sides()));
   }

@@ -15,7 +15,7 @@
 #include "base/error.hpp"
 #include "core/level_run.hpp"
 #include "core/limited_spacing.hpp"
-#include "core/open_ways.hpp"
+#include "core/line_of_sight.hpp"
 #include "core/random.hpp"
 #include "core/volume_growth.hpp"
 #include "rank_checks.hpp"
@@ -112,11 +112,11 @@ void check_case(const Case& c) {
   c.build(domain);
   domain.check();
   const Limited alone =
-      limited_spacing<2>(pnpbs::serial_communicator(), open_ways(domain, *spacing_of(c.d)),
+      limited_spacing<2>(pnpbs::serial_communicator(), line_of_sight(domain, *spacing_of(c.d)),
                          spacing_of(c.d), c.growth, kManyNodes);
   const auto asked = std::make_shared<AskedTogether>(c.d);
   const Limited together =
-      limited_spacing<2>(comm, open_ways(domain, *asked), asked, c.growth, kManyNodes);
+      limited_spacing<2>(comm, line_of_sight(domain, *asked), asked, c.growth, kManyNodes);
   const auto seed = static_cast<std::uint64_t>(comm->rank());
   expect_same_bits(alone, together, points_in(domain, 99, 5000),
                    std::string(c.name) + ": the same where all ask the same points");
@@ -175,7 +175,7 @@ void check_failures() {
   int beats = 0;
   const auto make = [&](const Plane& d, std::int64_t max_nodes, const std::function<void()>& beat) {
     const auto asked = std::make_shared<AskedTogether>(d);
-    limited_spacing<2>(comm, open_ways(domain, *spacing_of(even)), asked, 0.1, max_nodes, beat);
+    limited_spacing<2>(comm, line_of_sight(domain, *spacing_of(even)), asked, 0.1, max_nodes, beat);
   };
   make(even, kManyNodes, [&] { ++beats; });
   // Whenever the last rank's monitor stops it, all stop.
@@ -200,7 +200,7 @@ void check_failures() {
   expect_failure(pnpbs::ErrorKind::spacing, "the option max_nodes allows 1500",
                  [&] { make(even, 1500, [] {}); });
   expect_failure(pnpbs::ErrorKind::memory, "max_memory", [&] {
-    limited_spacing<2>(comm, open_ways(domain, *spacing_of(even)), spacing_of(even), 0.1,
+    limited_spacing<2>(comm, line_of_sight(domain, *spacing_of(even)), spacing_of(even), 0.1,
                        {kManyNodes, 1e5});
   });
 }

@@ -16,7 +16,7 @@
 #include "level/finish.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/placement_impl.hpp"
 #include "rank_checks.hpp"
 #include "volume_bodies.h"
 
@@ -54,12 +54,12 @@ const std::vector<Body>& bodies() {
   return all;
 }
 
-std::unique_ptr<pnpbs::PlacementOf<3>> placed(const Body& body) {
+std::unique_ptr<pnpbs::PlacementImpl<3>> placed(const Body& body) {
   auto domain = std::make_shared<pnpbs::VolumeDomain>();
   body.add(*domain);
   pnpbs::Options options;
   options.set("conforming_rounds", "0");
-  auto placement = std::make_unique<pnpbs::PlacementOf<3>>(comm, std::move(domain), options);
+  auto placement = std::make_unique<pnpbs::PlacementImpl<3>>(comm, std::move(domain), options);
   placement->set_spacing(std::make_shared<pnpbs::CallbackSpacing<3>>(
       [d0 = body.d](std::int64_t n, const double* x, double* d) {
         for (std::int64_t i = 0; i < n; ++i) d[i] = d0 + 0.05 * x[3 * i];
@@ -106,7 +106,7 @@ void change_one(Level& level, const std::function<void(std::int64_t)>& change) {
 
 // Elements of a torn boundary get other labels, whose stars are not put back: these are gone when
 // stars have been made again.
-void check_put_back(Level& level, const Body& body) {
+void check_restore(Level& level, const Body& body) {
   made_again(level);
   expect(made_again(level), "stars are put back");
   expect_found_anew(level, body.name + ", put back");
@@ -136,7 +136,7 @@ void check_all() {
     const auto placement = placed(body);
     auto& level = const_cast<Level&>(placement->level());
     expect_found_anew(level, body.name + ", after the run");
-    check_put_back(level, body);
+    check_restore(level, body);
     check_after_repair(level, body);
   }
 }

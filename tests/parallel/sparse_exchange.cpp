@@ -178,7 +178,7 @@ template <class Work>
 void expect_failure(int bad, pnpbs::ErrorKind kind, const std::string& part, const Work& work) {
   std::string told;
   try {
-    pnpbs::agreed(*comm, work);
+    pnpbs::collective_try(*comm, work);
   } catch (const pnpbs::Error& error) {
     refused_from = kNoLimit;
     told = error.what();
@@ -288,7 +288,7 @@ void check_sums() {
   const auto value = [](int rank) { return std::int64_t{1000000007} * rank * rank - 5; };
   std::int64_t before = 0;
   for (int r = 0; r < comm->rank(); ++r) before += value(r);
-  expect(comm->sum_before(value(comm->rank())) == before, "sum of the ranks before");
+  expect(comm->exclusive_scan(value(comm->rank())) == before, "sum of the ranks before");
 }
 
 void check_spans() {

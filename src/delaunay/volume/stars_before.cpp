@@ -318,7 +318,7 @@ std::vector<char> StarsBefore::put_in_place(const Places& places, const Keeps& k
   return kept;
 }
 
-std::vector<char> StarsBefore::put_back(const VolumeStarInput& input, VolumeStars& stars) {
+std::vector<char> StarsBefore::restore(const VolumeStarInput& input, VolumeStars& stars) {
   const Nodes<3>& nodes = input.nodes;
   return put_in_place(
       find_places(nodes, [](std::int64_t) { return true; }),

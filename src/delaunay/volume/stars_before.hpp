@@ -35,7 +35,7 @@ class StarsBefore {
 
   // Puts back the stars of the owned nodes, which are where they were; not those with a ghost that
   // is not known here any more. Returns for which nodes. Uses up what was taken.
-  std::vector<char> put_back(const VolumeStarInput& input, VolumeStars& stars);
+  std::vector<char> restore(const VolumeStarInput& input, VolumeStars& stars);
 
  private:
   // Of nodes before: where each is now, -1: nowhere; and the star of which of them node i now has,

@@ -252,8 +252,8 @@ struct PiecesInCell {
 
 // What there is of the patch besides.
 struct PatchSums {
-  FixedPointSum nodes_before;  // in the cells before this one
-  FixedPointSum nodes;         // in all of them
+  FixedPointSum start_nodes;  // in the cells before this one
+  FixedPointSum nodes;        // in all of them
   double min_d = std::numeric_limits<double>::infinity(), max_d = 0;
 };
 
@@ -275,14 +275,14 @@ std::vector<PatchSums> answers_to(const std::vector<Question>& questions) {
   for (const std::size_t k : order) {
     const PiecesInCell& pieces = questions[k].pieces;
     PatchSums& patch = whole[pieces.patch];
-    answers[k].nodes_before = patch.nodes;
+    answers[k].start_nodes = patch.nodes;
     patch.nodes.add(pieces.nodes);
     patch.min_d = std::min(patch.min_d, pieces.min_d);
     patch.max_d = std::max(patch.max_d, pieces.max_d);
   }
   for (std::size_t k = 0; k < questions.size(); ++k) {
     const PatchSums& patch = whole[questions[k].pieces.patch];
-    answers[k] = {answers[k].nodes_before, patch.nodes, patch.min_d, patch.max_d};
+    answers[k] = {answers[k].start_nodes, patch.nodes, patch.min_d, patch.max_d};
   }
   return answers;
 }
@@ -359,10 +359,10 @@ double even_spacing(const PatchPieces& patch, const PatchSums& sums) {
 }
 
 // Of pieces of one cell.
-void add_running_sum(const Surface& surface, Pieces pieces, const FixedPointSum& nodes_before,
+void add_running_sum(const Surface& surface, Pieces pieces, const FixedPointSum& start_nodes,
                      std::vector<SurfacePoint>& nodes) {
   constexpr std::int64_t kOne = kFixedPointOne, kHalf = kOne / 2;
-  std::int64_t sum = nodes_before.fraction() + kHalf;
+  std::int64_t sum = start_nodes.fraction() + kHalf;
   for (const SurfacePiece& piece : pieces) {
     const std::int64_t whole = sum / kOne;
     sum += wanted_nodes(piece);
@@ -405,7 +405,7 @@ std::vector<SurfacePoint> surface_fill(const Communicator& comm, const Surface& 
       nodes.insert(nodes.end(), lattice.begin(), lattice.end());
     }
     for (const Pieces pieces : cell_by_cell(patches[p].pieces)) {
-      if (!even) add_running_sum(surface, pieces, sum->nodes_before, nodes);
+      if (!even) add_running_sum(surface, pieces, sum->start_nodes, nodes);
       ++sum;
     }
   }

@@ -29,7 +29,7 @@ namespace {
 
 template <class Visit>
 void for_nodes_in_margin(const Level<2>& level, const Visit& visit) {
-  const PlaneDomain& domain = level.ground.domain();
+  const PlaneDomain& domain = level.geometry.domain();
   for_each("pnpbs::for_nodes_in_margin", level.nodes.count, [&](std::int64_t i) {
     if (domain.is_in_margin(level.nodes.position(i))) visit(i);
   });
@@ -55,13 +55,13 @@ void hold_margin(Level<2>& level) {
     for (int k = 0; k < 2; ++k) nodes.v[k](i) = 0;
   });
   nodes.moved();
-  level.ghosts.choose_anew();
+  level.ghosts.invalidate();
   level.margin = PatchMargin::held;
 }
 
 void recognise_margin(Level<2>& level) {
   if (!is_closed_sphere(level)) return;
-  const PlaneDomain& domain = level.ground.domain();
+  const PlaneDomain& domain = level.geometry.domain();
   const Nodes<2>& nodes = level.nodes;
   const auto any = [&](const auto& is_so) {
     const std::uint64_t here = sum_of("pnpbs::recognise_margin", nodes.count, [&](std::int64_t i) {
@@ -82,7 +82,7 @@ bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& cor
   for (std::size_t k = 0; k < 3; ++k) x[k] = level.nodes.position(corners[k]);
   const auto is_on_rim = [&](std::int64_t i) {
     const std::int32_t b = level.nodes.boundary_node(i);
-    return b >= 0 && level.ground.bounds_domain_at(b);
+    return b >= 0 && level.geometry.bounds_domain_at(b);
   };
   return std::ranges::all_of(corners, is_on_rim) && orientation(x[0], x[1], x[2]) < 0;
 }

@@ -13,7 +13,7 @@ namespace pnpbs {
 // Is that triangle there? Then what is near another place in the chart need not be near on the
 // sphere, and far less has to be known than lies within a length of the chart.
 inline bool is_closed_sphere(const Level<2>& level) {
-  return level.ground.domain().closing() != nullptr;
+  return level.geometry.domain().closing() != nullptr;
 }
 inline bool is_closed_sphere(const Level<3>&) { return false; }
 
@@ -34,7 +34,7 @@ void recognise_margin(Level<2>& level);
 inline void recognise_margin(Level<3>&) {}
 // Is it a place that only nodes of the patch may have?
 inline bool is_closed_at(const Level<2>& level, const Point<2>& x) {
-  return level.ground.domain().is_closed_at(x, level.margin == PatchMargin::free);
+  return level.geometry.domain().is_closed_at(x, level.margin == PatchMargin::free);
 }
 inline bool is_closed_at(const Level<3>&, const Point<3>&) { return false; }
 // Is it that triangle? By its nodes.

@@ -24,7 +24,7 @@ namespace {
 template <class Sweep>
 void sweep_over_stars(Level<2>& level, std::int64_t times, const Sweep& sweep_once) {
   View<char> allowed;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     allowed = make_view<char>("pnpbs::allowed", level.nodes.count);
     level.time_integration.scratch(level.nodes);
   });
@@ -45,14 +45,14 @@ void sweep_to_means(Level<2>& level, std::int64_t times) {
 void repair_triangles(Level<2>& level, const TriangleMeasure& measure, std::int64_t rounds) {
   update_ghosts(level);
   std::optional<BadTriangleRepair> repair;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     repair.emplace(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(),
                    level.map(), measure);
   });
   for (std::int64_t round = 0; round < rounds; ++round) {
     update_ghosts(level);
     std::int64_t moved = 0;
-    agreed(*level.comm, [&] { moved = repair->round(); });
+    collective_try(*level.comm, [&] { moved = repair->round(); });
     if (level.comm->allreduce_sum(static_cast<std::uint64_t>(moved)) == 0) break;
   }
 }
@@ -69,9 +69,9 @@ void repair_bad_triangles(Level<2>& level) {
 // At nodes and ghosts.
 void take_spacing_here(Level<2>& level) {
   const PhaseTimer timer(level.timers, Phase::spacing);
-  const View<double> d = spacing_at_nodes(level, level.ground.spacing());
+  const View<double> d = spacing_at_nodes(level, level.geometry.spacing());
   for_each("pnpbs::take_spacing_here", level.nodes.count, [&](std::int64_t i) {
-    level.nodes.d(i) = level.ground.bubble_at(level.nodes, i, d(i));
+    level.nodes.d(i) = level.geometry.bubble_at(level.nodes, i, d(i));
   });
 }
 
@@ -82,9 +82,9 @@ void take_spacing_here(Level<2>& level) {
 std::vector<EdgeBand> edge_bands(Level<2>& level) {
   std::vector<EdgeBand> bands;
   update_ghosts(level);
-  if (level.ground.domain().embedding().is_sphere()) take_spacing_here(level);
-  agreed(*level.comm, [&] {
-    bands = edge_bands_to_judge<2>(*level.comm, {level.nodes, level.ground.domain().embedding()},
+  if (level.geometry.domain().embedding().is_sphere()) take_spacing_here(level);
+  collective_try(*level.comm, [&] {
+    bands = edge_bands_to_judge<2>(*level.comm, {level.nodes, level.geometry.domain().embedding()},
                                    level.stars);
   });
   return bands;
@@ -111,7 +111,7 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps, const StopT
     make_finish_stars(level, {rings});
     const PhaseTimer timer(level.timers, Phase::sweeps);
     std::vector<std::int32_t> surplus;
-    agreed(*level.comm, [&] {
+    collective_try(*level.comm, [&] {
       if (done == 0 && repairs) surplus = take_out_surplus_nodes(level.nodes, level.stars);
     });
     sweep_to_means(level, std::min(kBlock, sweeps - done));
@@ -120,7 +120,7 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps, const StopT
     if (last) results.edge_bands = edge_bands(level);  // while there are stars
     for (std::int32_t i : surplus) results.counts.deleted += level.nodes.owned(i);
     if (!surplus.empty()) delete_nodes(level, surplus);
-    if (repairs) level.ghosts.choose_anew();  // on all ranks, as some may be gone
+    if (repairs) level.ghosts.invalidate();  // on all ranks, as some may be gone
   }
   if (sweeps == 0 && !repairs) {
     make_finish_stars(level, {});
@@ -135,7 +135,7 @@ std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps) {
   const SweepRule rule{1, method::kSweepMaxMove, method::kCentroidalSweepGuardsBelow};
   sweep_over_stars(level, sweeps, [&](Field<2>& proposed, View<char>& allowed) {
     centroidal_sweep(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(),
-                     level.map(), level.ground.domain().embedding(), rule, proposed, allowed);
+                     level.map(), level.geometry.domain().embedding(), rule, proposed, allowed);
   });
   return edge_bands(level);
 }
@@ -143,7 +143,7 @@ std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps) {
 void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds) {
   make_finish_stars(level, {1});  // of neighbours only one moves
   const PhaseTimer timer(level.timers, Phase::sweeps);
-  repair_triangles(level, measure_of_obtuse_triangles(level.ground.domain().embedding()), rounds);
+  repair_triangles(level, measure_of_obtuse_triangles(level.geometry.domain().embedding()), rounds);
 }
 
 }  // namespace pnpbs

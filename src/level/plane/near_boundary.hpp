@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "level/ground.hpp"
+#include "level/level_geometry.hpp"
 #include "level/level_tree.hpp"
 #include "neighbors/boundary_visibility.hpp"
 #include "neighbors/near_edges.hpp"
@@ -20,13 +20,15 @@ class NearBoundary<2> {
   using NearLeaves = NearEdges;
   static NearLeaves near_leaves(const LevelTree<2>& tree, double radius);
   void adopt(NearLeaves edges) { edges_ = std::move(edges); }
-  void reset(const Ground<2>& ground) { visibility_.reset(ground.boundary().nodes.size()); }
+  void reset(const LevelGeometry<2>& geometry) {
+    visibility_.reset(geometry.boundary().nodes.size());
+  }
 
   void build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,
-             const DomainMap<2>& map, const Ground<2>& ground);
-  VisibilityPastEdges visibility(const Nodes<2>& nodes, const DomainMap<2>& map,
-                                 const Ground<2>& ground) const {
-    return {nodes, edges_, visibility_, map, ground.sectors()};
+             const SizedTree<2>& map, const LevelGeometry<2>& geometry);
+  VisibilityPastEdges visibility(const Nodes<2>& nodes, const SizedTree<2>& map,
+                                 const LevelGeometry<2>& geometry) const {
+    return {nodes, edges_, visibility_, map, geometry.sectors()};
   }
 
   double radius() const { return edges_.radius(); }
@@ -34,8 +36,8 @@ class NearBoundary<2> {
   bool within(std::int64_t i, double reach) const { return edges_.edge_within(i, reach); }
   // May it be in the way of node i within the next steps, which lead no farther than reach?
   bool constrains(const Nodes<2>&, std::int64_t i, double reach) const { return within(i, reach); }
-  Point<2> hold_off(std::int64_t i, const Nodes<2>& nodes, const DomainMap<2>& map,
-                    const Ground<2>& ground, const Point<2>& to) const;
+  Point<2> hold_off(std::int64_t i, const Nodes<2>& nodes, const SizedTree<2>& map,
+                    const LevelGeometry<2>& geometry, const Point<2>& to) const;
 
   const NearEdges& edges() const { return edges_; }
 

@@ -41,8 +41,8 @@ void add_faces_at(const Level<3>& level, std::int64_t i, Counts& counts) {
 }  // namespace
 
 std::int64_t euler_of_surfaces(const Level<3>& level) {
-  const BoundaryMesh<3>& mesh = level.ground.boundary();
-  const Features& features = level.ground.domain().features();
+  const BoundaryMesh<3>& mesh = level.geometry.boundary();
+  const Features& features = level.geometry.domain().features();
   std::vector<std::int32_t> vertices;
   std::vector<std::array<std::int32_t, 2>> edges;
   std::int64_t triangles = 0;
@@ -63,7 +63,7 @@ std::int64_t euler_of_surfaces(const Level<3>& level) {
 // corners.
 std::int64_t euler_of_boundary(const Level<3>& level) {
   std::vector<std::int64_t> all;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const Counts own = sums_over("pnpbs::euler_of_boundary", level.nodes.count, Counts(),
                                  [&](std::int64_t i, Counts& counts) {
                                    if (level.nodes.owned(i)) add_faces_at(level, i, counts);

@@ -109,7 +109,7 @@ std::map<std::int64_t, std::int64_t> least_of_all(const Communicator& comm,
 
 BoundaryPieces boundary_pieces(const Level<3>& level) {
   BoundaryPieces result;
-  agreed(*level.comm, [&] { result.of = pieces_here(level); });
+  collective_try(*level.comm, [&] { result.of = pieces_here(level); });
   std::set<SamePiece> own = same_pieces(level, result.of);
   for (const std::int64_t piece : std::set<std::int64_t>(result.of.begin(), result.of.end()))
     if (piece >= 0) own.insert({piece, piece});
@@ -133,8 +133,8 @@ std::int64_t pieces_of_boundary(const Level<3>& level) {
 }
 
 std::int64_t pieces_of_surfaces(const Level<3>& level) {
-  const BoundaryMesh<3>& mesh = level.ground.boundary();
-  const Features& features = level.ground.domain().features();
+  const BoundaryMesh<3>& mesh = level.geometry.boundary();
+  const Features& features = level.geometry.domain().features();
   UnionFind<std::size_t> joined(mesh.nodes.size());
   std::set<std::size_t> corners, pieces;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {

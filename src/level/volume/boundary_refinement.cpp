@@ -16,7 +16,7 @@
 #include "domain/volume/surface_walk.hpp"
 #include "level/finish.hpp"
 #include "level/volume/added_nodes.hpp"
-#include "level/volume/nodes_in_the_way.hpp"
+#include "level/volume/blocking_nodes.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "level/volume/surface_level.hpp"
@@ -48,8 +48,8 @@ struct Strays {
 };
 
 bool see_each_other(const Level<3>& level, std::int64_t i, std::int64_t j) {
-  const Ground<3>& ground = level.ground;
-  return ground.surface().sees(ground.place(level.nodes, i), ground.place(level.nodes, j));
+  const LevelGeometry<3>& geometry = level.geometry;
+  return geometry.surface().sees(geometry.place(level.nodes, i), geometry.place(level.nodes, j));
 }
 
 // The corner on whose sheet of the surface the ball's middle lies: the first by id that is on one;
@@ -80,14 +80,14 @@ std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corne
   const Point<3> centre = circle_centre(x);
   const double radius = distance<3>(centre, x[0]);
   if (!(radius < std::numeric_limits<double>::infinity())) return {};  // in one line
-  const Surface& surface = level.ground.surface();
+  const Surface& surface = level.geometry.surface();
   const std::int64_t on_sheet = corner_of_sheet(level, corners, from);
   if (on_sheet >= 0) {
     const SurfacePoint at = pull_back(surface, centre, nodes.boundary_node(on_sheet));
     ball.x = at.position;
     ball.facet = at.facet;
   } else {
-    const NearestPoint<3> at = level.ground.domain().index().nearest(centre, 2 * radius);
+    const NearestPoint<3> at = level.geometry.domain().index().nearest(centre, 2 * radius);
     if (from >= 0 || at.facet < 0 || surface.patch(at.facet) < 0) return {};
     ball.x = at.x;
     ball.facet = at.facet;
@@ -143,15 +143,15 @@ Strays strays_of_own(const Level<3>& level) {
 // Is a node of its sheet of the surface as near to the middle of the ball?
 bool is_taken(const Level<3>& level, const IncomingNode<3>& middle, double radius) {
   const Nodes<3>& nodes = level.nodes;
-  const Ground<3>& ground = level.ground;
-  const SurfacePlace at = ground.place(middle.carrier, middle.boundary_node);
+  const LevelGeometry<3>& geometry = level.geometry;
+  const SurfacePlace at = geometry.place(middle.carrier, middle.boundary_node);
   const Buckets<3>& buckets = level.neighbourhood.buckets();
   bool taken = false;
   buckets.for_neighbours(level.tree->tree().leaf_at(middle.position), [&](std::int32_t b) {
     for (std::int64_t i = buckets.begin(b); !taken && i < buckets.end(b); ++i)
       taken = nodes.carrier(i) != Carrier::free &&
               distance<3>(nodes.position(i), middle.position) < method::kBallTaken * radius &&
-              ground.surface().sees(ground.place(nodes, i), at);
+              geometry.surface().sees(geometry.place(nodes, i), at);
   });
   return taken;
 }
@@ -174,8 +174,8 @@ IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>
   IncomingNodes<3> nodes;
   for (const SurfaceBall& ball : balls)
     nodes.push_back(
-        new_surface_node(level.ground, {static_cast<std::int32_t>(ball.facet), ball.x}));
-  put_on_level_sets(level.ground, nodes);
+        new_surface_node(level.geometry, {static_cast<std::int32_t>(ball.facet), ball.x}));
+  put_on_level_sets(level.geometry, nodes);
   IncomingNodes<3> own;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (level.tree->owns(level.tree->tree().leaf_at(nodes[k].position)) &&
@@ -188,7 +188,7 @@ IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>
 Strays find_strays(Level<3>& level) {
   const PhaseTimer timer(level.timers, Phase::conformity);
   Strays own;
-  agreed(*level.comm, [&] { own = strays_of_own(level); });
+  collective_try(*level.comm, [&] { own = strays_of_own(level); });
   return own;
 }
 
@@ -197,7 +197,7 @@ IncomingNodes<3> nodes_in_balls(Level<3>& level, const std::vector<SurfaceBall>&
   const PhaseTimer timer(level.timers, Phase::conformity);
   const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own_balls);
   IncomingNodes<3> nodes;
-  agreed(*level.comm, [&] { nodes = new_nodes(level, balls); });
+  collective_try(*level.comm, [&] { nodes = new_nodes(level, balls); });
   return nodes;
 }
 
@@ -225,12 +225,12 @@ std::int64_t add_boundary_nodes(Level<3>& level) {
 
 PopulationCounts refine_boundary(Level<3>& level) {
   PopulationCounts counts;
-  if (level.ground.kind() == GeometryKind::surface) return counts;
+  if (level.geometry.kind() == GeometryKind::surface) return counts;
   std::int64_t nodes_off = std::numeric_limits<std::int64_t>::max();
   for (int round = 0; round <= method::kMaxBoundaryRounds; ++round) {
     counts.inserted += add_boundary_nodes(level);
     const std::int64_t removed =
-        round < method::kMaxBoundaryRounds ? remove_nodes_in_the_way(level, nodes_off) : 0;
+        round < method::kMaxBoundaryRounds ? remove_blocking_nodes(level, nodes_off) : 0;
     counts.deleted += removed;
     if (removed == 0) break;
   }

@@ -5,7 +5,7 @@
 // boundary with a node from inside, and the largest face at a node around which the faces are not
 // one disk, get a node in the middle of the ball around a point of the surface that their corners
 // lie on, round after round, as long as that makes them fewer. Where the
-// boundary is torn still, nodes from inside are in the way, and leave (nodes_in_the_way.hpp).
+// boundary is torn still, nodes from inside are in the way, and leave (blocking_nodes.hpp).
 #pragma once
 
 #include "level/level.hpp"

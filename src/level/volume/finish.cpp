@@ -29,11 +29,11 @@ namespace {
 
 // What says whether a node may go to a place.
 auto may_go(const Level<3>& level) {
-  return [&level, inner = level.ground.has_inner_surfaces()](std::int64_t i, const Point<3>& x) {
+  return [&level, inner = level.geometry.has_inner_surfaces()](std::int64_t i, const Point<3>& x) {
     const NearBoundary<3>& near = level.neighbourhood.near_boundary();
     const double d = level.nodes.d(i);
-    return near.stays_clear(i, level.nodes, level.ground, x, method::kFinishClearance * d) &&
-           (!inner || near.stays_clear_of_inner(i, level.nodes, level.ground, x,
+    return near.stays_clear(i, level.nodes, level.geometry, x, method::kFinishClearance * d) &&
+           (!inner || near.stays_clear_of_inner(i, level.nodes, level.geometry, x,
                                                 method::kInnerClearance * d));
   };
 }
@@ -44,7 +44,7 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   const PhaseTimer timer(level.timers, Phase::sweeps);
   for (std::int64_t s = 0; s < sweeps; ++s) {
     update_ghosts(level);
-    agreed(*level.comm, [&] {
+    collective_try(*level.comm, [&] {
       level.timers.add(
           Phase::sweeps,
           pnpbs::sweep_to_means(level.nodes, level.stars, level.settings.sweep.weight,
@@ -55,9 +55,10 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
 
 // Moves points near level sets to where these are 0. A point gets the facet -1 if there is none
 // within the distance that nodes have from triangles.
-void settle_on_level_sets(const Ground<3>& ground, std::vector<AlongSurfaces::Place>& places) {
-  const LevelSetTriangles& triangles = ground.domain().level_sets();
-  const double reach = ground.boundary().node_distance;
+void settle_on_level_sets(const LevelGeometry<3>& geometry,
+                          std::vector<AlongSurfaces::Place>& places) {
+  const LevelSetTriangles& triangles = geometry.domain().level_sets();
+  const double reach = geometry.boundary().node_distance;
   for (const std::shared_ptr<const LevelSet>& set : triangles.sets) {
     if (!set) continue;
     std::vector<std::size_t> on_set;
@@ -70,7 +71,7 @@ void settle_on_level_sets(const Ground<3>& ground, std::vector<AlongSurfaces::Pl
     const std::vector<char> found = set->project(x, reach);
     for (std::size_t k = 0; k < on_set.size(); ++k) {
       AlongSurfaces::Place& place = places[on_set[k]];
-      const FacetCorners<3> facet = ground.surface().corners(place.facet);
+      const FacetCorners<3> facet = geometry.surface().corners(place.facet);
       const bool near = distance<3>(nearest_on(facet, x[k]), x[k]) <= reach;
       place.x = x[k];
       if (!found[k] || !near) place.facet = -1;
@@ -90,20 +91,20 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   std::uint64_t in_vain = 0;
   for (std::int64_t round = 0; round < rule.rounds; ++round) {
     if (sum(repair.slivers(below)) == 0 || static_cast<double>(in_vain) > most_in_vain) break;
-    agreed(*level.comm, [&] { repair.draw(round, below); });
+    collective_try(*level.comm, [&] { repair.draw(round, below); });
     if (level.distributed()) {
       const auto draws = level.ghosts.tell<SliverDraw>(
           *level.comm, level.nodes, repair.drawn_corners(),
           [&](std::int32_t corner) { return repair.draws_of(corner); });
-      agreed(*level.comm, [&] { repair.take(draws); });
+      collective_try(*level.comm, [&] { repair.take(draws); });
     }
-    agreed(*level.comm, [&] { repair.move(); });
+    collective_try(*level.comm, [&] { repair.move(); });
     in_vain += sum(repair.in_vain());
     if (!level.distributed()) continue;
     const auto news =
         level.ghosts.tell<ChangedTetrahedron>(*level.comm, level.nodes, repair.moved_nodes(),
                                               [&](std::int32_t i) { return repair.changes_of(i); });
-    agreed(*level.comm, [&] { repair.follow(news); });
+    collective_try(*level.comm, [&] { repair.follow(news); });
   }
 }
 
@@ -111,7 +112,7 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
 class RoomOnSurfaces {
  public:
   explicit RoomOnSurfaces(const Level<3>& level) : room_(room_on_thin_walls(level)) {
-    agreed(*level.comm, [&] {
+    collective_try(*level.comm, [&] {
       for (std::int64_t i = 0; i < level.nodes.count; ++i)
         before_.push_back(level.nodes.position(i));
     });
@@ -134,14 +135,14 @@ class RoomOnSurfaces {
 AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input,
                                   const RoomOnSurfaces& room) {
   const auto walk = [&level, &room](std::int64_t i, const Point<3>& direction, double length) {
-    const Ground<3>& ground = level.ground;
+    const LevelGeometry<3>& geometry = level.geometry;
     const AlongSurfaces::Place from{level.nodes.position(i), level.nodes.boundary_node(i)};
-    if (!ground.bounds_domain(from.facet)) return from;
+    if (!geometry.bounds_domain(from.facet)) return from;
     const SurfacePoint to = go_along_surface(level, i, direction, room.way(i, length));
     if (!room.holds(i, to.position)) return from;
-    if (!ground.domain().level_sets().at(to.facet))
+    if (!geometry.domain().level_sets().at(to.facet))
       return AlongSurfaces::Place{to.position, to.facet};
-    const Surface& surface = ground.surface();
+    const Surface& surface = geometry.surface();
     const double off =
         dot(surface.normal(from.facet), difference(from.x, surface.corners(from.facet)[0]));
     return AlongSurfaces::Place{shifted(to.position, off, surface.normal(to.facet)), to.facet};
@@ -150,13 +151,13 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
     return in_domain(input, nodes, corners);
   };
   const auto on_one_sheet = [&level](std::int64_t i, std::int64_t j) {
-    return level.ground.surface().sees(level.ground.place(level.nodes, i),
-                                       level.ground.place(level.nodes, j));
+    return level.geometry.surface().sees(level.geometry.place(level.nodes, i),
+                                         level.geometry.place(level.nodes, j));
   };
   AlongSurfaces ways{walk, rule, {}, on_one_sheet};
-  if (!level.ground.domain().level_sets().sets.empty())
+  if (!level.geometry.domain().level_sets().sets.empty())
     ways.settle = [&level](std::vector<AlongSurfaces::Place>& places) {
-      settle_on_level_sets(level.ground, places);
+      settle_on_level_sets(level.geometry, places);
     };
   return ways;
 }
@@ -173,11 +174,12 @@ void repair_slivers(Level<3>& level, double repair_below) {
   const RoomOnSurfaces room(level);
   const AlongSurfaces along_surfaces = ways_along_surfaces(level, input, room);
   std::optional<SliverRepair> repair;
-  agreed(*level.comm,
-         [&] { repair.emplace(level.nodes, level.stars, rule, may_go(level), along_surfaces); });
+  collective_try(*level.comm, [&] {
+    repair.emplace(level.nodes, level.stars, rule, may_go(level), along_surfaces);
+  });
   for (const double below : {method::kFlatBelow, method::kThinBelow, rule.repair_below})
     if (below <= rule.repair_below) repair_rounds(level, *repair, rule, below);
-  agreed(*level.comm, [&] { repair->write_stars(level.stars); });
+  collective_try(*level.comm, [&] { repair->write_stars(level.stars); });
   level.timers.add(Phase::sweeps, repair->stars_looked_at());
   level.unknown_uses += repair->unknown_uses();
   level.nodes.moved();
@@ -208,7 +210,7 @@ std::optional<PopulationCounts> repair_thin_elements(Level<3>& level, const Stop
 }  // namespace
 
 FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps, const StopTest& stops) {
-  if (level.ground.kind() == GeometryKind::surface) {
+  if (level.geometry.kind() == GeometryKind::surface) {
     sweep_on_surfaces(level, sweeps);
     put_on_level_sets(level);
     return {};

@@ -17,9 +17,9 @@ bool covers(const Level<3>& level, std::int64_t i, const IncomingNode<3>& candid
   const Nodes<3>& nodes = level.nodes;
   if (distance<3>(nodes.position(i), candidate.position) >= gap * nodes.d(i)) return false;
   if (candidate.is_inner() || nodes.carrier(i) == Carrier::free) return candidate.is_inner();
-  const Ground<3>& ground = level.ground;
-  return ground.surface().sees(ground.place(nodes, i),
-                               ground.place(candidate.carrier, candidate.boundary_node));
+  const LevelGeometry<3>& geometry = level.geometry;
+  return geometry.surface().sees(geometry.place(nodes, i),
+                                 geometry.place(candidate.carrier, candidate.boundary_node));
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double 
 IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates, double gap) {
   exchange(level, kStarHops);
   IncomingNodes<3> found;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     rebuild_lists(level, level.settings.list_radius);
     for (const IncomingNode<3>& candidate : candidates) {
       const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);

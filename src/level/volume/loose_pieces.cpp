@@ -33,7 +33,7 @@ std::vector<PieceNode> nodes_of_pieces_too_many(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);
   const Nodes<3>& nodes = level.nodes;
   std::vector<PieceNode> own;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const std::set<std::int64_t> extra = pieces_too_many(level, pieces);
     for (std::int64_t i = 0; i < nodes.count; ++i)
       if (const std::int64_t piece = pieces.of[static_cast<std::size_t>(i)];
@@ -47,7 +47,7 @@ std::vector<PieceNode> nodes_of_pieces_too_many(const Level<3>& level) {
 }
 
 bool is_given(const Level<3>& level, const Point<3>& x) {
-  return std::ranges::any_of(level.ground.domain().fixed_nodes(),
+  return std::ranges::any_of(level.geometry.domain().fixed_nodes(),
                              [&](const FixedNode<3>& node) { return node.position == x; });
 }
 
@@ -66,7 +66,7 @@ bool has_elements(const Level<3>& level, std::int64_t i) { return level.stars.si
 std::vector<LoneNode> lone_nodes(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
   std::vector<LoneNode> own;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     for (std::int64_t i = 0; i < nodes.count; ++i)
       if (nodes.owned(i) != 0 && !has_elements(level, i) && disks_of_surfaces(level, i) > 0 &&
           !is_given(level, nodes.position(i)))
@@ -149,7 +149,7 @@ FoundNodes<3> features_left_out(const Level<3>& level) {
       own.push_back(nodes.boundary_node(i));
   const std::vector<std::int32_t> present = of_all_ranks(*level.comm, own);
   const std::set<std::int32_t> there(present.begin(), present.end());
-  const std::vector<FeatureNode>& laid = level.ground.features().nodes;
+  const std::vector<FeatureNode>& laid = level.geometry.features().nodes;
   for (std::int32_t f = 0; f < std::ssize(laid); ++f)
     if (!there.contains(f)) found.add(1, f, laid[index(f)].position);
   return found;

@@ -25,7 +25,7 @@ bool VisibilityInSpace::in_sight(std::int64_t i, std::int64_t j) const {
   const bool i_free = nodes_.carrier(i) == Carrier::free,
              j_free = nodes_.carrier(j) == Carrier::free;
   if (i_free || j_free) return i_free ? looks_at(j, i) : looks_at(i, j);
-  if (ground_.surface().sees(place(i), place(j))) return true;
+  if (geometry_.surface().sees(place(i), place(j))) return true;
   return !bubbles_on_surfaces() && see_through_inside(i, j);
 }
 
@@ -34,9 +34,9 @@ bool VisibilityInSpace::in_sight(std::int64_t i, std::int64_t j) const {
 bool VisibilityInSpace::looks_at(std::int64_t on_boundary, std::int64_t inner) const {
   const Point<3> way = difference(point_at<3>(at_, inner), point_at<3>(at_, on_boundary));
   bool any = false, in_front = false;
-  ground_.surface().for_sides(place(on_boundary), [&](const SurfaceSide& side) {
+  geometry_.surface().for_sides(place(on_boundary), [&](const SurfaceSide& side) {
     any = true;
-    in_front = in_front || !ground_.patch_bounds_domain(side.patch) || dot(way, side.normal) < 0;
+    in_front = in_front || !geometry_.patch_bounds_domain(side.patch) || dot(way, side.normal) < 0;
   });
   return in_front || !any;  // around a fixed node or an inner curve there is no surface
 }
@@ -44,14 +44,14 @@ bool VisibilityInSpace::looks_at(std::int64_t on_boundary, std::int64_t inner) c
 // Two nodes of different surfaces, or across an edge.
 bool VisibilityInSpace::see_through_inside(std::int64_t i, std::int64_t j) const {
   const Point<3> a = point_at<3>(at_, i), b = point_at<3>(at_, j);
-  return ground_.domain().index().inside(middle_of<3>(a, b));
+  return geometry_.domain().index().inside(middle_of<3>(a, b));
 }
 
 // ------------------------------------------------------------------ what is near ---------------
 
 NearBoundary<3>::NearLeaves NearBoundary<3>::near_leaves(const LevelTree<3>& level_tree,
                                                          double radius) {
-  const DomainMap<3>& map = level_tree.map();
+  const SizedTree<3>& map = level_tree.map();
   const LeafLinks<3>& links = *level_tree.links();
   const auto leaves = static_cast<std::size_t>(map.tree().leaf_count());
   NearLeaves near{radius, std::vector<double>(leaves), std::vector<char>(leaves)};
@@ -75,7 +75,7 @@ NearBoundary<3>::NearLeaves NearBoundary<3>::near_leaves(const LevelTree<3>& lev
 }
 
 void NearBoundary<3>::build(const Nodes<3>& nodes, const Field<3>& at, const Buckets<3>& buckets,
-                            const DomainMap<3>& map, const Ground<3>& ground) {
+                            const SizedTree<3>& map, const LevelGeometry<3>& geometry) {
   at_ = at;
   if (static_cast<std::int64_t>(gap_.extent(0)) < nodes.capacity()) {
     gap_ = make_view<double>("pnpbs::NearBoundary::gap", nodes.capacity());
@@ -83,17 +83,17 @@ void NearBoundary<3>::build(const Nodes<3>& nodes, const Field<3>& at, const Buc
   }
   for_each("pnpbs::NearBoundary::build", nodes.count, [&](std::int64_t i) {
     hidden_(i) = 0;
-    gap_(i) = nodes.moves(i) ? gap_of(i, nodes, buckets, map, ground) : kFarAway;
+    gap_(i) = nodes.moves(i) ? gap_of(i, nodes, buckets, map, geometry) : kFarAway;
   });
 }
 
 // Leaves that facets come near are few; there the domain's own index answers.
 double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
-                               const DomainMap<3>& map, const Ground<3>& ground) const {
+                               const SizedTree<3>& map, const LevelGeometry<3>& geometry) const {
   const double reach = near_.radius * nodes.d(i);
   if (nodes.carrier(i) == Carrier::surface) {
     const SurfacePoint here{nodes.boundary_node(i), nodes.position(i)};
-    const double gap = ground.surface().feature_clearance(here, reach);
+    const double gap = geometry.surface().feature_clearance(here, reach);
     return gap < reach ? gap : kFarAway;
   }
   const Point<3> x = point_at<3>(at_, i);
@@ -101,21 +101,21 @@ double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buck
   const bool in_bucket = map.tree().fine_box_holds(map.tree().fine_box(bucket), x);
   const std::int32_t leaf = in_bucket ? bucket : map.tree().leaf_at(x);
   if (leaf_is_clear(leaf) && reach <= near_.reach[static_cast<std::size_t>(leaf)]) return kFarAway;
-  const double gap = ground.domain().index().clearance(x, reach);
+  const double gap = geometry.domain().index().clearance(x, reach);
   return gap < reach ? gap : kFarAway;
 }
 
 // ------------------------------------------------------------------ how nodes move -------------
 
-Point<3> NearBoundary<3>::hold_off(std::int64_t i, Nodes<3>& nodes, const DomainMap<3>&,
-                                   const Ground<3>& ground, const Point<3>& to) const {
-  if (nodes.carrier(i) == Carrier::surface) return walk_on_surface(i, nodes, ground, to);
+Point<3> NearBoundary<3>::hold_off(std::int64_t i, Nodes<3>& nodes, const SizedTree<3>&,
+                                   const LevelGeometry<3>& geometry, const Point<3>& to) const {
+  if (nodes.carrier(i) == Carrier::surface) return walk_on_surface(i, nodes, geometry, to);
   constexpr double kRounding = 1 + 1e-8;
   const double clearance = method::kVolumeClearance * nodes.d(i);
   const Point<3> from = nodes.position(i);
   const double way = std::max(clearance, distance<3>(from, to));
   if (gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) + way)) return to;
-  const SurfaceIndex& index = ground.domain().index();
+  const SurfaceIndex& index = geometry.domain().index();
   const NearestPoint<3> nearest = index.nearest(to, clearance);
   // Inside as before where the way is too short to lead to any facet.
   const double facet_free = nearest.facet < 0 ? clearance : nearest.gap;
@@ -135,19 +135,20 @@ bool NearBoundary<3>::far_on_the_way(std::int64_t i, const Nodes<3>& nodes, cons
 }
 
 bool NearBoundary<3>::stays_clear_of_inner(std::int64_t i, const Nodes<3>& nodes,
-                                           const Ground<3>& ground, const Point<3>& to,
+                                           const LevelGeometry<3>& geometry, const Point<3>& to,
                                            double clearance) const {
   if (far_on_the_way(i, nodes, to, clearance)) return true;
-  const SurfaceIndex& index = ground.domain().index();
+  const SurfaceIndex& index = geometry.domain().index();
   const NearestPoint<3> there = index.nearest(to, clearance);
-  return there.facet < 0 || !ground.on_inner_surface(there.facet) ||
+  return there.facet < 0 || !geometry.on_inner_surface(there.facet) ||
          there.gap >= index.clearance(nodes.position(i), clearance);
 }
 
-bool NearBoundary<3>::stays_clear(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
-                                  const Point<3>& to, double clearance) const {
+bool NearBoundary<3>::stays_clear(std::int64_t i, const Nodes<3>& nodes,
+                                  const LevelGeometry<3>& geometry, const Point<3>& to,
+                                  double clearance) const {
   if (far_on_the_way(i, nodes, to, clearance)) return true;
-  const SurfaceIndex& index = ground.domain().index();
+  const SurfaceIndex& index = geometry.domain().index();
   if (!index.inside(to)) return false;
   const double gap = index.clearance(to, clearance);
   return gap >= clearance || gap >= index.clearance(nodes.position(i), clearance);
@@ -155,9 +156,10 @@ bool NearBoundary<3>::stays_clear(std::int64_t i, const Nodes<3>& nodes, const G
 
 // Along the surface, up to the features that have nodes of their own; nearer to them only as long
 // as there is room.
-Point<3> NearBoundary<3>::walk_on_surface(std::int64_t i, Nodes<3>& nodes, const Ground<3>& ground,
+Point<3> NearBoundary<3>::walk_on_surface(std::int64_t i, Nodes<3>& nodes,
+                                          const LevelGeometry<3>& geometry,
                                           const Point<3>& to) const {
-  const Surface& surface = ground.surface();
+  const Surface& surface = geometry.surface();
   const SurfacePoint from{nodes.boundary_node(i), nodes.position(i)};
   const SurfacePoint reached = walk(surface, from, difference(to, from.position));
   const double clearance = method::kBoundaryClearance * nodes.d(i);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/nodes.hpp"
-#include "level/ground.hpp"
+#include "level/level_geometry.hpp"
 #include "level/level_tree.hpp"
 #include "neighbors/buckets.hpp"
 
@@ -23,9 +23,9 @@ class NearBoundary;
 class VisibilityInSpace {
  public:
   // What is asked about and not visible is set in `hidden`, for both nodes.
-  VisibilityInSpace(const Nodes<3>& nodes, const Field<3>& at, const Ground<3>& ground,
+  VisibilityInSpace(const Nodes<3>& nodes, const Field<3>& at, const LevelGeometry<3>& geometry,
                     NodeArray<char>& hidden)
-      : nodes_(nodes), at_(at), ground_(ground), hidden_(hidden) {}
+      : nodes_(nodes), at_(at), geometry_(geometry), hidden_(hidden) {}
 
   bool may_occlude(std::int64_t i) const { return nodes_.carrier(i) != Carrier::free; }
   bool visible(std::int64_t i, std::int64_t j);
@@ -33,7 +33,7 @@ class VisibilityInSpace {
  private:
   bool bubbles_on_surfaces() const { return nodes_.moving == Carrier::surface; }
   SurfacePlace place(std::int64_t i) const {
-    return ground_.place(nodes_.carrier(i), nodes_.reference_on(i));
+    return geometry_.place(nodes_.carrier(i), nodes_.reference_on(i));
   }
   bool in_sight(std::int64_t i, std::int64_t j) const;
   bool looks_at(std::int64_t on_boundary, std::int64_t inner) const;
@@ -41,7 +41,7 @@ class VisibilityInSpace {
 
   const Nodes<3>& nodes_;
   Field<3> at_;
-  const Ground<3>& ground_;
+  const LevelGeometry<3>& geometry_;
   NodeArray<char>& hidden_;
 };
 
@@ -55,13 +55,13 @@ class NearBoundary<3> {
   };
   static NearLeaves near_leaves(const LevelTree<3>& tree, double radius);
   void adopt(NearLeaves near) { near_ = std::move(near); }
-  void reset(const Ground<3>&) {}
+  void reset(const LevelGeometry<3>&) {}
 
   void build(const Nodes<3>& nodes, const Field<3>& at, const Buckets<3>& buckets,
-             const DomainMap<3>& map, const Ground<3>& ground);
-  VisibilityInSpace visibility(const Nodes<3>& nodes, const DomainMap<3>&,
-                               const Ground<3>& ground) {
-    return {nodes, at_, ground, hidden_};
+             const SizedTree<3>& map, const LevelGeometry<3>& geometry);
+  VisibilityInSpace visibility(const Nodes<3>& nodes, const SizedTree<3>&,
+                               const LevelGeometry<3>& geometry) {
+    return {nodes, at_, geometry, hidden_};
   }
 
   double radius() const { return near_.radius; }
@@ -79,14 +79,14 @@ class NearBoundary<3> {
   bool constrains(const Nodes<3>& nodes, std::int64_t i, double reach) const {
     return nodes.carrier(i) == Carrier::surface || within(i, reach);
   }
-  Point<3> hold_off(std::int64_t i, Nodes<3>& nodes, const DomainMap<3>& map,
-                    const Ground<3>& ground, const Point<3>& to) const;
+  Point<3> hold_off(std::int64_t i, Nodes<3>& nodes, const SizedTree<3>& map,
+                    const LevelGeometry<3>& geometry, const Point<3>& to) const;
 
   // May free node i go to `to`, with that much room or no less than now?
-  bool stays_clear(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
+  bool stays_clear(std::int64_t i, const Nodes<3>& nodes, const LevelGeometry<3>& geometry,
                    const Point<3>& to, double clearance) const;
   // The same from inner surfaces, where these are what is nearest.
-  bool stays_clear_of_inner(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
+  bool stays_clear_of_inner(std::int64_t i, const Nodes<3>& nodes, const LevelGeometry<3>& geometry,
                             const Point<3>& to, double clearance) const;
 
  private:
@@ -94,8 +94,8 @@ class NearBoundary<3> {
                       double clearance) const;
 
   double gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
-                const DomainMap<3>& map, const Ground<3>& ground) const;
-  Point<3> walk_on_surface(std::int64_t i, Nodes<3>& nodes, const Ground<3>& ground,
+                const SizedTree<3>& map, const LevelGeometry<3>& geometry) const;
+  Point<3> walk_on_surface(std::int64_t i, Nodes<3>& nodes, const LevelGeometry<3>& geometry,
                            const Point<3>& to) const;
 
   NearLeaves near_;

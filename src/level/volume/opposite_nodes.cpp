@@ -43,7 +43,7 @@ struct Sheet {
 
 class ThinWalls {
  public:
-  explicit ThinWalls(const Level<3>& level) : level_(level), surface_(level.ground.surface()) {}
+  explicit ThinWalls(const Level<3>& level) : level_(level), surface_(level.geometry.surface()) {}
 
   // The sheets of the surfaces that lie before and behind a node on a surface, each less than
   // kThinWall d from the next one.
@@ -90,7 +90,7 @@ class ThinWalls {
     const SurfacePoint at = walk(surface_, sheet.opposite, move);
     const double room = method::kPartnerClearance * d;
     if (surface_.feature_clearance(at, room) < room) return std::nullopt;
-    return new_surface_node(level_.ground, at);
+    return new_surface_node(level_.geometry, at);
   }
 
  private:
@@ -103,7 +103,7 @@ class ThinWalls {
   std::optional<SurfacePoint> next_sheet(const SurfacePoint& from, SideOfFacet side,
                                          double d) const {
     const double reach = (is_in_body(from, side) ? method::kThinWall : method::kNarrowGap) * d;
-    return opposite_side(surface_, level_.ground.domain().index(), from, side, reach);
+    return opposite_side(surface_, level_.geometry.domain().index(), from, side, reach);
   }
   void add_sheets(std::int64_t i, SideOfFacet side, std::vector<Sheet>& stack) const {
     const Point<3>& ahead = surface_.normal(level_.nodes.boundary_node(i));
@@ -157,7 +157,7 @@ Replacement replacement_on(const Level<3>& level) {
 std::vector<double> room_on_thin_walls(const Level<3>& level) {
   constexpr double kRoom = 0.2;  // with 1, the shell of a cube with a wall of 0.1 d is torn
   std::vector<double> room;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const ThinWalls walls(level);
     room.resize(static_cast<std::size_t>(level.nodes.count));
     for_each("pnpbs::room_on_thin_walls", level.nodes.count, [&](std::int64_t i) {
@@ -170,10 +170,10 @@ std::vector<double> room_on_thin_walls(const Level<3>& level) {
 }
 
 bool connects_thin_wall(const Level<3>& level, const Point<3>& centroid, double d) {
-  const SurfaceIndex& index = level.ground.domain().index();
+  const SurfaceIndex& index = level.geometry.domain().index();
   const double reach = method::kThinWall * d;
   const NearestPoint<3> nearest = index.nearest(centroid, reach);
-  const Surface& surface = level.ground.surface();
+  const Surface& surface = level.geometry.surface();
   if (nearest.facet < 0 || surface.patch(nearest.facet) < 0) return false;
   const bool before = dot(difference(centroid, nearest.x), surface.normal(nearest.facet)) > 0;
   return opposite_side(surface, index, {nearest.facet, nearest.x},
@@ -190,7 +190,7 @@ PopulationCounts replace_nodes(Level<3>& level) {
   exchange(level, kStarHops);
   Replacement replacement;
   std::uint64_t leaving = 0;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     replacement = replacement_on(level);
     for (const std::int32_t i : replacement.leaving) leaving += level.nodes.owned(i) != 0;
   });

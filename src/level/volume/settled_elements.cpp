@@ -25,9 +25,9 @@ std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i) {
   if (nodes.carrier(i) == Carrier::free) return 0;
   std::vector<SurfaceSide> sides;
   bool all_bound = true;
-  level.ground.surface().for_sides(level.ground.place(nodes, i), [&](const SurfaceSide& side) {
+  level.geometry.surface().for_sides(level.geometry.place(nodes, i), [&](const SurfaceSide& side) {
     sides.push_back(side);
-    all_bound = all_bound && level.ground.patch_bounds_domain(side.patch);
+    all_bound = all_bound && level.geometry.patch_bounds_domain(side.patch);
   });
   if (!all_bound) return 0;
   // Sides follow each other around a disk: one ends where the next one begins.
@@ -58,9 +58,9 @@ bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>
   std::array<SurfacePlace, 3> places;
   for (std::size_t k = 0; k < 3; ++k) {
     if (level.nodes.carrier(corners[k]) == Carrier::free) return false;
-    places[k] = level.ground.place(level.nodes, corners[k]);
+    places[k] = level.geometry.place(level.nodes, corners[k]);
   }
-  return level.ground.surface().share_patch(places, kFold);
+  return level.geometry.surface().share_patch(places, kFold);
 }
 
 namespace {
@@ -158,7 +158,7 @@ LabelledStars labelled_stars(const Level<3>& level, const std::vector<char>& wan
     const std::int64_t disks = disks_of_surfaces(level, i);
     found.nodes.push_back({nodes.id(i), -1, disks});
     stars.for_neighbours(i, [&](std::int64_t j) {
-      if (joined(level.ground, nodes, i, j))
+      if (joined(level.geometry, nodes, i, j))
         found.nodes.push_back({nodes.id(i), nodes.id(j), disks});
     });
     stars.for_simplices(i, [&](const VolumeStars::Corners& others) {
@@ -197,11 +197,11 @@ std::vector<char> changed_nodes(const Level<3>& level,
 }  // namespace
 
 std::int64_t settle_elements(Level<3>& level, int rounds) {
-  if (level.ground.kind() == GeometryKind::surface) return 0;
+  if (level.geometry.kind() == GeometryKind::surface) return 0;
   const PhaseTimer timer(level.timers, Phase::conformity);
   std::vector<std::int64_t> own_ids;
   std::int64_t torn = 0;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     const std::vector<char> torn_here = torn_nodes(level);
     torn = std::ranges::count_if(torn_here, [](char is) { return is != 0; });
     if (torn > 0) own_ids = ids_around(level, torn_here);
@@ -211,11 +211,11 @@ std::int64_t settle_elements(Level<3>& level, int rounds) {
   std::vector<std::int64_t> ids = of_all_ranks(*level.comm, own_ids);
   std::ranges::sort(ids);
   LabelledStars own;
-  agreed(*level.comm, [&] { own = labelled_stars(level, owned_among(level, ids)); });
+  collective_try(*level.comm, [&] { own = labelled_stars(level, owned_among(level, ids)); });
   const std::vector<LabelledTetrahedron> tetrahedra = of_all_ranks(*level.comm, own.tetrahedra);
   const std::vector<JoinedNodes> nodes = of_all_ranks(*level.comm, own.nodes);
   const std::int64_t euler = euler_of_boundary(level), pieces = pieces_of_boundary(level);
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     ElementLabels labels(tetrahedra, by_node(nodes));
     labels.settle();
     labels.search(euler_of_surfaces(level) - euler, pieces_of_surfaces(level) - pieces, rounds);

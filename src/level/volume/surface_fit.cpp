@@ -22,7 +22,7 @@ bool is_off(const Level<3>& level, std::int64_t i, const FaceSide& others) {
   const double reach = std::min({nodes.d(i), nodes.d(a), nodes.d(b)});
   const auto samples = triangle_samples({nodes.position(i), nodes.position(a), nodes.position(b)});
   return std::ranges::any_of(samples, [&](const Point<3>& x) {
-    return level.ground.domain().index().clearance(x, reach) >= reach;
+    return level.geometry.domain().index().clearance(x, reach) >= reach;
   });
 }
 
@@ -36,10 +36,10 @@ std::int64_t faces_off_at(const Level<3>& level, std::int64_t i) {
 
 SurfaceFit measure_surface_fit(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
-  if (level.ground.kind() != GeometryKind::body) return {};
+  if (level.geometry.kind() != GeometryKind::body) return {};
   FoundNodes<3> off;
   std::vector<Point<3>> places;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     for (const std::int64_t i :
          indices_where("pnpbs::surface_fit", nodes.count,
                        [&](std::int64_t k) { return faces_off_at(level, k) > 0; })) {

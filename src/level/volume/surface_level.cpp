@@ -40,7 +40,7 @@ Settings surface_settings(const Settings& inside) {
 namespace {
 
 IncomingNodes<3> own_feature_nodes(const Level<3>& level) {
-  IncomingNodes<3> nodes = level.ground.feature_nodes();
+  IncomingNodes<3> nodes = level.geometry.feature_nodes();
   std::erase_if(nodes, [&](const IncomingNode<3>& node) {
     return !level.tree->owns(level.tree->tree().leaf_at(node.position));
   });
@@ -49,17 +49,17 @@ IncomingNodes<3> own_feature_nodes(const Level<3>& level) {
 
 // This rank's part of a fill of all surfaces. Collective.
 IncomingNodes<3> filled_surfaces(const Level<3>& level) {
-  const Ground<3>& ground = level.ground;
+  const LevelGeometry<3>& geometry = level.geometry;
   const Distribution<3>& distribution = level.tree->distribution();
-  const PartitionCells<3> one_cell(ground.bounds(), {});
+  const PartitionCells<3> one_cell(geometry.bounds(), {});
   const RankCells cells{
       level.distributed() ? distribution.cells().tree() : one_cell.tree(), [&](std::int32_t cell) {
         return !level.distributed() || distribution.owner_of_cell(cell) == level.comm->rank();
       }};
   IncomingNodes<3> filled;
-  for (const SurfacePoint& at : surface_fill(*level.comm, ground.surface(), ground.evaluator(),
+  for (const SurfacePoint& at : surface_fill(*level.comm, geometry.surface(), geometry.evaluator(),
                                              level.settings.node_limit(), cells))
-    filled.push_back(new_surface_node(ground, at));
+    filled.push_back(new_surface_node(geometry, at));
   return filled;
 }
 
@@ -84,25 +84,26 @@ std::int64_t put_surface_nodes(Level<3>& level, IncomingNodes<3> on_surfaces,
   const auto given = std::ssize(on_surfaces);
   if (!begin_anew) thin_on_surfaces(level, on_surfaces);
   const std::int64_t thinned = given - std::ssize(on_surfaces);
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     laid = own_feature_nodes(level);
     keep_ids_in_place(laid, on_features);
     filled = filled_surfaces(level);
     append(laid, begin_anew ? filled : on_surfaces);
   });
   level.nodes.moving = Carrier::surface;
-  number_and_store(level, {}, LaidNodes<3>(std::move(laid)));
+  number_and_store(level, {}, BoundaryNodes<3>(std::move(laid)));
   if (begin_anew) return thinned;
   add_nodes(level, in_gaps(level, filled));
   return thinned;
 }
 
-IncomingNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d) {
+IncomingNode<3> new_surface_node(const LevelGeometry<3>& geometry, const SurfacePoint& at,
+                                 double d) {
   return {at.position,
           -1,
           Carrier::surface,
           at.facet,
-          ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag,
+          geometry.boundary().facets[static_cast<std::size_t>(at.facet)].tag,
           -1,
           d};
 }
@@ -122,8 +123,8 @@ IncomingNodes<3> surface_nodes(const Level<3>& level) {
   return found;
 }
 
-void put_on_level_sets(const Ground<3>& ground, IncomingNodes<3>& nodes) {
-  const LevelSetTriangles& triangles = ground.domain().level_sets();
+void put_on_level_sets(const LevelGeometry<3>& geometry, IncomingNodes<3>& nodes) {
+  const LevelSetTriangles& triangles = geometry.domain().level_sets();
   for (const std::shared_ptr<const LevelSet>& set : triangles.sets) {
     if (!set) continue;
     std::vector<std::size_t> on_set;
@@ -134,17 +135,17 @@ void put_on_level_sets(const Ground<3>& ground, IncomingNodes<3>& nodes) {
         on_set.push_back(i);
         x.push_back(nodes[i].position);
       }
-    set->project(x, ground.boundary().node_distance);
+    set->project(x, geometry.boundary().node_distance);
     for (std::size_t k = 0; k < on_set.size(); ++k) nodes[on_set[k]].position = x[k];
   }
 }
 
 void put_on_level_sets(Level<3>& level) {
-  if (level.ground.domain().level_sets().sets.empty()) return;
+  if (level.geometry.domain().level_sets().sets.empty()) return;
   Nodes<3>& nodes = level.nodes;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     IncomingNodes<3> put = surface_nodes(level);
-    put_on_level_sets(level.ground, put);
+    put_on_level_sets(level.geometry, put);
     std::size_t next = 0;
     for (std::int64_t i = 0; i < nodes.count; ++i)
       if (nodes.owned(i) && nodes.carrier(i) != Carrier::free)
@@ -152,7 +153,7 @@ void put_on_level_sets(Level<3>& level) {
   });
   nodes.moved();
   nodes.set_reference_positions();
-  level.ghosts.choose_anew();
+  level.ghosts.invalidate();
 }
 
 // ------------------------------------------------------------------ walks ----------------------
@@ -165,11 +166,11 @@ SurfacePoint place_on_surface(const Nodes<3>& nodes, std::int64_t i) {
 
 // Where one comes to who goes that far from node i, which is on a surface.
 SurfacePoint walk_from(const Level<3>& level, std::int64_t i, const Point<3>& move) {
-  return walk(level.ground.surface(), place_on_surface(level.nodes, i), move);
+  return walk(level.geometry.surface(), place_on_surface(level.nodes, i), move);
 }
 
 const Point<3>& normal_at(const Level<3>& level, std::int64_t i) {
-  return level.ground.surface().normal(level.nodes.boundary_node(i));
+  return level.geometry.surface().normal(level.nodes.boundary_node(i));
 }
 
 }  // namespace
@@ -197,7 +198,7 @@ Point<3> free_place_on_surface(const Level<3>& level, std::int64_t i) {
 // The way there as it was walked: along the chord, which for a node's own surroundings leads to the
 // same place but for what the surface bends.
 std::int32_t facet_at(const Level<3>& level, std::int64_t from, const Point<3>& place) {
-  return pull_back(level.ground.surface(), place, level.nodes.boundary_node(from)).facet;
+  return pull_back(level.geometry.surface(), place, level.nodes.boundary_node(from)).facet;
 }
 
 // ------------------------------------------------------------------ sweeps ---------------------
@@ -208,7 +209,7 @@ namespace {
 SurfacePoint walk_clear_of_features(const Level<3>& level, std::int64_t i, const Point<3>& move) {
   const SurfacePoint here = place_on_surface(level.nodes, i), to = walk_from(level, i, move);
   const double clearance = method::kBoundaryClearance * level.nodes.d(i);
-  const Surface& surface = level.ground.surface();
+  const Surface& surface = level.geometry.surface();
   const double gap = surface.feature_clearance(to, clearance);
   return gap < clearance && gap < surface.feature_clearance(here, clearance) ? here : to;
 }
@@ -239,7 +240,7 @@ void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps) {
   for (std::int64_t s = 0; s < sweeps; ++s) {
     nodes.set_reference_positions();
     exchange(level, kStarHops);
-    agreed(*level.comm, [&] {
+    collective_try(*level.comm, [&] {
       rebuild_lists(level, level.settings.list_radius);
       std::vector<SurfacePoint> to(static_cast<std::size_t>(nodes.count));
       const auto moves = [&](std::int64_t i) { return nodes.moves(i) && nodes.owned(i) != 0; };
@@ -256,7 +257,7 @@ void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps) {
     nodes.moved();
   }
   nodes.set_reference_positions();
-  level.ghosts.choose_anew();
+  level.ghosts.invalidate();
 }
 
 // ------------------------------------------------------------------ refinement -----------------
@@ -267,7 +268,7 @@ namespace {
 IncomingNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, double d) {
   const Point<3> way = difference(level.nodes.position(j), level.nodes.position(i));
   const SurfacePoint at = walk_from(level, i, {0.5 * way[0], 0.5 * way[1], 0.5 * way[2]});
-  return new_surface_node(level.ground, at, d);
+  return new_surface_node(level.geometry, at, d);
 }
 
 }  // namespace
@@ -285,13 +286,13 @@ void append_surface_midpoints(const Level<3>& level, const View<double>& next_sp
       // Of two nodes on surfaces the one with the lesser id has the edge.
       if (nodes.carrier(j) != Carrier::surface || nodes.id(i) < nodes.id(j))
         refined.push_back(middle(level, i, j, d));
-      if (!star[k].triangle || joined(level.ground, nodes, j, next)) continue;
+      if (!star[k].triangle || joined(level.geometry, nodes, j, next)) continue;
       if (nodes.carrier(j) == Carrier::surface || nodes.carrier(next) == Carrier::surface) continue;
       // An edge between two nodes on features: the way there is through the middle of the triangle.
       const Point<3> a = nodes.position(j), b = nodes.position(next);
       const SurfacePoint at =
-          pull_back(level.ground.surface(), middle_of<3>(a, b), nodes.boundary_node(i));
-      refined.push_back(new_surface_node(level.ground, at, d));
+          pull_back(level.geometry.surface(), middle_of<3>(a, b), nodes.boundary_node(i));
+      refined.push_back(new_surface_node(level.geometry, at, d));
     }
   }
 }

@@ -22,14 +22,15 @@ Settings surface_settings(const Settings& inside);
 std::int64_t put_surface_nodes(Level<3>& level, IncomingNodes<3> on_surfaces,
                                const IncomingNodes<3>& on_features, bool begin_anew);
 // A new one there, placed for d.
-IncomingNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d = 0);
+IncomingNode<3> new_surface_node(const LevelGeometry<3>& geometry, const SurfacePoint& at,
+                                 double d = 0);
 // They rest: from now on those inside move.
 void fix_surface_nodes(Level<3>& level);
 // The owned nodes of the boundary.
 IncomingNodes<3> surface_nodes(const Level<3>& level);
 // Those on triangles of a level set move to where it is 0, if that is as near as the triangle's
 // error.
-void put_on_level_sets(const Ground<3>& ground, IncomingNodes<3>& nodes);
+void put_on_level_sets(const LevelGeometry<3>& geometry, IncomingNodes<3>& nodes);
 // The same of the level's own. Collective.
 void put_on_level_sets(Level<3>& level);
 

@@ -3,12 +3,13 @@
 
 namespace pnpbs {
 
-bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j) {
+bool joined(const LevelGeometry<3>& geometry, const Nodes<3>& nodes, std::int64_t i,
+            std::int64_t j) {
   const auto on_feature = [&](std::int64_t k) {
     return nodes.carrier(k) == Carrier::curve || nodes.carrier(k) == Carrier::fixed;
   };
   if (!on_feature(i) || !on_feature(j)) return false;
-  return ground.features().joined(nodes.boundary_node(i), nodes.boundary_node(j));
+  return geometry.features().joined(nodes.boundary_node(i), nodes.boundary_node(j));
 }
 
 namespace {
@@ -19,7 +20,7 @@ constexpr std::int32_t kNowhere = -1, kNotListed = -2;
 std::int32_t neighbour_along(const Level<3>& level, std::int64_t i, const CurveDirection& way) {
   if (way.curve < 0) return kNowhere;
   const Nodes<3>& nodes = level.nodes;
-  const std::int32_t laid = level.ground.features().next(nodes.boundary_node(i), way);
+  const std::int32_t laid = level.geometry.features().next(nodes.boundary_node(i), way);
   std::int32_t found = kNotListed;
   level.lists().for_neighbours(i, [&](std::int64_t j) {
     const bool on_feature =
@@ -44,16 +45,16 @@ StarSide seen_on(const Level<3>& level, std::int64_t i, const SurfaceSide& side)
 
 std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i) {
   const Nodes<3>& nodes = level.nodes;
-  const Ground<3>& ground = level.ground;
+  const LevelGeometry<3>& geometry = level.geometry;
   std::vector<StarSide> sides;
   bool known = true;
-  ground.surface().for_sides(ground.place(nodes, i), [&](const SurfaceSide& side) {
+  geometry.surface().for_sides(geometry.place(nodes, i), [&](const SurfaceSide& side) {
     sides.push_back(seen_on(level, i, side));
     known = known && sides.back().first != kNotListed && sides.back().last != kNotListed;
   });
   std::vector<SurfaceStarEntry> star;
   const Joined on_curve = [&](std::int32_t a, std::int32_t b) {
-    return joined(ground, nodes, a, b);
+    return joined(geometry, nodes, a, b);
   };
   const double reach = level.lists().radius() * nodes.d(i);
   const SurfaceStarPoint centre{nodes.position(i), nodes.id(i), static_cast<std::int32_t>(i)};

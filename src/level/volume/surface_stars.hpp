@@ -11,7 +11,8 @@
 namespace pnpbs {
 
 // Are two nodes next to each other on a feature curve?
-bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j);
+bool joined(const LevelGeometry<3>& geometry, const Nodes<3>& nodes, std::int64_t i,
+            std::int64_t j);
 
 // The star of a node of the boundary from the level's lists, side after side, each
 // counter-clockwise as seen from outside; empty if it is not known. The lists are those made while

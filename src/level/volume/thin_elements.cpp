@@ -73,8 +73,8 @@ EdgeEnd end_at(const Level<3>& level, std::int64_t i) {
 }
 
 bool on_one_sheet(const Level<3>& level, std::int64_t i, std::int64_t j) {
-  const Ground<3>& ground = level.ground;
-  return ground.surface().sees(ground.place(level.nodes, i), ground.place(level.nodes, j));
+  const LevelGeometry<3>& geometry = level.geometry;
+  return geometry.surface().sees(geometry.place(level.nodes, i), geometry.place(level.nodes, j));
 }
 
 // Returns the shortest edge of an element, the first of equals by id, with its length over d.
@@ -127,7 +127,7 @@ std::optional<SliverMiddle> middle_of_sliver(const Level<3>& level, const Corner
   for (const VolumeNode& corner : t)
     if (distance<3>(corner.x, middle.x) < room * middle.d) return {};
   const double clearance = method::kSliverClearance * room * middle.d;
-  const SurfaceIndex& index = level.ground.domain().index();
+  const SurfaceIndex& index = level.geometry.domain().index();
   if (!index.inside(middle.x) || index.clearance(middle.x, clearance) < clearance) return {};
   return middle;
 }
@@ -156,7 +156,7 @@ ThinElements own_thin_elements(const Level<3>& level) {
   ThinElements found;
   const auto thin_at = indices_where("pnpbs::thin_elements", nodes.count, any_thin_at);
   if (thin_at.empty()) return found;
-  const SharpEdges sharp(level.ground.boundary(), level.ground.surface().features());
+  const SharpEdges sharp(level.geometry.boundary(), level.geometry.surface().features());
   const auto at_sharp_edge = [&](const Corners& corners) {
     return !sharp.none() && std::ranges::any_of(corners, [&](std::int64_t i) {
       return sharp.any_nearer(nodes.position(i), nodes.d(i));
@@ -185,7 +185,7 @@ ThinElements own_thin_elements(const Level<3>& level) {
 ThinElements thin_elements(Level<3>& level) {
   constexpr std::uint64_t kMost = 100000;
   ThinElements own;
-  agreed(*level.comm, [&] { own = own_thin_elements(level); });
+  collective_try(*level.comm, [&] { own = own_thin_elements(level); });
   ThinElements all;
   all.count = level.comm->allreduce_sum(own.count);
   if (level.comm->allreduce_sum(own.edges.size() + own.middles.size()) > kMost) return all;
@@ -240,14 +240,14 @@ class FeatureNeighbours {
 };
 
 bool is_user_node(const Level<3>& level, const Point<3>& x) {
-  return std::ranges::any_of(level.ground.domain().fixed_nodes(),
+  return std::ranges::any_of(level.geometry.domain().fixed_nodes(),
                              [&](const FixedNode<3>& node) { return node.position == x; });
 }
 
 // The choice of the nodes that leave, the same on all ranks.
 class Leaving {
  public:
-  explicit Leaving(const Level<3>& level) : level_(level), neighbours_(level.ground.features()) {}
+  explicit Leaving(const Level<3>& level) : level_(level), neighbours_(level.geometry.features()) {}
 
   void choose(const ShortEdge& edge) {
     const auto& [a, b] = edge.ends;
@@ -266,7 +266,7 @@ class Leaving {
   std::tuple<int, std::int64_t, std::int64_t> rank(const EdgeEnd& end) const {
     if (end.on_feature == 0) return {2, 0, end.id};
     const auto node = static_cast<std::size_t>(end.boundary_node);
-    return {level_.ground.features().nodes[node].corner < 0 ? 1 : 0,
+    return {level_.geometry.features().nodes[node].corner < 0 ? 1 : 0,
             -std::ssize(neighbours_.of(end.boundary_node)), end.id};
   }
   // Removes an end unless it has to stay. No two nodes in a row of a curve leave.
@@ -343,7 +343,7 @@ ThinElementChanges change_nodes_of_thin_elements(Level<3>& level) {
     std::set<std::int64_t> ids;
     const std::int64_t removed = remove_nodes_of(level, thin.edges, ids);
     IncomingNodes<3> more;
-    if (round == 0) agreed(*level.comm, [&] { more = nodes_in(level, thin.middles, ids); });
+    if (round == 0) collective_try(*level.comm, [&] { more = nodes_in(level, thin.middles, ids); });
     const std::int64_t inserted = std::ssize(more);
     if (level.comm->allreduce_sum(static_cast<std::uint64_t>(removed + inserted)) == 0) break;
     exchange(level, kStarHops);  // nodes have moved, some into the parts of other ranks

@@ -48,7 +48,7 @@ void add_vacancy(const Level<3>& level, std::int64_t i, std::array<std::int64_t,
   const Point<3> centre = circle_centre(x);
   const double d = nodes.d(i), radius = distance<3>(centre, x[0]) / d;
   if (!(radius > method::kVacant && radius < level.lists().radius())) return;
-  const Surface& surface = level.ground.surface();
+  const Surface& surface = level.geometry.surface();
   const SurfacePoint at = pull_back(surface, centre, nodes.boundary_node(i));
   const double room = method::kBoundaryClearance * d;
   if (distance<3>(at.position, centre) > method::kVacancyBend * d ||
@@ -76,7 +76,7 @@ std::vector<Vacancy> vacancies_of_own(const Level<3>& level) {
 }
 
 IncomingNode<3> node_in(const Level<3>& level, const Vacancy& vacancy) {
-  return new_surface_node(level.ground, {static_cast<std::int32_t>(vacancy.facet), vacancy.x});
+  return new_surface_node(level.geometry, {static_cast<std::int32_t>(vacancy.facet), vacancy.x});
 }
 
 // Of those too near to each other the widest; few are left to tell all ranks of.
@@ -98,7 +98,7 @@ std::vector<Vacancy> widest(const Level<3>& level, const std::vector<Vacancy>& o
 std::int64_t fill_vacancies(Level<3>& level) {
   exchange(level, kStarHops);
   std::vector<Vacancy> own;
-  agreed(*level.comm, [&] {
+  collective_try(*level.comm, [&] {
     rebuild_lists(level, level.settings.list_radius);
     own = vacancies_of_own(level);
     std::erase_if(own, [&](const Vacancy& vacancy) {

@@ -50,7 +50,7 @@ TriangleMeasure measure_by_shape(double bad_below) {
 }
 
 BadTriangleRepair::BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars,
-                                     const NearEdges& near_edges, const DomainMap<2>& map,
+                                     const NearEdges& near_edges, const SizedTree<2>& map,
                                      TriangleMeasure measure)
     : nodes_(nodes),
       stars_(stars),

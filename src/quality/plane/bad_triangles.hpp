@@ -40,7 +40,7 @@ class BadTriangleRepair {
  public:
   // Finds the nodes of bad triangles.
   BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-                    const DomainMap<2>& map, TriangleMeasure measure);
+                    const SizedTree<2>& map, TriangleMeasure measure);
 
   // Moves the nodes of bad triangles, of neighbours only the one with the worst. Returns how many
   // of this rank's. Ghosts must be exact.
@@ -65,7 +65,7 @@ class BadTriangleRepair {
   Nodes<2>& nodes_;
   const DelaunayStars& stars_;
   const NearEdges& near_edges_;
-  const DomainMap<2>& map_;
+  const SizedTree<2>& map_;
   const TriangleMeasure measure_;
   std::vector<Candidate> candidates_;  // in the order of memory
 };

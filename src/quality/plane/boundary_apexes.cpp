@@ -23,7 +23,7 @@ constexpr std::array<double, 3> kLookedAt{0.5, 1, 2};
 
 }  // namespace
 
-BoundaryApexes::BoundaryApexes(const DomainMap<2>& map, const IncidentSectors& sectors,
+BoundaryApexes::BoundaryApexes(const SizedTree<2>& map, const IncidentSectors& sectors,
                                const std::function<double(std::int32_t)>& spacing,
                                std::vector<std::int32_t> edges)
     : map_(map), sectors_(sectors), spacing_(spacing), edges_(std::move(edges)) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/plane/incident_sectors.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 
 namespace pnpbs {
 
@@ -24,7 +24,7 @@ class BoundaryApexes {
  public:
   // Over these edges, on the sides that are inside the domain. spacing(b): d at boundary node b. An
   // edge beside these may be missing if it does not matter whether those near it stand.
-  BoundaryApexes(const DomainMap<2>& map, const IncidentSectors& sectors,
+  BoundaryApexes(const SizedTree<2>& map, const IncidentSectors& sectors,
                  const std::function<double(std::int32_t)>& spacing,
                  std::vector<std::int32_t> edges);
 
@@ -45,7 +45,7 @@ class BoundaryApexes {
   bool is_visible(const BoundaryApex& apex, const Point<2>& middle) const;
   bool is_crowded(const BoundaryApex& apex) const;
 
-  const DomainMap<2>& map_;
+  const SizedTree<2>& map_;
   const IncidentSectors& sectors_;
   const std::function<double(std::int32_t)>& spacing_;
   std::vector<std::int32_t> edges_;   // by increasing index

@@ -167,7 +167,7 @@ CellSums local_sums(const Communicator& comm, const MeasuredNodes<2>& measured,
                     const FillGhosts& fill_ghosts) {
   std::optional<CellMeasurement<N>> cells;
   CellSums sums;
-  agreed(comm, [&] {
+  collective_try(comm, [&] {
     cells.emplace(measured, stars, bands);
     sums = cells->sums_of_cells();
   });

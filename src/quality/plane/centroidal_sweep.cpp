@@ -4,7 +4,7 @@
 namespace pnpbs {
 
 void centroidal_sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-                      const DomainMap<2>& map, const Embedding<2>& embedding, const SweepRule& rule,
+                      const SizedTree<2>& map, const Embedding<2>& embedding, const SweepRule& rule,
                       Field<2>& proposed, View<char>& allowed) {
   const CellCentroids centroids(nodes, stars, embedding);
   for_each("pnpbs::centroidal_sweep", nodes.count, [&](std::int64_t i) {

@@ -10,7 +10,7 @@ namespace pnpbs {
 
 // Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.
 void centroidal_sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-                      const DomainMap<2>& map, const Embedding<2>& embedding, const SweepRule& rule,
+                      const SizedTree<2>& map, const Embedding<2>& embedding, const SweepRule& rule,
                       Field<2>& proposed, View<char>& allowed);
 
 }  // namespace pnpbs

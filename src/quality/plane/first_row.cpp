@@ -35,7 +35,7 @@ std::vector<std::int32_t> edges_at(const std::vector<std::int32_t>& places,
 
 class FirstRowChoice {
  public:
-  FirstRowChoice(const Nodes<2>& nodes, const AdjacencyList<2>& lists, const DomainMap<2>& map,
+  FirstRowChoice(const Nodes<2>& nodes, const AdjacencyList<2>& lists, const SizedTree<2>& map,
                  const IncidentSectors& sectors,
                  const std::function<double(std::int32_t)>& boundary_spacing)
       : nodes_(nodes),
@@ -178,7 +178,7 @@ class FirstRowChoice {
 
   const Nodes<2>& nodes_;
   const AdjacencyList<2>& lists_;
-  const DomainMap<2>& map_;
+  const SizedTree<2>& map_;
   const IncidentSectors& sectors_;
   std::vector<std::int32_t> boundary_places_;
   BoundaryApexes apexes_;
@@ -188,7 +188,7 @@ class FirstRowChoice {
 }  // namespace
 
 FirstRow choose_first_row(const Nodes<2>& nodes, const AdjacencyList<2>& lists,
-                          const DomainMap<2>& map, const IncidentSectors& sectors,
+                          const SizedTree<2>& map, const IncidentSectors& sectors,
                           const std::function<double(std::int32_t)>& boundary_spacing) {
   return FirstRowChoice(nodes, lists, map, sectors, boundary_spacing).choose();
 }

@@ -15,7 +15,7 @@
 #include "neighbors/adjacency_list.hpp"
 #include "population/population.hpp"
 #include "quality/plane/boundary_apexes.hpp"
-#include "spacing/domain_map.hpp"
+#include "spacing/sized_tree.hpp"
 
 namespace pnpbs {
 
@@ -34,7 +34,7 @@ struct FirstRow {
 
 // Of nodes for which lists are there, where they are now: the change of owned ones.
 FirstRow choose_first_row(const Nodes<2>& nodes, const AdjacencyList<2>& lists,
-                          const DomainMap<2>& map, const IncidentSectors& sectors,
+                          const SizedTree<2>& map, const IncidentSectors& sectors,
                           const std::function<double(std::int32_t)>& boundary_spacing);
 
 }  // namespace pnpbs

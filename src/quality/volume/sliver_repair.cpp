@@ -10,8 +10,8 @@
 #include "base/mixed_hash.hpp"
 #include "base/nodes_worked_for.hpp"
 #include "method/constants.hpp"
-#include "quality/volume/few_nodes.hpp"
 #include "quality/volume/lot_bits.hpp"
+#include "quality/volume/small_node_set.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {
@@ -238,7 +238,7 @@ double SliverRepair::penalty(std::span<const TetrahedronNodes> tetrahedra, std::
 
 // Of all tetrahedra that a move of node i usually changes.
 double SliverRepair::penalty_around(std::int32_t i) const {
-  FewNodes centres;
+  SmallNodeSet centres;
   centres.add(i);
   stars_.for_neighbours(i, [&](std::int64_t j) { centres.add(static_cast<std::int32_t>(j)); });
   const auto is_centre = [&](std::int32_t j) { return centres.contains(j); };

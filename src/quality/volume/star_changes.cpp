@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/execution.hpp"
-#include "quality/volume/few_nodes.hpp"
+#include "quality/volume/small_node_set.hpp"
 
 namespace pnpbs {
 
@@ -61,7 +61,7 @@ StarChanges::Star StarChanges::star_after(std::int32_t i, const StarChange& chan
   });
   for (const TetrahedronNodes& t : change.made)
     if (has(t, i)) star.simplices.push_back(others(t, i));
-  FewNodes neighbours;
+  SmallNodeSet neighbours;
   for (const Corners& corners : star.simplices)
     for (const std::int32_t j : corners)
       if (!neighbours.contains(j)) neighbours.add(j);

@@ -25,8 +25,8 @@ bool add_results(pnpbs_placement placement, pnpbs_context context, MPI_Comm rank
 
 /** Whether all ranks were told the same status and, of an error, the same message; adds both.
  *  Collective. */
-bool agreed(pnpbs_status status, pnpbs_context context, MPI_Comm ranks, const std::string& name,
-            Results& results);
+bool collective_try(pnpbs_status status, pnpbs_context context, MPI_Comm ranks,
+                    const std::string& name, Results& results);
 
 std::string packed(const Results& results);
 Results unpacked(const std::string& text);

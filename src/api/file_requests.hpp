@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that a call is to write, as its arguments name them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "api/guard.hpp"
+#include "io/write_files.hpp"
+
+namespace pnpbs::api {
+
+inline std::vector<io::FileRequest> requests_of(std::int32_t n, const char* const* paths,
+                                                const char* const* formats,
+                                                const std::int32_t* elements,
+                                                const io::Requested& of) {
+  require_count(n, "n");
+  if (n > 0) require_pointer(paths, "paths");
+  std::vector<io::FileRequest> requests;
+  for (std::int32_t k = 0; k < n; ++k) {
+    const std::string at = "[" + std::to_string(k) + "]";
+    require_pointer(paths[k], ("paths" + at).c_str());
+    const char* format = formats && formats[k] ? formats[k] : "";
+    io::add_request(paths[k], format, elements && elements[k], of, requests);
+  }
+  return requests;
+}
+
+// Ranks that want other files would wait for each other for ever.
+inline void require_same_requests(const Communicator& comm,
+                                  const std::vector<io::FileRequest>& requests) {
+  std::string mine;
+  for (const io::FileRequest& request : requests)
+    mine +=
+        std::string(request.format->name) + (request.elements ? "+ " : " ") + request.path + "\n";
+  Bytes theirs(mine.begin(), mine.end());
+  comm.broadcast(theirs, 0);
+  collective_try(comm, [&] {
+    if (std::string(theirs.begin(), theirs.end()) == mine) return;
+    throw Error(ErrorKind::argument,
+                "the files to write are not those of rank 0: name the same ones on all ranks");
+  });
+}
+
+}  // namespace pnpbs::api

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/plane/level_geometry.hpp"
+
+#include <iterator>
+
+#include "base/error.hpp"
+
+namespace pnpbs {
+
+LevelGeometry<2>::LevelGeometry(std::shared_ptr<const PlaneDomain> domain,
+                                std::shared_ptr<const Spacing<2>> spacing, const NodeLimit& limit)
+    : domain_(std::move(domain)), spacing_(std::move(spacing)) {
+  boundary_ = discretize_boundary(*domain_, evaluator(), limit.max_nodes);
+  // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too. But not
+  // those of a patch that are to move: no others come among them.
+  for (std::size_t f = static_cast<std::size_t>(boundary_.first_fixed); f < boundary_.nodes.size();
+       ++f) {
+    if (domain_->is_in_margin(boundary_.nodes[f].position)) continue;
+    const std::int32_t node = static_cast<std::int32_t>(f);
+    boundary_.facets.push_back({node, node, boundary_.nodes[f].tag, true, true});
+  }
+  sectors_.build(boundary_);
+  if (domain_->closing()) require_one_triangle_left();
+  bubble_bound_ = bubbles_on_boundary(boundary_);
+  std::vector<Point<2>> positions;
+  for (const BoundaryNode<2>& node : boundary_.nodes) positions.push_back(node.position);
+  boundary_spacing_.resize(positions.size());
+  evaluator()(std::ssize(positions), positions.data(), boundary_spacing_.data());
+}
+
+// What closes a whole sphere has to leave that, and nothing else bounds it.
+void LevelGeometry<2>::require_one_triangle_left() const {
+  const auto edges = std::ranges::count_if(boundary_.facets, &BoundaryEdge::bounds);
+  if (edges != 3)
+    throw Error(ErrorKind::spacing,
+                "the spacing varies so much beside the point that is named as outside that what "
+                "closes the sphere there leaves " +
+                    std::to_string(edges) + " edges open, not 3: name another point");
+}
+
+SpacingEvaluator<2> LevelGeometry<2>::evaluator() const {
+  return [this](std::int64_t n, const Point<2>* x, double* d) {
+    evaluate_spacing<2>(*spacing_, domain_->area(), n, x, d);
+  };
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/level_geometry.hpp"
+
+#include <utility>
+
+#include "domain/volume/feature_nodes.hpp"
+
+namespace pnpbs {
+
+LevelGeometry<3>::LevelGeometry(std::shared_ptr<const VolumeDomain> domain,
+                                std::shared_ptr<const Spacing<3>> spacing, const NodeLimit& limit)
+    : domain_(std::move(domain)),
+      kind_(domain_->kind()),
+      spacing_(std::move(spacing)),
+      bounds_(widened(domain_->bounds(), domain_->mesh().node_distance)),
+      surface_(domain_->mesh(), domain_->features()) {
+  features_ = lay_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), limit);
+  put_on_creases(domain_->resolved(), features_, boundary().node_distance);
+  const Features& features = domain_->features();
+  patch_bounds_.assign(index(features.patches), 0);
+  for (std::size_t f = 0; f < features.patch.size(); ++f)
+    if (features.patch[f] >= 0)
+      patch_bounds_[index(features.patch[f])] = boundary().facets[f].bounds();
+}
+
+SpacingEvaluator<3> LevelGeometry<3>::evaluator() const {
+  return [this](std::int64_t n, const Point<3>* x, double* d) {
+    evaluate_spacing<3>(*spacing_, domain_->volume(), n, x, d);
+  };
+}
+
+SurfacePlace LevelGeometry<3>::place(Carrier carrier, std::int32_t on) const {
+  if (carrier == Carrier::surface) return {SurfacePlace::On::facet, on};
+  const FeatureNode& node = features_.nodes[index(on)];
+  if (node.corner >= 0) return {SurfacePlace::On::corner, node.corner};
+  return {SurfacePlace::On::edge, node.edge};
+}
+
+IncomingNodes<3> LevelGeometry<3>::feature_nodes() const {
+  IncomingNodes<3> nodes;
+  for (std::size_t n = 0; n < features_.nodes.size(); ++n) {
+    const FeatureNode& node = features_.nodes[n];
+    IncomingNode<3> at{node.position, -1};
+    at.carrier = node.corner >= 0 ? Carrier::fixed : Carrier::curve;
+    at.boundary_node = static_cast<std::int32_t>(n);
+    at.tag = node.tag;
+    nodes.push_back(at);
+  }
+  return nodes;
+}
+
+}  // namespace pnpbs
