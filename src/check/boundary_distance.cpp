@@ -9,7 +9,7 @@
 #include "base/space_vectors.hpp"
 #include "comm/records.hpp"
 #include "geometry/volume/nearest_triangles.hpp"
-#include "geometry/volume/triangle_samples.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 
@@ -18,17 +18,20 @@ namespace {
 struct Face {
   FacetCorners<3> corners;
   double d;  // the least at its corners
+  // Bit k: the side from corner k to the next is sampled here rather than at the face beyond it.
+  std::int32_t sides;
 };
 
 std::vector<Face> own_faces(const Results<3>& results) {
   const Nodes<3>& nodes = results.level().nodes;
   std::vector<Face> faces;
   results.for_open_facets([&](const std::array<std::int64_t, 3>& places) {
-    Face face{{}, std::numeric_limits<double>::infinity()};
+    Face face{{}, std::numeric_limits<double>::infinity(), 0};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int64_t i = results.node_at(places[k]);
       face.corners[k] = nodes.position(i);
       face.d = std::min(face.d, nodes.d(i));
+      if (nodes.id(i) < nodes.id(results.node_at(places[(k + 1) % 3]))) face.sides |= 1 << k;
     }
     faces.push_back(face);
   });
@@ -37,10 +40,16 @@ std::vector<Face> own_faces(const Results<3>& results) {
 
 double farthest_face(const std::vector<Face>& faces, const SurfaceIndex& surfaces) {
   double farthest = 0;
-  for (const Face& face : faces)
-    for (const Point<3>& x : triangle_samples(face.corners))
-      farthest = std::max(farthest,
-                          surfaces.clearance(x, std::numeric_limits<double>::infinity()) / face.d);
+  const auto measure = [&](const Face& face, const Point<3>& x) {
+    farthest =
+        std::max(farthest, surfaces.clearance(x, std::numeric_limits<double>::infinity()) / face.d);
+  };
+  for (const Face& face : faces) {
+    measure(face, centroid(face.corners));
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((face.sides >> k & 1) != 0)
+        measure(face, halfway(face.corners[k], face.corners[(k + 1) % 3]));
+  }
   return farthest;
 }
 
@@ -50,8 +59,8 @@ class SurfacePieces {
   explicit SurfacePieces(const std::vector<Face>& faces) : faces_(faces), tree_(corners(faces)) {}
 
   double farthest(const FacetCorners<3>& piece) const {
-    constexpr double kLongest = 0.5;  // side of a piece, in d
-    const Point<3> middle = triangle_samples(piece).front();
+    constexpr double kLongest = 1;  // side of a piece, in d
+    const Point<3> middle = centroid(piece);
     const NearestTriangles::Nearest nearest = tree_.nearest(middle);
     const double d = faces_[static_cast<std::size_t>(nearest.triangle)].d;
     std::size_t longest = 0;

@@ -13,7 +13,7 @@ struct BoundaryDistance {
 };
 
 // Faces are measured at their centroids and the middles of their sides; surfaces at points no
-// farther apart than d/2. Every rank holds all faces of the boundary meanwhile. After
+// farther apart than d. Every rank holds all faces of the boundary meanwhile. After
 // prepare_stars. Collective.
 BoundaryDistance boundary_distance(const Results<2>& results);
 BoundaryDistance boundary_distance(const Results<3>& results);

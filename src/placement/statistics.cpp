@@ -222,12 +222,11 @@ const std::vector<StatisticRow>& statistic_table() {
       computed(real(
           "boundary.distance", [](P p) { return p.boundary_distance().of_faces; },
           "largest distance over d of the boundary of the tetrahedra from the surfaces of the "
-          "body, "
-          "at the centroids of its faces and the middles of their sides")),
+          "body, at the centroids of its faces and the middles of their sides")),
       computed(real(
           "boundary.given_distance", [](P p) { return p.boundary_distance().of_surfaces; },
           "largest distance over d of the surfaces of the body from the boundary of the "
-          "tetrahedra, at points no farther apart than d/2")),
+          "tetrahedra, at points no farther apart than d")),
       computed(real(
           "d_error.mean", [](P p) { return p.results().spacing_error().mean; },
           "nearest-neighbour distance over d: mean")),

@@ -2,6 +2,7 @@
 #include "level/finish.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -108,25 +109,26 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   }
 }
 
-// How far nodes may go from where they are before the repair.
+// How far nodes on surfaces may move from their positions before the repair.
 class RoomOnSurfaces {
  public:
-  explicit RoomOnSurfaces(const Level<3>& level) : room_(room_on_thin_walls(level)) {
+  explicit RoomOnSurfaces(const Level<3>& level) : level_(level) {
     collective_try(*level.comm, [&] {
       for (std::int64_t i = 0; i < level.nodes.count; ++i)
-        before_.push_back(level.nodes.position(i));
+        before_.push_back({level.nodes.boundary_node(i), level.nodes.position(i)});
     });
   }
-  double way(std::int64_t i, double length) const { return std::min(length, room_[index(i)]); }
-  bool holds(std::int64_t i, const Point<3>& x) const {
-    return !(distance<3>(x, before_[index(i)]) > 2 * room_[index(i)]);
+  // Returns the largest length of one move of node i. A node may be twice as far from its position
+  // before the repair.
+  double way(std::int64_t i) const {
+    if (level_.nodes.carrier(i) != Carrier::surface) return HUGE_VAL;
+    return room_on_thin_wall(level_, before(i), level_.nodes.d(i));
   }
+  const SurfacePoint& before(std::int64_t i) const { return before_[static_cast<std::size_t>(i)]; }
 
  private:
-  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-  std::vector<double> room_;
-  std::vector<Point<3>> before_;
+  const Level<3>& level_;
+  std::vector<SurfacePoint> before_;
 };
 
 // Returns how nodes move along surfaces. Those on inner surfaces stay, as the removed tetrahedra
@@ -138,8 +140,9 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
     const LevelGeometry<3>& geometry = level.geometry;
     const AlongSurfaces::Place from{level.nodes.position(i), level.nodes.boundary_node(i)};
     if (!geometry.bounds_domain(from.facet)) return from;
-    const SurfacePoint to = go_along_surface(level, i, direction, room.way(i, length));
-    if (!room.holds(i, to.position)) return from;
+    const double way = room.way(i);
+    const SurfacePoint to = go_along_surface(level, i, direction, std::min(length, way));
+    if (distance<3>(to.position, room.before(i).position) > 2 * way) return from;
     if (!geometry.domain().level_sets().at(to.facet))
       return AlongSurfaces::Place{to.position, to.facet};
     const Surface& surface = geometry.surface();

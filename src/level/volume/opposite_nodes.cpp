@@ -57,12 +57,11 @@ class ThinWalls {
   }
 
   // The distance of the nearest other sheet that is near enough, or infinity.
-  double nearest_sheet(std::int64_t i) const {
+  double nearest_sheet(const SurfacePoint& at, double d) const {
     double nearest = std::numeric_limits<double>::infinity();
-    if (level_.nodes.carrier(i) != Carrier::surface) return nearest;
     for (const SideOfFacet side : {SideOfFacet::front, SideOfFacet::back})
-      if (const auto sheet = next_sheet(place(i), side, level_.nodes.d(i)))
-        nearest = std::min(nearest, distance<3>(sheet->position, level_.nodes.position(i)));
+      if (const auto sheet = next_sheet(at, side, d))
+        nearest = std::min(nearest, distance<3>(sheet->position, at.position));
     return nearest;
   }
 
@@ -154,19 +153,10 @@ Replacement replacement_on(const Level<3>& level) {
 
 }  // namespace
 
-std::vector<double> room_on_thin_walls(const Level<3>& level) {
+double room_on_thin_wall(const Level<3>& level, const SurfacePoint& at, double d) {
   constexpr double kRoom = 0.2;  // with 1, the shell of a cube with a wall of 0.1 d is torn
-  std::vector<double> room;
-  collective_try(*level.comm, [&] {
-    const ThinWalls walls(level);
-    room.resize(static_cast<std::size_t>(level.nodes.count));
-    for_each("pnpbs::room_on_thin_walls", level.nodes.count, [&](std::int64_t i) {
-      const double distance = walls.nearest_sheet(i);
-      room[static_cast<std::size_t>(i)] =
-          kRoom * method::kAsideInThinWall * distance * distance / level.nodes.d(i);
-    });
-  });
-  return room;
+  const double distance = ThinWalls(level).nearest_sheet(at, d);
+  return kRoom * method::kAsideInThinWall * distance * distance / d;
 }
 
 bool connects_thin_wall(const Level<3>& level, const Point<3>& centroid, double d) {

@@ -21,10 +21,10 @@ namespace pnpbs {
 // ranks. Collective.
 PopulationCounts place_opposite_nodes(Level<3>& level);
 
-// By memory index, ghosts too: how far a node may go along its surface. If another sheet is that
-// near, the node stays opposite its partner, but for a part of t^2/d, where t is the distance of
-// the sheet; else it may go anywhere. Collective.
-std::vector<double> room_on_thin_walls(const Level<3>& level);
+// Returns how far a node at that point of a surface may move along it in one step of the sliver
+// repair. Where another sheet is at a distance t below kThinWall d, the node must stay opposite its
+// partner and moves by a fraction of t^2/d only; elsewhere the result is infinite. Local.
+double room_on_thin_wall(const Level<3>& level, const SurfacePoint& at, double d);
 
 // Does a tetrahedron with its centroid here connect the two sides of such a wall? d is the spacing
 // of its corners. Local.

@@ -5,7 +5,7 @@ from tables import grouped, table_head, table_row
 
 TITLES = ["tool", "whole", "torn", "nothing", "torn in silence", "nodes", "CPU ms per node",
           "least dihedral angle away from sharp edges", "at sharp edges", "quality: mean", "99 % above",
-          "body to boundary, over d", "boundary to body, over d"]
+          "volume too large or small, %", "body to boundary, over d", "boundary to body, over d"]
 
 HOW = """What the columns say:
 
@@ -21,6 +21,8 @@ HOW = """What the columns say:
   and after the slash the worst. Quality is 3 r_in / R, 1 for a regular tetrahedron.
 - Sharp edges are those where the sheets of the input meet at less than 33 degrees inside the body; a
   tetrahedron is at one if a corner of it is within d. Of the least angles there the table has the worst alone.
+- The volume is that of the tetrahedra beside that enclosed by the input's triangles. Chords of round surfaces make it
+  smaller; "-" where an older run has not measured it.
 - The distance from body to boundary is the farthest that a point of the input's triangles is from the triangles of
   the tetrahedra's boundary, by points d / 10 apart on both; the other way it is from these to the input. Where
   both are the same surface, such points leave some 0.15.
@@ -30,6 +32,13 @@ HOW = """What the columns say:
 def middle_and_worst(runs, name, worst, digits):
     values = [run[name] for run in runs if run.get(name) is not None]
     return f"{np.median(values):.{digits}f} / {worst(values):.{digits}f}" if values else "-"
+
+
+def volume_error(run):
+    """In percent of the body; none of runs that have not measured it."""
+    if "volume" not in run:
+        return {}
+    return {"percent": 100 * abs(run["volume"] / run["volume_of_body"] - 1)}
 
 
 def is_silent(run):
@@ -46,6 +55,7 @@ def row(tool, runs):
             grouped(sum(run["nodes"] for run in done)), middle_and_worst(per_node, "ms", max, 2),
             middle_and_worst(done, "least_angle_elsewhere", min, 2), f"{min(sharp):.2f}" if sharp else "-",
             middle_and_worst(done, "quality_mean", min, 3), middle_and_worst(done, "quality_one_percent", min, 3),
+            middle_and_worst(list(map(volume_error, done)), "percent", max, 2),
             middle_and_worst(done, "from_body", max, 2), middle_and_worst(done, "to_body", max, 2)]
 
 

@@ -98,6 +98,17 @@ def flat(x, tetrahedra):
     return int((volume < FLAT * longest ** 3).sum())
 
 
+def volume_of_body(x, triangles):
+    """Of a closed surface whose triangles turn outwards."""
+    a, b, c = corner_points(x, triangles)
+    return float(np.einsum("ij,ij->", np.cross(a, b), c) / 6)
+
+
+def volume_of(x, tetrahedra):
+    corners = x[tetrahedra]
+    return float(np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / 6)
+
+
 def least(values):
     return float(values.min()) if len(values) else None
 
@@ -139,6 +150,7 @@ def judged(body, x, tetrahedra, unit=None):
     figures = {"nodes": len(x), "tetrahedra": len(tetrahedra), "crowded_faces": crowded_faces(tetrahedra),
                "isolated": len(x) - len(np.unique(tetrahedra)), **topology(boundary),
                "pieces_of_body": wanted["pieces"], "euler_of_body": wanted["euler"],
+               "volume": volume_of(x, tetrahedra), "volume_of_body": volume_of_body(*body),
                **distances(body, x, boundary, unit), **shapes(body, x, tetrahedra, unit),
                "unit": unit, "torn_at": x[torn_at(boundary)[:PLACES]].tolist()}
     return {**figures, "whole": is_whole(figures)}

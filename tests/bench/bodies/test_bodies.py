@@ -59,11 +59,14 @@ class Judge(unittest.TestCase):
         self.assertEqual((found["euler"], found["pieces"]), (2, 1))
         self.assertAlmostEqual(found["least_angle"], 45)
         self.assertLess(max(found["to_body"], found["from_body"]), 0.2)
+        self.assertAlmostEqual(found["volume"], CELLS ** 3)
+        self.assertAlmostEqual(found["volume_of_body"], CELLS ** 3)
 
     def test_hollow(self):
         middle = np.abs(self.x[self.tetrahedra].mean(1) - CELLS / 2).max(1).argmin()
         found = self.judged(self.x, np.delete(self.tetrahedra, middle, 0))
         self.assertEqual((found["pieces"], found["euler"], found["whole"]), (2, 4, False))
+        self.assertLess(found["volume"], found["volume_of_body"] - 1 / 7)
 
     def test_off_the_surface(self):
         inside = np.all((self.x[self.tetrahedra].mean(1) > 1), axis=1)

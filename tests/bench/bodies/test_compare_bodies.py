@@ -121,8 +121,13 @@ class Page(unittest.TestCase):
         row = compare_page.row("A", self.RUNS)
         self.assertEqual(row[1:5], [2, 1, 1, 1])
         self.assertEqual(row[7:9], ["22.00 / 10.00", "-"])
-        self.assertEqual(row[11], "0.22 / 0.30")
+        self.assertEqual(row[11:13], ["-", "0.22 / 0.30"])
         self.assertEqual(compare_page.row("A", [run("two", False, 10.0, exit_code=6)])[4], 0)
+
+    def test_volume(self):
+        runs = [run("one", True, 30.0, volume=0.9, volume_of_body=1), run("two", True, 30.0),
+                run("three", True, 30.0, volume=8.08, volume_of_body=8)]
+        self.assertEqual(compare_page.row("A", runs)[11], "5.50 / 10.00")
 
     def test_refused(self):
         runs = [{"body": body, "tool": tool, "failed": failed} for body, tool, failed in (
