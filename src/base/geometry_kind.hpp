@@ -3,10 +3,10 @@
 
 namespace pnpbs {
 
-// The kinds of domains. Surfaces alone and bodies are in space.
+// The kind of a domain. Surfaces alone and bodies lie in space.
 enum class GeometryKind { plane, sphere, surface, body };
 
-// The dimension of what bubbles fill.
+// Returns the dimension of the region that bubbles fill: 3 for bodies, otherwise 2.
 constexpr int bubble_dimension(GeometryKind kind) { return kind == GeometryKind::body ? 3 : 2; }
 
 }  // namespace pnpbs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How large coordinates may be, and what counts as the same place.
+// Limits on coordinates, and tolerances within which points count as equal.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +10,22 @@
 
 namespace pnpbs {
 
-// Products of four differences of coordinates, as the in-circle test has them, then neither
-// overflow nor lose digits below the normal range.
+// Largest and smallest size of coordinates. Within them, products of four coordinate differences,
+// as in the in-circle test, neither overflow nor lose digits in the subnormal range.
 inline constexpr double kMaxCoordinate = 1e60;
 inline constexpr double kSmallestDomain = 1e-60;
 
-// And this many digits of the coordinates must be left to tell places in it apart: of a domain far
-// from the origin, in units of its largest coordinate.
+// Smallest size of a domain in units of its largest coordinate. It leaves enough digits to
+// distinguish the points of a domain far from the origin.
 inline constexpr double kSmallestRelativeSize = 1e-10;
 
-// In units of the domain's size, which is the longest side of its bounding box.
-inline constexpr double kSamePlace = 1e-12;    // vertices; a vertex and a segment
-inline constexpr double kSameCurveEnd = 1e-9;  // where one of them is the end of a curve
-inline constexpr double kSameVertex = 1e-9;    // vertices of surfaces, in space
+// Distances below which points are equal, in units of the longest side of the domain's bounding
+// box.
+inline constexpr double kSamePlace = 1e-12;  // between vertices, or between a vertex and a segment
+inline constexpr double kSameCurveEnd = 1e-9;  // if one of the points is the end of a curve
+inline constexpr double kSameVertex = 1e-9;    // between vertices of surfaces in space
 
+// Returns true if a coordinate is finite and not too large.
 inline bool is_usable(double coordinate) {
   return std::fabs(coordinate) <= kMaxCoordinate;  // false for NaN
 }
@@ -40,7 +42,7 @@ void include(Box<Dim>& box, const std::type_identity_t<Point<Dim>>& point) {
   }
 }
 
-// Holds no point yet.
+// Returns a box without points, which `include` can extend.
 template <int Dim>
 Box<Dim> empty_box() {
   Box<Dim> box;
