@@ -15,9 +15,10 @@ namespace pnpbs {
 
 namespace {
 
+// A boundary face of the tetrahedra.
 struct Face {
   FacetCorners<3> corners;
-  double d;  // the least at its corners
+  double d;  // smallest spacing at its corners
 };
 
 std::vector<Face> own_faces(const Results<3>& results) {
@@ -44,13 +45,15 @@ double farthest_face(const std::vector<Face>& faces, const SurfaceIndex& surface
   return farthest;
 }
 
-// The largest distance over d of a triangle from the faces; it is halved until it is small.
+// Distances of surface triangles from the faces. A triangle is bisected until its edges are at most
+// d/2.
 class SurfacePieces {
  public:
   explicit SurfacePieces(const std::vector<Face>& faces) : faces_(faces), tree_(corners(faces)) {}
 
+  // Returns the largest distance over d between the piece and the faces.
   double farthest(const FacetCorners<3>& piece) const {
-    constexpr double kLongest = 0.5;  // side of a piece, in d
+    constexpr double kLongest = 0.5;  // longest edge of a piece, in d
     const Point<3> middle = triangle_samples(piece).front();
     const NearestTriangles::Nearest nearest = tree_.nearest(middle);
     const double d = faces_[static_cast<std::size_t>(nearest.triangle)].d;
@@ -78,6 +81,7 @@ class SurfacePieces {
   NearestTriangles tree_;
 };
 
+// Returns the largest distance over d of this rank's share of the surface triangles from the faces.
 double farthest_surface(const Level<3>& level, const std::vector<Face>& faces) {
   const SurfacePieces pieces(faces);
   const Surface& surface = level.geometry.surface();
