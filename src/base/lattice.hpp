@@ -14,7 +14,7 @@ struct Lattice;
 template <>
 struct Lattice<2> {
   static constexpr double kDensity = 1.1547005383792515;  // nodes per d^2: 2 / sqrt(3)
-  static constexpr int kNeighbours = 6;                   // by edges of the Delaunay triangulation
+  static constexpr int kNeighbours = 6;                   // Delaunay neighbours of a node
   static constexpr double kIdealOverlap = 6;              // overlap ratio of a node
   static constexpr int kOverlapEnd = 16;  // larger overlap ratios are counted as this one
 };

@@ -79,7 +79,7 @@ inline double voronoi_edge_length(const SphereGrid& grid, std::int32_t node, std
 }
 
 // Calls visit(weight) for the other edges of a cell, counter-clockwise from the one at the index
-// `place`. // The weight is reduced by the share of the cell between the two edges. `sign` is 1 for
+// `place`. The weight is reduced by the share of the cell between the two edges. `sign` is 1 for
 // the first cell of the edge and -1 for the second.
 template <class Visit>
 void for_tangential_weights(const SphereGrid& grid, std::int32_t node, std::int64_t place,
