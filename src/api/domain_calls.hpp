@@ -47,11 +47,13 @@ pnpbs_status change_domain(pnpbs_domain domain, const Change& change) {
   });
 }
 
+// Changes a plane domain likewise. Fails for other domains.
 template <class Change>
 pnpbs_status change_plane(pnpbs_domain domain, const Change& change) {
   return change_domain(domain, [&](DomainObject& object) { change(plane_of(object)); });
 }
 
+// Changes a domain in space likewise. Fails for other domains.
 template <class Change>
 pnpbs_status change_volume(pnpbs_domain domain, const Change& change) {
   return change_domain(domain, [&](DomainObject& object) { change(volume_of(object)); });

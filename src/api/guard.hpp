@@ -51,6 +51,7 @@ inline void require_count(std::int64_t count, const char* argument) {
                                          std::to_string(count) + " is negative");
 }
 
+// Throws Error(ErrorKind::state) while a call that may run callbacks is in progress.
 inline void require_not_in_callback(const Context& context) {
   if (context.computing)
     throw Error(ErrorKind::state,

@@ -49,6 +49,7 @@ struct DomainObject {
   std::shared_ptr<DomainShapes<3>> volume_shapes;
 };
 
+// A placement and the fields that its output files contain in addition.
 struct PlacementObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<Placement> placement;
@@ -71,6 +72,7 @@ struct VoronoiObject {
   std::unique_ptr<const VoronoiCells> cells;
 };
 
+// Particles and the fields of their output files.
 struct ParticlesObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<const Particles> particles;

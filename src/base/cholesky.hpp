@@ -9,6 +9,7 @@
 
 namespace pnpbs {
 
+// An N x N matrix, stored by rows.
 template <std::size_t N>
 using SquareMatrix = std::array<std::array<double, N>, N>;
 

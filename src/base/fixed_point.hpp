@@ -24,6 +24,7 @@ struct Int128 {
   }
 };
 
+// The number 1 in units of 2^-32.
 inline constexpr std::int64_t kFixedPointOne = std::int64_t{1} << 32;
 
 // Converts a value to units of 2^-32, rounded towards 0. Its magnitude must be below 2^31.

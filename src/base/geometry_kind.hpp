@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The kinds of domains and the dimension of their bubbles.
 #pragma once
 
 namespace pnpbs {

@@ -27,8 +27,8 @@ bool kokkos_was_started();
 
 // Ends Kokkos if this library has started it.
 void end_kokkos();
-// Returns the number of threads of Kokkos, or 0 if Kokkos does not run.
 
+// Returns the number of threads of Kokkos, or 0 if Kokkos does not run.
 std::int64_t thread_count();
 
 }  // namespace pnpbs

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Bisection for the end of a leading range of indices.
 #pragma once
 
 #include <cstdint>

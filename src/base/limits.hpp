@@ -34,6 +34,7 @@ bool is_usable(const std::array<double, Dim>& point) {
   return std::all_of(point.begin(), point.end(), [](double x) { return is_usable(x); });
 }
 
+// Extends the box so that it contains the point.
 template <int Dim>
 void include(Box<Dim>& box, const std::type_identity_t<Point<Dim>>& point) {
   for (int k = 0; k < Dim; ++k) {
@@ -51,6 +52,7 @@ Box<Dim> empty_box() {
   return box;
 }
 
+// Returns the longest side of a box.
 template <int Dim>
 double size_of(const Box<Dim>& box) {
   double size = box.high[0] - box.low[0];
@@ -58,6 +60,7 @@ double size_of(const Box<Dim>& box) {
   return size;
 }
 
+// Returns the largest absolute value of a coordinate in the box.
 template <int Dim>
 double farthest_coordinate(const Box<Dim>& box) {
   double farthest = 0;

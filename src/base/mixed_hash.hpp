@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Hashes of numbers, which do not depend on the processor or the standard library.
 #pragma once
 
 #include <bit>

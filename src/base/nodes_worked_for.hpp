@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The number of nodes and ghosts that a phase of a run computes for.
 #pragma once
 
 #include <cstdint>

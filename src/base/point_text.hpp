@@ -33,6 +33,7 @@ MessageText text_of_point(const std::array<double, Dim>& point, bool rounded,
   return {std::move(text), {named}};
 }
 
+// Returns the text of a point with all digits.
 template <std::size_t Dim>
 MessageText point_text(const std::array<double, Dim>& point) {
   return text_of_point(point, false, number_text);
@@ -46,6 +47,7 @@ inline std::string rounded_text(double value) {
   return std::string(text, end);
 }
 
+// Returns the text of a point with rounded coordinates.
 template <int Dim>
 MessageText rounded_point_text(const Point<Dim>& point) {
   return text_of_point(point, true, rounded_text);

@@ -8,6 +8,7 @@
 
 namespace pnpbs {
 
+// A point or a vector.
 template <int Dim>
 using Point = std::array<double, Dim>;
 

@@ -31,6 +31,7 @@ inline int count(std::size_t n) {
 // memory for them.
 constexpr int kPiece = 1 << 18;  // bytes
 
+// Returns the number of pieces of a message of `size` bytes.
 inline std::uint64_t pieces(std::uint64_t size) { return (size + kPiece - 1) / kPiece; }
 
 // Calls visit(offset, length) for each piece of a message of `size` bytes.

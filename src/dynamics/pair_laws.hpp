@@ -113,6 +113,7 @@ struct OnSurface {
   }
 };
 
+// The law of the option law=push.
 template <int Dim>
 using DefaultLaw = std::conditional_t<Dim == 2, LinearPush, SmoothPush>;
 
