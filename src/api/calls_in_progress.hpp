@@ -23,8 +23,8 @@ class CallInProgress {
 };
 
 // Runs `end` after the calls in progress on other threads have ended. Throws
-// Error(ErrorKind::state) from inside a callback, whose own call would never end, and if another
-// thread already waits here.
+// Error(ErrorKind::state) from inside a callback, whose own call would never end, and while another
+// thread runs this function.
 void run_between_calls(FunctionRef<void()> end);
 
 }  // namespace pnpbs::api

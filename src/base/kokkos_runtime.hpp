@@ -8,10 +8,11 @@
 namespace pnpbs {
 
 // Starts Kokkos with `threads` threads, or adopts the instance of the host program if it has
-// started one. If `threads` is 0, the environment determines the number, otherwise the available
-// cores divided by `ranks_on_node`. `before_end` is called before Kokkos ends, no matter who ends
-// it, and must release all Views. Throws Error(ErrorKind::kokkos) where Kokkos itself would abort
-// the process: for an invalid KOKKOS_* variable or a second start.
+// started one. If `threads` is 0, the environment determines the number (OMP_NUM_THREADS or
+// KOKKOS_NUM_THREADS). Without it, the number is that of the available cores divided by
+// `ranks_on_node`. `before_end` is called before Kokkos ends, no matter who ends it, and must
+// release all Views. Throws Error(ErrorKind::kokkos) where Kokkos itself would abort the process:
+// for an invalid KOKKOS_* variable or a second start.
 void start_kokkos(std::int64_t threads, int ranks_on_node, void (*before_end)());
 
 // Throws Error(ErrorKind::kokkos) if Kokkos does not run or has ended. Also throws what

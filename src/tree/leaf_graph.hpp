@@ -58,8 +58,8 @@ struct LeafLinks {
 };
 
 // Every leaf searches as far as it reaches itself, and a pair is linked if either leaf finds the
-// other. Forces act only at half this distance, but stars require every node within the whole
-// distance.
+// other. Lists contain only pairs within the mean of both reaches, but stars require all nodes
+// within the larger one.
 template <int Dim>
 void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
                            const std::vector<double>& stretch) {

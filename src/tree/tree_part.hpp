@@ -59,8 +59,8 @@ class TreePart {
     std::int64_t begin, end;
   };
 
-  // Sends copies of each own leaf to all ranks with leaves in or around a cell of its size next to
-  // it. Collective.
+  // Sends a copy of each own leaf to all ranks that have leaves in the cells of the same size
+  // around it. Collective.
   void exchange_borders(const Communicator& comm, const std::vector<char>& live) {
     if (comm.size() == 1) return;
     std::map<std::int32_t, std::vector<std::int64_t>> sent;  // by rank
