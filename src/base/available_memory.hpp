@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimates the memory that the system can still give to this process: the free memory of the
+// Estimate of the memory that the system can still give to this process: the free memory of the
 // machine, or less if a control group (container, batch system) has a lower limit.
 #pragma once
 

@@ -19,10 +19,10 @@ struct Lattice<2> {
   static constexpr int kOverlapEnd = 16;  // larger overlap ratios are counted as this one
 };
 
-// The body-centred cubic lattice of space. All its tetrahedra are congruent, no five nodes are
-// cospherical, and the midpoints of its edges form the lattice of half the spacing. A node has 8
-// edges along half diagonals of the cubic cell and 6 along its sides; d is the mean of their
-// lengths.
+// The body-centred cubic lattice of space. All its tetrahedra are congruent, no empty
+// sphere passes through five nodes, and the midpoints of its edges form the lattice of half the
+// spacing. A node has 8 edges along half diagonals of the cubic cell and 6 along its sides; d is
+// the mean of their lengths.
 template <>
 struct Lattice<3> {
   static constexpr double kCell = 1.0829037686547607;     // side over d: 14 / (4 sqrt(3) + 6)

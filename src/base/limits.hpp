@@ -10,8 +10,9 @@
 
 namespace pnpbs {
 
-// Largest and smallest size of coordinates. Within them, products of four coordinate differences,
-// as in the in-circle test, neither overflow nor lose digits in the subnormal range.
+// Largest coordinate and smallest size of a domain. Within these limits, products of four
+// coordinate differences, as in the in-circle test, neither overflow nor lose digits in the
+// subnormal range.
 inline constexpr double kMaxCoordinate = 1e60;
 inline constexpr double kSmallestDomain = 1e-60;
 

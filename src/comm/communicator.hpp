@@ -91,10 +91,10 @@ class Communicator {
   virtual std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const = 0;
 
   // Sends outgoing[k] to rank neighbours[k] and returns the messages of the neighbours in the same
-  // order. Neighbourhood must be symmetric, and messages may be empty. Collective, without a
-  // reduction at the beginning: the ranks agree on failures once the sizes are known. `failure` is
-  // the failure of this rank's preceding work, or null. Afterwards only MPI can fail, and only the
-  // ranks that lack a message throw.
+  // order. Neighbours must name each other in calls at the same time. Messages may be empty.
+  // Collective, without a reduction at the beginning: the ranks agree on failures once the sizes
+  // are known. `failure` is the failure of this rank's preceding work, or null. Afterwards only MPI
+  // can fail, and only the ranks that lack a message throw.
   virtual std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                                       const std::vector<Bytes>& outgoing,
                                       std::exception_ptr failure) const = 0;

@@ -11,7 +11,7 @@
 
 namespace pnpbs {
 
-// A pending sum over ghosts: pack(), exchange() and add() in this order.
+// A sum over ghosts, performed by pack(), exchange() and add() in this order.
 class GhostSum {
  public:
   // Copies the values of the ghosts. `values` has the shape [nodes and ghosts][components]. Local.

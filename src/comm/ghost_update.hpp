@@ -13,7 +13,7 @@
 
 namespace pnpbs {
 
-// A halo exchange of node values: pack(), start(), wait() and unpack() in this order.
+// A halo exchange of node values, performed by pack(), start(), wait() and unpack() in this order.
 class GhostUpdate {
  public:
   bool under_way() const { return under_way_; }

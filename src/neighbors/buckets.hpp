@@ -37,10 +37,9 @@ class Buckets {
   // Returns an array for the buckets of nodes that replace the sorted ones. The caller must write
   // the bucket of each node.
   View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes);
-  // Follows a call of Nodes::keep with the same arguments.
+  // Keeps the same nodes as Nodes::keep; must be called with the same arguments.
   void keep(const View<std::int32_t>& places, std::int64_t kept);
-  // Returns true if node i has had a bucket since it was stored or sorted. Nodes that were appended
-  // later have none.
+  // Returns true if the bucket of node i is stored. Nodes appended after the last sort have none.
   bool knows(std::int64_t i) const { return i < known_; }
 
   std::int32_t bucket_of(std::int64_t node) const { return bucket_of_(node); }
