@@ -14,7 +14,7 @@ std::mutex mutex;
 std::condition_variable changed;
 int threads_in_calls = 0;
 bool ending = false;
-thread_local int depth = 0;  // of this thread's calls: more than 1 inside a callback
+thread_local int depth = 0;  // nested calls of this thread; above 1 inside a callback
 
 }  // namespace
 

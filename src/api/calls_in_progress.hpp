@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which calls of the interface are in progress, so that Kokkos ends between two of them: a call
-// that begins meanwhile is refused.
+// Registration of the calls of the interface that are in progress. It lets Kokkos end between two
+// calls; a call that begins while Kokkos ends is refused.
 #pragma once
 
 #include "base/function_ref.hpp"
 
 namespace pnpbs::api {
 
-// Counts as a call of this thread as long as it lives. Calls from inside a callback are part of the
-// one that runs the callback.
+// A call of this thread that is in progress while the object exists. A call from inside a callback
+// is part of the call that runs the callback.
 class CallInProgress {
  public:
-  // What a call does that begins while Kokkos ends.
+  // Behaviour of a call that begins while Kokkos ends.
   enum class WhileEnding { throws, waits };
 
-  // Throws Error(ErrorKind::state) then, or waits.
+  // Registers a call. While Kokkos ends, throws Error(ErrorKind::state) or waits until it has
+  // ended.
   explicit CallInProgress(WhileEnding while_ending = WhileEnding::throws);
   CallInProgress(const CallInProgress&) = delete;
   CallInProgress& operator=(const CallInProgress&) = delete;
   ~CallInProgress();
 };
 
-// Runs `end` when the calls of other threads that are in progress have ended. Throws
-// Error(ErrorKind::state) from inside a callback, whose call would never end, and while another
-// thread does the same.
+// Runs `end` after the calls in progress on other threads have ended. Throws
+// Error(ErrorKind::state) from inside a callback, whose own call would never end, and while another
+// thread runs this function.
 void run_between_calls(FunctionRef<void()> end);
 
 }  // namespace pnpbs::api

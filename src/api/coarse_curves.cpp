@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves that are given finer than nodes should follow them, through the C interface.
+// C interface: simplification of curves that are given with finer points than nodes should follow.
 #include "api/domain_calls.hpp"
 #include "api/spacing_callback.hpp"
 #include "spacing/files/field_file.hpp"

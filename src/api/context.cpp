@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Status, errors, versions and contexts of the C interface.
+// C interface: status texts, last errors, versions and contexts.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -25,11 +25,11 @@ void keep_error(Context* context, const auto& message,
   try {
     thread_error() = {message, reason};
     if (context) context->last_error = thread_error();
-  } catch (...) {  // no memory for the message: the status must do
+  } catch (...) {  // no memory for the message; the status is still returned
   }
 }
 
-// No room for a copy: then there is nothing to return.
+// Returns an empty error if there is no memory for a copy.
 LastError last_error_of(pnpbs_context context) noexcept {
   try {
     const auto object = contexts().find(context);
@@ -42,7 +42,7 @@ LastError last_error_of(pnpbs_context context) noexcept {
 void set_context_option(Context& context, const char* key, const auto& assign) {
   require_pointer(key, "key");
   require_not_in_callback(context);
-  Options changed = context.options;  // an error must change nothing
+  Options changed = context.options;  // an error leaves the options unchanged
   assign(changed);
   const std::int64_t threads = changed.integer("threads");
   if (std::strcmp(key, "threads") == 0 && kokkos_was_started() && threads != thread_count())
@@ -145,7 +145,8 @@ using namespace pnpbs;
 using namespace pnpbs::api;
 
 const char* pnpbs_status_string(pnpbs_status status) {
-  // Programs in C may give any number, of which C++ makes no value of the type.
+  // C programs may pass any number. Reading it as a pnpbs_status outside the list would be
+  // undefined behaviour in C++.
   int number = 0;
   static_assert(sizeof number == sizeof status);
   std::memcpy(&number, &status, sizeof number);
@@ -171,7 +172,7 @@ const char* pnpbs_last_error(pnpbs_context context) {
   return thread_error().message.text().c_str();
 }
 
-// These two leave the last error as it is.
+// These two functions do not change the last error.
 pnpbs_status pnpbs_last_error_data(pnpbs_context context, int32_t* reason, int32_t* points) {
   const LastError error = last_error_of(context);
   if (reason) *reason = static_cast<int32_t>(error.reason);
@@ -231,7 +232,7 @@ pnpbs_status pnpbs_context_destroy(pnpbs_context* context) { return destroy(cont
 
 pnpbs_status pnpbs_finalize(void) {
   try {
-    require_threads();  // in a forked process, the calls of other threads would never end
+    require_threads();  // a forked process would wait forever for the calls of other threads
     run_between_calls([] { end_kokkos(); });
     return PNPBS_OK;
   } catch (...) {

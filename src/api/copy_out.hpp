@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrays that the caller may not want.
+// Output of arrays that the caller may omit.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace pnpbs::api {
 
-// to may be NULL.
+// Copies the vector to the array `to`, unless it is NULL.
 template <class Value>
 void copy_out(const std::vector<Value>& from, Value* to) {
   if (to) std::copy(from.begin(), from.end(), to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains of the C interface.
+// C interface: domains.
 #include <algorithm>
 #include <string_view>
 
@@ -14,8 +14,9 @@ using namespace pnpbs::api;
 
 namespace {
 
-// A question that needs the checked domain. Checking may ask curve callbacks, so from inside a
-// callback it must have been done before.
+// Runs a query that needs the checked domain, and checks it first if necessary. Checking may call
+// curve callbacks, so a query from inside a callback fails if the domain has not been checked
+// before.
 template <class Question>
 pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
   return guarded(domain, [&](DomainObject& object) {
@@ -34,13 +35,14 @@ double whole_measure(const PlaneDomain& domain) {
 }
 double whole_measure(const VolumeDomain& domain) { return domain.measure(); }
 
-// In the plane, or in the chart of a sphere.
+// Returns a point of the interface in the plane or in the chart of the sphere.
 Point<2> point_from(const PlaneDomain& domain, const double* x) {
   if (const Embedding<2>& in = domain.embedding(); in.is_sphere())
     return in.chart().in_chart(require_direction("point", x));
   return {x[0], x[1]};
 }
-// As the interface has it; returns the end of that.
+// Writes a point with the coordinates of the interface: two in the plane, three on a sphere.
+// Returns the end of the output.
 double* copy_place(const Embedding<2>& embedding, const Point<2>& u, double* x) {
   return std::copy_n(embedding.in_space(u).begin(), embedding.coordinates(), x);
 }

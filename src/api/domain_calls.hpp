@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the functions of domains have in common.
+// Helpers of the C functions on domains.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 
 namespace pnpbs::api {
 
+// Returns the plane domain. Throws for domains on a sphere or in space.
 inline PlaneDomain& plane_of(const DomainObject& object) {
   if (sphere_of(object).is_sphere())
     throw Error(ErrorKind::argument,
@@ -18,6 +19,7 @@ inline PlaneDomain& plane_of(const DomainObject& object) {
   return *object.plane;
 }
 
+// Returns the domain in space. Throws for others.
 inline VolumeDomain& volume_of(const DomainObject& object) {
   if (!object.volume)
     throw Error(ErrorKind::argument,
@@ -27,13 +29,13 @@ inline VolumeDomain& volume_of(const DomainObject& object) {
   return *object.volume;
 }
 
-// Calls work(domain) with it as what it is.
+// Calls work(domain) with the concrete type of the domain.
 template <class Work>
 auto visit_dimension(const DomainObject& object, const Work& work) {
   return object.plane ? work(*object.plane) : work(*object.volume);
 }
 
-// A change of the domain's description, whatever its dimension.
+// Changes the definition of a domain of any dimension and discards what was derived from its shape.
 template <class Change>
 pnpbs_status change_domain(pnpbs_domain domain, const Change& change) {
   return guarded(domain, [&](DomainObject& object) {
@@ -45,17 +47,20 @@ pnpbs_status change_domain(pnpbs_domain domain, const Change& change) {
   });
 }
 
+// Changes a plane domain likewise. Fails for other domains.
 template <class Change>
 pnpbs_status change_plane(pnpbs_domain domain, const Change& change) {
   return change_domain(domain, [&](DomainObject& object) { change(plane_of(object)); });
 }
 
+// Changes a domain in space likewise. Fails for other domains.
 template <class Change>
 pnpbs_status change_volume(pnpbs_domain domain, const Change& change) {
   return change_domain(domain, [&](DomainObject& object) { change(volume_of(object)); });
 }
 
-// Another domain, to be used with this one.
+// Returns the domain `body` for use with another one. Throws unless it belongs to the context, has
+// the required dimension and is not on a sphere.
 inline std::shared_ptr<DomainObject> body_with(const Context& context, bool in_plane,
                                                pnpbs_domain body) {
   require_pointer(body, "body");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Named groups of domains in the C interface, and the files that hold them.
+// C interface: named groups of domains, and the mesh files that contain them.
 #include <iterator>
 #include <map>
 

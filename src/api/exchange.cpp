@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a solver over several ranks needs, handed out through the C interface: the exchange pattern
-// and contiguous numbers.
+// C interface: the halo exchange plan and contiguous node numbers, for solvers on several ranks.
 #include <algorithm>
 
 #include "api/copy_out.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes, ghosts, lists, stars and boundary edges, handed out through the C interface.
+// C interface: nodes, ghosts, lists, stars, elements and boundary facets.
 #include <algorithm>
 #include <vector>
 
@@ -34,8 +34,9 @@ std::int64_t star_entries(const Results<Dim>& results) {
              [&](std::int64_t i) { return level.nodes.owned(i) ? level.stars.size(i) : 0; }));
 }
 
-// Calls visit(j, triangle) for the neighbours in the star of node i; in space they have no order,
-// and no triangle follows a neighbour.
+// Calls visit(j, triangle) for the neighbours in the star of node i. `triangle` is true if the
+// neighbour and the next one form a triangle with i. In space neighbours are not ordered, and
+// `triangle` is false.
 template <class Visit>
 void for_star(const Results<2>& results, std::int64_t i, const Visit& visit) {
   results.level().stars.for_neighbours_in_order(i, visit);
@@ -45,7 +46,8 @@ void for_star(const Results<3>& results, std::int64_t i, const Visit& visit) {
   results.level().stars.for_neighbours(i, [&](std::int64_t j) { visit(j, false); });
 }
 
-// Copies nodes with places first .. first + n - 1 out; arrays may be NULL.
+// Copies the nodes with the indices first .. first + n - 1 in the order of the results. The arrays
+// may be NULL.
 void copy_nodes(const NodalResults& results, std::int64_t first, std::int64_t n,
                 double* coordinates, std::int64_t* ids, std::int32_t* tags, double* spacing) {
   const NodeColumns nodes = results.nodes();
@@ -218,13 +220,13 @@ pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capaci
 
 namespace {
 
-// Places of the corners of all elements, one after the other. Collective.
+// Copies the corner indices of all elements of this rank. Collective.
 template <int Dim>
 pnpbs_status get_elements(pnpbs_placement placement, std::int64_t capacity, std::int64_t* count,
                           std::int64_t* elements) {
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
-    if (Dim == 3 && results.kind() == GeometryKind::sphere) {  // none, as on surfaces alone
+    if (Dim == 3 && results.kind() == GeometryKind::sphere) {  // it has no tetrahedra
       *count = 0;
       return PNPBS_OK;
     }
@@ -258,8 +260,8 @@ pnpbs_status copy_boundary_facets(const Results<Dim>& in, std::int64_t capacity,
   return PNPBS_OK;
 }
 
-// The triangles of a sphere stand for its surface, as those of surfaces alone do, with the tags of
-// regions.
+// Copies the triangles of a sphere and the tags of their regions. On a sphere they are returned as
+// its surface, like the triangles of surfaces alone.
 pnpbs_status copy_triangles_of_sphere(NodalResults& results, std::int64_t capacity,
                                       std::int64_t* count, std::int64_t* triangles,
                                       std::int32_t* tags) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that a solver has at nodes, through the C interface.
+// C interface: operations on values of a solver at the nodes.
 #include "api/placement_calls.hpp"
 
 using namespace pnpbs;

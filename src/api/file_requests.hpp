@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that a call is to write, as its arguments name them.
+// Output files that the arguments of a call name.
 #pragma once
 
 #include <string>
@@ -10,6 +10,8 @@
 
 namespace pnpbs::api {
 
+// Returns the requests of n files. `formats` and `elements` may be NULL. Throws for NULL paths and
+// unknown formats.
 inline std::vector<io::FileRequest> requests_of(std::int32_t n, const char* const* paths,
                                                 const char* const* formats,
                                                 const std::int32_t* elements,
@@ -26,7 +28,8 @@ inline std::vector<io::FileRequest> requests_of(std::int32_t n, const char* cons
   return requests;
 }
 
-// Ranks that want other files would wait for each other for ever.
+// Throws unless all ranks request the same files, since they would wait for each other forever.
+// Collective.
 inline void require_same_requests(const Communicator& comm,
                                   const std::vector<io::FileRequest>& requests) {
   std::string mine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of the C interface.
+// C interface: output files and checkpoints.
 #include <optional>
 
 #include "api/file_requests.hpp"
@@ -45,7 +45,7 @@ pnpbs_status pnpbs_placement_clear_output_fields(pnpbs_placement placement) {
   });
 }
 
-// From a monitor, too, where that is asked between two steps.
+// May also be called by a monitor that is called between two steps.
 pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const char* path) {
   return guarded(placement, [&](PlacementObject& object) {
     std::optional<Computing> computing;

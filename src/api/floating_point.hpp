@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whose rules floating-point arithmetic goes by. Hosts trap exceptions (gfortran's -ffpe-trap),
-// flush small numbers to zero (-ffast-math) or round their own way; our vector loops divide by what
-// they then mask away, and our results must not depend on the host. So every call computes by the
-// default rules, and callbacks by the host's. Worker threads have the rules of the thread that
-// started them: ours the default ones, and those of a host that used OpenMP before its first call
-// its own.
+// Floating-point environments of calls and callbacks. The host may trap exceptions (gfortran's
+// -ffpe-trap), flush small numbers to zero (-ffast-math) or use another rounding mode. The vector
+// loops of the library divide by zero in lanes that they mask afterwards, and results must not
+// depend on the host. Every call therefore computes in the default environment, and callbacks run
+// in that of the host. Worker threads have the environment of the thread that started them, which
+// is the default one if this library starts them.
 #pragma once
 
 #include <cfenv>
 
 namespace pnpbs::api {
 
-// The rules of the host whose call is in progress on this thread.
+// The environment of the host program whose call is in progress on this thread.
 inline thread_local const std::fenv_t* host_arithmetic = nullptr;
 
-// For the length of a call: the default rules; then the host's again, its flags as they were.
+// A scope with the default environment. At the end the host's environment is restored with its
+// flags.
 class DefaultArithmetic {
  public:
   DefaultArithmetic() : outer_(host_arithmetic) {
@@ -30,11 +31,11 @@ class DefaultArithmetic {
   }
 
  private:
-  const std::fenv_t* outer_;  // of a call in whose callback we are
+  const std::fenv_t* outer_;  // of an outer call, whose callback made this call
   std::fenv_t host_;
 };
 
-// For the length of a callback: the host's rules.
+// A scope with the host's environment, for callbacks.
 class HostArithmetic {
  public:
   HostArithmetic() {

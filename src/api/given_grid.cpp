@@ -18,7 +18,7 @@ namespace pnpbs::api {
 
 namespace {
 
-// "[y][x]" of the i-th value on a grid, the direction that varies fastest last.
+// Returns the text "[y][x]" of the i-th value on a grid. The index that varies fastest is last.
 template <int Dim>
 std::string grid_index(std::int64_t i, const std::int64_t* size) {
   std::string text;
@@ -29,7 +29,7 @@ std::string grid_index(std::int64_t i, const std::int64_t* size) {
   return text;
 }
 
-// The number of values of a grid.
+// Checks a grid except for its values. Returns the number of values.
 template <int Dim>
 std::int64_t check_grid(const GivenGrid& grid) {
   require_pointer(grid.size, "size");
@@ -59,7 +59,7 @@ std::int64_t check_grid(const GivenGrid& grid) {
 
 bool is_spacing(double value) { return std::isfinite(value) && value > 0; }
 
-// All the way around once, and no farther than the poles.
+// Throws if the grid covers more than one turn or reaches beyond the poles.
 void require_degrees_of_sphere(const DegreeGrid& grid) {
   constexpr double kMostTurns = 3600, kRounding = SphereGridSpacing::kRounding;
   if (std::fabs(grid.origin[0]) > kMostTurns)
@@ -102,7 +102,7 @@ void require_spacings(const DegreeGrid& grid) {
                                             place_text(grid, row, column) +
                                             ": the spacing must be finite and greater than 0");
   if (!SphereGridSpacing::repeats_first_column(grid)) return;
-  constexpr double kSinglePrecision = 1e-6;  // with some roundings
+  constexpr double kSinglePrecision = 1e-6;  // allows for some rounding errors
   const std::int64_t last = grid.columns - 1;
   for (std::int64_t row = 0; row < grid.rows; ++row)
     if (std::fabs(value(row, last) - value(row, 0)) > kSinglePrecision * value(row, 0))

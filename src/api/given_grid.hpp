@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing on a grid, as the C interface takes it: what must be right with it.
+// Checks and conversion of a spacing on a grid.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,17 @@
 
 namespace pnpbs::api {
 
+// The arguments of the C interface for a grid.
 struct GivenGrid {
   const std::int64_t* size;
   const double *origin, *step, *values;
 };
 
-// Throw Error(ErrorKind::argument) or, of a value, Error(ErrorKind::spacing).
+// Returns the spacing on a grid. Both functions throw Error(ErrorKind::argument), or
+// Error(ErrorKind::spacing) for an invalid value.
 template <int Dim>
 std::shared_ptr<const GridSpacing<Dim>> spacing_on_grid(const GivenGrid& grid);
-// Of longitude and latitude in degrees.
+// Returns the spacing on a grid of longitudes and latitudes in degrees.
 std::shared_ptr<const LocalSpacing<3>> spacing_on_sphere_grid(const GivenGrid& grid, double radius);
 
 }  // namespace pnpbs::api

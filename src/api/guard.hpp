@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way from a C call into the library and back: exceptions become a status and a message.
+// The frame of every C call: conversion of exceptions to a status and a message.
 #pragma once
 
 #include <new>
@@ -12,13 +12,13 @@
 
 namespace pnpbs::api {
 
-// The calling thread's last error, for calls that have no live context.
+// Returns the last error of the calling thread, for calls without a live context.
 LastError& thread_error();
 
 pnpbs_status status_of(ErrorKind kind) noexcept;
 
-// Returns how an object lies on a sphere; the identity if it is on none. Messages name points by
-// the chart of the sphere, and users want to know longitude and latitude.
+// Returns the embedding of an object on a sphere, or the identity for other objects. Messages name
+// points by their coordinates in the chart, and users see longitude and latitude instead.
 template <class Object>
 Embedding<2> sphere_of(const Object&) {
   return {};
@@ -27,15 +27,18 @@ inline Embedding<2> sphere_of(const DomainObject& object) {
   return object.plane ? object.plane->embedding() : Embedding<2>();
 }
 Embedding<2> sphere_of(const PlacementObject& object);
-// Returns the message with longitude and latitude for the points of the chart in it, which become
-// points of the sphere in space.
+// Returns the message with each point of the chart replaced by longitude and latitude. The points
+// of the result are points of the sphere in space.
 MessageText in_degrees(const Embedding<2>& sphere, const MessageText& message);
+// Converts the last error of the context in this way. Without memory for it the error stays as it
+// is.
 void tell_in_degrees(const Embedding<2>& sphere, Context& context) noexcept;
 
-// [3], NaN for the third coordinate in the plane. Nothing if `output` is null.
+// Writes three coordinates; the third is NaN in the plane. Does nothing if `output` is NULL.
 void copy_point(const NamedPoint& point, double* output) noexcept;
 
-// Turns the exception in flight into a status; puts the message where last_error finds it.
+// Stores the message of the current exception as the last error and returns its status. Must be
+// called in a catch block.
 pnpbs_status report_failure(Context* context) noexcept;
 
 inline void require_pointer(const void* pointer, const char* argument) {
@@ -48,6 +51,7 @@ inline void require_count(std::int64_t count, const char* argument) {
                                          std::to_string(count) + " is negative");
 }
 
+// Throws Error(ErrorKind::state) while a call that may run callbacks is in progress.
 inline void require_not_in_callback(const Context& context) {
   if (context.computing)
     throw Error(ErrorKind::state,
@@ -55,7 +59,7 @@ inline void require_not_in_callback(const Context& context) {
                 "queries are allowed");
 }
 
-// Marks the context as computing while callbacks may run.
+// A scope in which callbacks may run. Throws if the context is computing already.
 class Computing {
  public:
   explicit Computing(Context& context) : context_(context) {
@@ -70,7 +74,7 @@ class Computing {
   Context& context_;
 };
 
-// A call without a live context.
+// Runs the body of a call without a live context.
 template <class Body>
 pnpbs_status guarded(const Body& body) noexcept {
   const DefaultArithmetic arithmetic;
@@ -88,7 +92,8 @@ Context& context_of(Object& object) {
   return *object.context;
 }
 
-// A call on a handle: body(object).
+// Runs body(object) as a call on a handle. Throws nothing: errors become the last error of the
+// context and a status.
 template <class Handle, class Body>
 pnpbs_status guarded(
     Handle handle, const Body& body,
@@ -111,7 +116,8 @@ pnpbs_status guarded(
   }
 }
 
-// Removes what the handle stands for from its registry, and makes it NULL; nothing if it is NULL.
+// Removes the object of a handle from its registry and sets the handle to NULL. Does nothing if it
+// is NULL.
 template <class Object, class Handle>
 pnpbs_status destroy(Handle* handle, Registry<Object, Handle>& (*registry)()) noexcept {
   if (!handle || !*handle) return PNPBS_OK;

@@ -7,12 +7,12 @@ namespace pnpbs::api {
 
 std::uintptr_t next_key() {
   static std::atomic<std::uintptr_t> counter{0};
-  // Not small integers, which uninitialised handles often hold.
+  // Keys are large numbers, because uninitialized handles often contain small integers.
   return 0x50420000u + ++counter;
 }
 
-// Never destroyed: objects may outlive the static destructors of this library, when the host
-// destroys its own at exit; and Kokkos Views must not be freed after Kokkos has ended.
+// Registries are never destroyed. Objects may outlive the static destructors of this library if the
+// host destroys them at exit, and Kokkos Views must not be freed after Kokkos has ended.
 Registry<Context, pnpbs_context>& contexts() {
   static auto* registry = new Registry<Context, pnpbs_context>;
   return *registry;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the handles stand for. A handle's value is a key of the registry, counted up and never used
-// again, so that a stale one is recognised.
+// The objects behind the handles, and their registries. The value of a handle is a key of a
+// registry. Keys are counted up and never used again, so that stale handles are detected.
 #pragma once
 
 #include <cstdint>
@@ -24,29 +24,32 @@
 
 namespace pnpbs::api {
 
+// The last error that a caller can query.
 struct LastError {
   MessageText message;
   ErrorReason reason = ErrorReason::other;
 };
 
+// The object of a context handle.
 struct Context {
   std::shared_ptr<Communicator> communicator;
   Options options;
   LastError last_error;
-  std::string returned_text;  // the last string handed out
+  std::string returned_text;  // the last string returned to the caller
   bool computing = false;     // a call that may run callbacks is in progress
 };
 
-// One of the two.
+// A domain, of which either `plane` or `volume` is set. Domains on a sphere have `plane`.
 struct DomainObject {
   std::shared_ptr<Context> context;
   std::shared_ptr<PlaneDomain> plane;
   std::shared_ptr<VolumeDomain> volume;
-  // Of the domain as it is, once something was asked of its shape.
+  // Shape queries of the domain in its present state, created on the first query.
   std::shared_ptr<DomainShapes<2>> plane_shapes;
   std::shared_ptr<DomainShapes<3>> volume_shapes;
 };
 
+// A placement and the fields that its output files contain in addition.
 struct PlacementObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<Placement> placement;
@@ -56,7 +59,7 @@ struct PlacementObject {
 struct TransferObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<FieldTransfer> transfer;
-  double sphere_radius = 0;  // of the sphere that its nodes are on; 0 if they are on none
+  double sphere_radius = 0;  // radius of the sphere of its nodes; 0 if they are on none
 };
 
 struct MeshObject {
@@ -69,18 +72,20 @@ struct VoronoiObject {
   std::unique_ptr<const VoronoiCells> cells;
 };
 
+// Particles and the fields of their output files.
 struct ParticlesObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<const Particles> particles;
-  std::weak_ptr<PlacementObject> placement;      // whose monitor is asked while there is one
-  GroupNames names{};                            // of tags
-  std::vector<io::OutputField> output_fields{};  // their volumes first
+  std::weak_ptr<PlacementObject> placement;      // its monitor may stop the writing of files
+  GroupNames names{};                            // names of tags
+  std::vector<io::OutputField> output_fields{};  // the volumes come first
 };
 
-// One for each kind of object. All keys of the process come from one counter, so that a handle of
-// another kind is recognised, too.
+// Returns a new key. All keys of the process come from one counter, so that a handle of another
+// kind is detected, too.
 std::uintptr_t next_key();
 
+// The live objects of one kind. Thread-safe.
 template <class Object, class Handle>
 class Registry {
  public:
@@ -96,7 +101,7 @@ class Registry {
     return found == objects_.end() ? nullptr : found->second;
   }
   void remove(Handle handle) {
-    std::shared_ptr<Object> last;  // declared first: destroyed after the lock is gone
+    std::shared_ptr<Object> last;  // declared first, hence destroyed after unlocking
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = objects_.find(reinterpret_cast<std::uintptr_t>(handle));
     if (found == objects_.end()) return;
@@ -122,6 +127,7 @@ Registry<MeshObject, pnpbs_mesh>& meshes();
 Registry<VoronoiObject, pnpbs_voronoi>& voronois();
 Registry<ParticlesObject, pnpbs_particles>& all_particles();
 
+// Return the object of a handle. Throw Error(ErrorKind::handle) if it is not live.
 std::shared_ptr<Context> require(pnpbs_context handle);
 std::shared_ptr<DomainObject> require(pnpbs_domain handle);
 std::shared_ptr<PlacementObject> require(pnpbs_placement handle);

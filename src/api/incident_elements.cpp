@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The elements that touch a rank's own nodes, handed out through the C interface.
+// C interface: the elements that are incident to the own nodes of a rank.
 #include "results/incident_elements.hpp"
 
 #include <algorithm>

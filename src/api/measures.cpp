@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is told of a placement: edge length over d and Voronoi cells by bands of d, and before a run
-// what it would come to.
+// C interface: measures of a placement, namely edge lengths and Voronoi cells by bands of d, and
+// the estimate of a run.
 #include "api/placement_calls.hpp"
 #include "settings/named_rows.hpp"
 
@@ -50,7 +50,7 @@ pnpbs_status pnpbs_placement_get_cell_bands(pnpbs_placement placement, const cha
   return collective(placement, [&](Placement& p) {
     require_pointer(measure, "measure");
     require_pointer(count, "count");
-    figure_of({}, measure);  // there is one of this name
+    figure_of({}, measure);  // throws if there is no such measure
     const std::vector<CellBand>& bands = p.results().element_quality().cell.bands;
     *count = static_cast<std::int64_t>(bands.size());
     if (capacity == 0 && !d_from && !d_to && !number && !mean && !worst) return PNPBS_OK;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distributed meshes, handed out through the C interface.
+// C interface: distributed meshes.
 #include <limits>
 #include <string>
 
@@ -26,7 +26,7 @@ void require_layers(const Communicator& comm, std::int32_t layers) {
 
 std::int64_t size_of(const auto& array) { return static_cast<std::int64_t>(array.size()); }
 
-// A local call: body(mesh).
+// Runs body(mesh) as a local call.
 template <class Body>
 pnpbs_status of_mesh(pnpbs_mesh mesh, const Body& body) {
   return guarded(mesh, [&](MeshObject& object) {

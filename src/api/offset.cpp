@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies at a distance from others, through the C interface.
+// C interface: bodies at a distance from others.
 #include "api/domain_calls.hpp"
 #include "api/spacing_callback.hpp"
 #include "api/sphere_points.hpp"

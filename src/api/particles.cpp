@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles, handed out through the C interface.
+// C interface: particles.
 #include "particles/particles.hpp"
 
 #include "api/copy_out.hpp"

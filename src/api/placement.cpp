@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Placements of the C interface: making them, their options, computing, statistics.
+// C interface: creation of placements, their options, computations, statistics and warnings.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ using namespace pnpbs::api;
 
 namespace {
 
-// The statistic "status" is the number of an outcome.
+// The statistic "status" is the number of an outcome, which must equal the status.
 static_assert(static_cast<int>(Outcome::converged) == PNPBS_OK &&
               static_cast<int>(Outcome::not_converged) == PNPBS_NOT_CONVERGED &&
               static_cast<int>(Outcome::stopped) == PNPBS_STOPPED &&
@@ -117,12 +117,12 @@ IncomingNodes<Dim> checked_nodes(std::int64_t n, const double* coordinates,
                                  const std::int64_t* ids) {
   require_count(n, "n");
   if (n > 0) require_pointer(coordinates, "coordinates");
-  constexpr std::int64_t kMaxId = std::int64_t{1} << 62;  // leaves numbers for new nodes
+  constexpr std::int64_t kMaxId = std::int64_t{1} << 62;  // leaves ids for new nodes
   IncomingNodes<Dim> nodes;
   for (std::int64_t i = 0; i < n; ++i) {
     Point<Dim> x;
     std::copy_n(coordinates + Dim * i, Dim, x.begin());
-    // Points far outside the domain are dropped, as others outside are.
+    // Points outside the domain are dropped later, however far away they are.
     if (!std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); }))
       throw Error(ErrorKind::argument, "argument coordinates[" + std::to_string(i) +
                                            "] = " + point_text(x) + " must be finite");
@@ -156,7 +156,7 @@ pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
             n, placed_coordinates(placement_impl.domain().embedding(), n, coordinates, charted),
             ids);
       });
-      placement_impl.set_nodes(std::move(nodes));  // on all ranks or none
+      placement_impl.set_nodes(std::move(nodes));  // reached by all ranks or by none
       return PNPBS_OK;
     });
   });
@@ -194,7 +194,8 @@ pnpbs_status pnpbs_placement_run(pnpbs_placement placement) {
 
 namespace {
 
-// Ranks with different keys would wait for each other for ever.
+// Throws unless all ranks pass the same key, since they would wait for each other forever.
+// Collective.
 void require_same_key(const Communicator& comm, const std::string& key) {
   std::uint64_t fingerprint = 0;
   for (const char c : key) fingerprint = mixed(fingerprint ^ static_cast<unsigned char>(c));
@@ -204,8 +205,8 @@ void require_same_key(const Communicator& comm, const std::string& key) {
                     "\" differs between ranks: request the same statistic on all of them");
 }
 
-// Agreed on by all ranks, but from inside a callback: they are busy then, and only what needs no
-// computing is answered.
+// Gets a statistic in a collective call. From inside a callback the call is local because the other
+// ranks are busy; it then returns only statistics that need no computation.
 template <class Value, class Getter>
 pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* value,
                            const char* type, Getter StatisticRow::*getter) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How calls on a placement begin and end.
+// Helpers of the C functions on placements: local and collective calls.
 #pragma once
 
 #include "api/guard.hpp"
 
 namespace pnpbs::api {
 
-// A local call that changes the placement.
+// Runs body(placement) as a local call that changes the placement.
 template <class Body>
 pnpbs_status local_change(pnpbs_placement placement, const Body& body) {
   return guarded(placement, [&](PlacementObject& object) {
@@ -15,8 +15,9 @@ pnpbs_status local_change(pnpbs_placement placement, const Body& body) {
   });
 }
 
-// Does collective work on a placement: what fails on one rank, a bad argument even, fails on all.
-// Where it fails, ranks may have come to different points, and agree on what is derived by then.
+// Runs collective work on a placement. If it fails on one rank, even because of an argument, all
+// ranks throw. Ranks may have failed at different points, so they then agree on which derived data
+// are valid. Collective.
 template <class Work>
 void agreed_on(Placement& placement, const Work& work) {
   try {
@@ -27,7 +28,7 @@ void agreed_on(Placement& placement, const Work& work) {
   }
 }
 
-// A collective call, which may ask callbacks.
+// Runs body(placement object) as a collective call, which may call callbacks.
 template <class Body>
 pnpbs_status collective_on_object(pnpbs_placement placement, const Body& body) {
   return guarded(placement, [&](PlacementObject& object) {
@@ -37,14 +38,15 @@ pnpbs_status collective_on_object(pnpbs_placement placement, const Body& body) {
     return status;
   });
 }
+// Runs body(placement) as a collective call.
 template <class Body>
 pnpbs_status collective(pnpbs_placement placement, const Body& body) {
   return collective_on_object(placement,
                               [&](PlacementObject& object) { return body(*object.placement); });
 }
 
-// Creates an object from a placement on all ranks or on none: make(placement object) is a pointer
-// to it. `handle` is that of the new object, or NULL. Collective.
+// Creates an object from a placement on all ranks or on none. make(placement object) returns a
+// shared pointer to it. `*handle` becomes the handle of the new object, or NULL. Collective.
 template <class Object, class Handle, class Make>
 pnpbs_status collective_create(pnpbs_placement placement, Handle* handle, const char* argument,
                                Registry<Object, Handle>& (*registry)(), const Make& make) {
@@ -62,12 +64,13 @@ pnpbs_status collective_create(pnpbs_placement placement, Handle* handle, const 
   return status;
 }
 
-// The same of what only asks for results.
+// Runs body(results) as a collective call.
 template <class Body>
 pnpbs_status collective_results(pnpbs_placement placement, const Body& body) {
   return collective(placement, [&](Placement& p) { return body(p.results()); });
 }
 
+// Throws Error(ErrorKind::capacity) if an array of the caller is too small.
 inline void require_capacity(std::int64_t capacity, std::int64_t needed,
                              const std::string& argument = "capacity") {
   require_count(capacity, argument.c_str());
@@ -76,7 +79,7 @@ inline void require_capacity(std::int64_t capacity, std::int64_t needed,
                                          "; " + std::to_string(needed) + " are needed");
 }
 
-// Throws unless the results are of a placement in that dimension.
+// Returns the results of a placement of this dimension. Throws for other placements.
 template <int Dim>
 Results<Dim>& require_dimension(NodalResults& results) {
   if (results.dimension() != Dim)

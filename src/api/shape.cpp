@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shape of a domain through the C interface: distances, and spacing that follows it.
+// C interface: the shape of a domain, namely distances and a spacing that follows the shape.
 #include "api/shape.hpp"
 
 #include <algorithm>
@@ -55,8 +55,8 @@ void require_shape(const PlaneDomain& domain) {
 }
 void require_shape(const VolumeDomain&) {}
 
-// Calls ask(shapes) with what is known of the shape of the domain, which is checked first. Curves
-// by callback are asked then; so from inside a callback, the first question must have been before.
+// Calls ask(shapes) with the shape queries of a domain, which is checked first. Checking may call
+// curve callbacks, so from inside a callback the first query must have been made before.
 template <class Ask>
 pnpbs_status ask_shape(pnpbs_domain domain, const Ask& ask) {
   return guarded(domain, [&](DomainObject& object) {

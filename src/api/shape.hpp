@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What has been asked of a domain's shape, kept until the domain changes.
+// Results of shape queries of a domain, which are kept until the domain changes.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@
 
 namespace pnpbs::api {
 
-// Those of a domain on a sphere are in space.
+// The indices of a domain's shape and the shape spacings that have been requested. Shapes on a
+// sphere use points in space, hence Dim = 3.
 template <int Dim>
 class DomainShapes {
  public:
@@ -25,7 +26,8 @@ class DomainShapes {
         index_(shape_on_sphere(on_sphere)) {}
 
   const ShapeIndex<Dim>& index() const { return index_; }
-  // To what has the tag, or for 0 to the boundary; along the sphere on one.
+  // Returns the distance from x to the geometry with this tag, or to the boundary for tag 0. On a
+  // sphere it is measured along the sphere.
   double distance(std::int32_t tag, const Point<Dim>& x) const {
     if constexpr (Dim == 3)
       if (sphere_) {
@@ -36,6 +38,7 @@ class DomainShapes {
     return pnpbs::distance<Dim>(nearest(tag, x), x);
   }
 
+  // Returns the shape spacing for these demands, and computes it on first request. Thread-safe.
   const ShapeSpacing<Dim>& spacing(const ShapeDemands& demands, const ShapeLimits& limits) {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& known : spacings_)

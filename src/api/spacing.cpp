@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing of a placement, set through the C interface.
+// C interface: the spacing of a placement.
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +19,8 @@ using namespace pnpbs::api;
 
 namespace {
 
-// Collective: make(p) is the spacing of p, a placement in its dimension; it is replaced only if all
-// ranks could make theirs.
+// Replaces the spacing of a placement by make(p), where p is the placement in its dimension, if
+// this succeeds on all ranks. Collective.
 template <class Make>
 pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
   return local_change(placement, [&](Placement& p) {
@@ -33,7 +33,8 @@ pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
   });
 }
 
-// make<Dim>() is a spacing that every rank has; on a sphere of points in space.
+// Returns the spacing make<Dim>(), which is the same on every rank. On a sphere it is the spacing
+// make<3>() of points in space.
 template <int Dim, class Make>
 std::shared_ptr<const Spacing<Dim>> local_spacing(const PlacementImpl<Dim>& in, const Make& make) {
   const auto shared = [&]<int In>() {
@@ -83,8 +84,9 @@ void add_elements(Field& field, std::int64_t elements, const std::int64_t* corne
   }
 }
 
-// Collective: read<Field>() is the field that this rank gives, which all ranks must give, of the
-// kind of the placement: GivenField in its dimension, or SphereField.
+// Sets the spacing of a placement to a field that all ranks must give. read<Field>() returns the
+// field of this rank; Field is GivenField in the dimension of the placement, or SphereField.
+// Collective.
 template <class Read>
 pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
   return local_change(placement, [&](Placement& p) {

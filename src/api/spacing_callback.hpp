@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing callback of the C interface as a spacing.
+// Conversion of a spacing callback of the C interface.
 #pragma once
 
 #include "api/guard.hpp"
@@ -7,6 +7,7 @@
 
 namespace pnpbs::api {
 
+// Returns the callback as a spacing. Throws if it is NULL.
 template <int Dim>
 CallbackSpacing<Dim> spacing_from(pnpbs_spacing_fn spacing, void* user) {
   if (!spacing) throw Error(ErrorKind::argument, "argument spacing is NULL");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spheres through the C interface.
+// C interface: spheres.
 #include <algorithm>
 #include <cmath>
 
@@ -49,7 +49,7 @@ MessageText pnpbs::api::in_degrees(const Embedding<2>& sphere, const MessageText
   return with_points_told(message, words, moved);
 }
 
-// No room for it: then the message is as it was.
+// Keeps the message as it is if there is no memory for the new one.
 void pnpbs::api::tell_in_degrees(const Embedding<2>& sphere, Context& context) noexcept {
   if (!sphere.is_sphere()) return;
   try {
@@ -76,7 +76,7 @@ pnpbs_status pnpbs_domain_create_sphere(pnpbs_context context, double radius, co
   });
 }
 
-// The poles are exact, and so is the meridian of 180 degrees.
+// The coordinates of the poles and of the meridian of 180 degrees are exact.
 pnpbs_status pnpbs_sphere_points(double radius, int64_t n, const double* degrees,
                                  double* coordinates) {
   return guarded([&] {

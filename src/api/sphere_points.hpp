@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of a sphere, as the C interface has them, and in the chart that the library places nodes
-// in.
+// Points of a sphere: conversion between the space coordinates of the C interface and the chart in
+// which the library places nodes.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace pnpbs::api {
 
-// Throws unless the point has a direction from the centre of the sphere.
+// Returns the point. Throws if it has no direction from the centre of the sphere.
 inline Point<3> require_direction(const std::string& argument, const double* x) {
   const Point<3> point{x[0], x[1], x[2]};
   const double square = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
@@ -36,9 +36,9 @@ inline std::vector<Point<3>> require_directions(const char* argument, std::int64
   return points;
 }
 
-// Returns the coordinates by which nodes are placed: those given or, on a sphere, those of the
-// chart, which are put into `charted`. The point that is projected from is far out in some
-// direction.
+// Returns the coordinates in which nodes are placed: the given ones, or on a sphere those of the
+// chart, which are written to `charted`. The projection point itself has none in the chart and
+// becomes a point very far away.
 inline const double* placed_coordinates(const Embedding<2>& embedding, std::int64_t n,
                                         const double* coordinates, std::vector<double>& charted) {
   if (!embedding.is_sphere()) return coordinates;
@@ -55,6 +55,7 @@ inline const double* placed_coordinates(const Embedding<3>&, std::int64_t,
   return coordinates;
 }
 
+// Returns the coordinates of the points projected to the sphere.
 inline std::vector<double> put_on_sphere(double radius, const std::vector<Point<3>>& points) {
   std::vector<double> coordinates;
   for (const Point<3>& x : points)
@@ -62,7 +63,7 @@ inline std::vector<double> put_on_sphere(double radius, const std::vector<Point<
   return coordinates;
 }
 
-// Throws for what is not there on a sphere yet.
+// Throws if the object is on a sphere, where `what` is not supported yet.
 inline void require_no_sphere(const Embedding<2>& embedding, const char* argument,
                               const char* what) {
   if (embedding.is_sphere())

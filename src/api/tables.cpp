@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of options and statistics, as the C interface shows them.
+// C interface: the tables of options, statistics and file formats.
 #include "api/guard.hpp"
 #include "io/formats.hpp"
 #include "placement/statistics.hpp"

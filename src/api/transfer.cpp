@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields carried from nodes that were to nodes that are, through the C interface.
+// C interface: transfer of fields from earlier nodes to present ones.
 #include <cmath>
 #include <string>
 
@@ -12,7 +12,7 @@ using namespace pnpbs::api;
 
 namespace {
 
-// A collective call on a transfer: what fails on one rank fails on all.
+// Runs body(transfer object) as a collective call. If it fails on one rank, it fails on all.
 template <class Body>
 pnpbs_status collective(pnpbs_transfer transfer, const Body& body) {
   return guarded(transfer, [&](TransferObject& object) {
@@ -41,7 +41,8 @@ void require_field(NodalResults& results, std::int64_t n, std::int64_t component
                       number_text(values[k]) + "; all must be finite");
 }
 
-// Ranks that ask for fields of different orders would wait for each other.
+// Creates a transfer. Throws unless the order is the same on all ranks, since they would wait for
+// each other. Collective.
 pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t n,
                     std::int32_t components, const double* values, pnpbs_transfer* transfer) {
   return collective_create(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Voronoi cells, handed out through the C interface.
+// C interface: Voronoi cells.
 #include "api/copy_out.hpp"
 #include "api/placement_calls.hpp"
 #include "voronoi/voronoi_cells.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files: proc(5), and the kernel's Documentation/admin-guide/cgroup-v1/memory.rst and
-// cgroup-v2.rst.
+// The files are described in proc(5) and in the kernel's
+// Documentation/admin-guide/cgroup-v1/memory.rst and cgroup-v2.rst.
 #include "base/available_memory.hpp"
 
 #include <sys/resource.h>
@@ -16,14 +16,16 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-// The first number of a file; unknown if there is none ("max" means no limit).
+// Returns the number at the beginning of a file, or kUnknown if the file begins with none ("max"
+// means no limit).
 double number_in(const std::string& path) {
   std::ifstream file(path);
   double value;
   return file >> value ? value : kUnknown;
 }
 
-// The number after a word at the beginning of a line.
+// Returns the number that follows `word` at the beginning of a line, or kUnknown if no line begins
+// so.
 double number_after(const std::string& path, const std::string& word) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
@@ -42,7 +44,8 @@ constexpr GroupFiles kVersion2{"/memory.max", "/memory.current", "inactive_file"
 constexpr GroupFiles kVersion1{"/memory.limit_in_bytes", "/memory.usage_in_bytes",
                                "total_inactive_file"};
 
-// What a group may still take. Cached files count as used there, but are given back.
+// Returns the number of bytes that a control group may still allocate. The usage of a group
+// includes cached files, but the kernel drops these when memory is short.
 double left_in_group(const std::string& folder, const GroupFiles& files) {
   const double limit = number_in(folder + files.limit);
   const double usage = number_in(folder + files.usage);
@@ -51,8 +54,9 @@ double left_in_group(const std::string& folder, const GroupFiles& files) {
   return std::max(0.0, limit - usage + (cache == kUnknown ? 0 : cache));
 }
 
-// Of the group and all that it is in. A container may see its group's path from outside, which is
-// nowhere below its own mount: then the mount itself is the group.
+// Returns the smallest allowance of the group and of all groups that contain it. A container may
+// see the path of its group as it is outside, where no such folder exists below its own mount. The
+// mount itself is its group then.
 double left_in_groups(const std::string& mount, std::string group, const GroupFiles& files) {
   double left = left_in_group(mount, files);
   while (group.size() > 1) {
@@ -68,7 +72,8 @@ double available_memory(const std::string& root) {
   constexpr double kKibibyte = 1024;
   double left = kKibibyte * number_after(root + "/proc/meminfo", "MemAvailable:");
   std::ifstream groups(root + "/proc/self/cgroup");
-  // "0::/path" of version 2; "5:memory:/path" of version 1, where controllers are several.
+  // Version 2 has a line "0::/path". Version 1 has lines "5:memory:/path", whose second field may
+  // list several controllers.
   for (std::string line; std::getline(groups, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
@@ -82,7 +87,8 @@ double available_memory(const std::string& root) {
   return left;
 }
 
-// What getrusage(2) tells begins with what the program held that started this one.
+// /proc is read first because the maximum of getrusage(2) includes the memory of the program that
+// started this process.
 std::int64_t peak_memory() {
   const double kibibytes = number_after("/proc/self/status", "VmHWM:");
   if (kibibytes != kUnknown) return 1024 * static_cast<std::int64_t>(kibibytes);

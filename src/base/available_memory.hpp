@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much memory the system would give this process: what the machine has left, or less where its
-// control groups (containers, batch systems) allow less.
+// Estimate of the memory that the system can still give to this process: the free memory of the
+// machine, or less if a control group (container, batch system) has a lower limit.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@
 
 namespace pnpbs {
 
-// Bytes; infinite where the system does not tell. `root` stands before the paths of its files.
+// Returns the available memory in bytes, or infinity if the system does not report it. `root` is a
+// prefix of the paths that are read; tests pass a folder with files of their own.
 double available_memory(const std::string& root = "");
 
-// Bytes: the most that this process has held so far.
+// Returns the largest memory in bytes that this process has used so far.
 std::int64_t peak_memory();
 
 }  // namespace pnpbs

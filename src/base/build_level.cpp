@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/build_level.hpp"
 
-// Kernels for a higher level are compiled with a text of their own.
+// The build defines this macro for libraries whose kernels need a higher level.
 #ifndef PNPBS_BUILD_LEVEL
 #define PNPBS_BUILD_LEVEL ""
 #endif

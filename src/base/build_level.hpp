@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The level of x86-64 processors for which this library's kernels are compiled
+// Name of the x86-64 level that the kernels of this library are compiled for
 // (cmake/PnpbsLevels.cmake).
 #pragma once
 
 namespace pnpbs {
 
-/// ", x86-64-v3" and the like; empty in the library for all processors.
+// Returns a suffix for the version text, such as ", x86-64-v3". It is empty in the library for all
+// processors.
 const char* build_level();
 
 }  // namespace pnpbs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small systems with a symmetric, positive definite matrix, by Cholesky's factor. Only the lower
-// triangle of the matrix is read, and its factor replaces it.
+// Solves small systems with a symmetric, positive definite matrix by Cholesky factorization. Only
+// the lower triangle of the matrix is read, and the factor overwrites it.
 #pragma once
 
 #include <array>
@@ -9,11 +9,12 @@
 
 namespace pnpbs {
 
+// An N x N matrix, stored by rows.
 template <std::size_t N>
 using SquareMatrix = std::array<std::array<double, N>, N>;
 
-// Multiplies a[i][j] by scale[i] scale[j], which make the diagonal 1. False, with the matrix as it
-// was, where the diagonal is not positive.
+// Scales the matrix to a unit diagonal: a[i][j] becomes a[i][j] scale[i] scale[j]. Returns false
+// and leaves the matrix unchanged if an entry of the diagonal is not positive.
 template <std::size_t N>
 bool scale_to_unit_diagonal(SquareMatrix<N>& a, std::array<double, N>& scale) {
   for (std::size_t i = 0; i < N; ++i) {
@@ -25,8 +26,8 @@ bool scale_to_unit_diagonal(SquareMatrix<N>& a, std::array<double, N>& scale) {
   return true;
 }
 
-// False where, without what the columns before have of it, no more than `singular` is left on the
-// diagonal of a column.
+// Replaces the lower triangle by the Cholesky factor. Returns false if a pivot is at most
+// `singular`; the matrix is then partly overwritten.
 template <std::size_t N>
 bool factor_cholesky(SquareMatrix<N>& a, double singular = 0) {
   for (std::size_t i = 0; i < N; ++i)
@@ -39,7 +40,7 @@ bool factor_cholesky(SquareMatrix<N>& a, double singular = 0) {
   return true;
 }
 
-// Solves for the N numbers of a right side, in place of them.
+// Solves factor factor^T x = b. `b` has N entries, and the solution overwrites it.
 template <std::size_t N>
 void solve_factored(const SquareMatrix<N>& factor, double* b) {
   for (std::size_t i = 0; i < N; ++i) {

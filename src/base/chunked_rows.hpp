@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of varying length, written by several threads: each fills whole chunks of consecutive rows,
-// and memory is kept for the next time.
+// Rows of varying length that several threads write at the same time. Each thread fills whole
+// chunks of consecutive rows. Memory is kept and used again by the next build.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,12 @@
 
 namespace pnpbs {
 
+// A table of rows whose storage is one array for each chunk of `ChunkRows` rows.
 template <class T, int ChunkRows = 512>
 class ChunkedRows {
  public:
-  // make_writer() is called once per chunk and gives a writer; writer(row, out) appends the
-  // entries of a row to out. Writers may throw.
+  // Replaces the table by `rows` rows. make_writer() is called once per chunk and returns a writer;
+  // writer(row, out) appends the entries of a row to the vector `out`. Writers may throw.
   template <class MakeWriter>
   void build(const char* label, std::int64_t rows, const MakeWriter& make_writer) {
     make_chunks(rows);
@@ -33,7 +34,8 @@ class ChunkedRows {
     });
   }
 
-  // The same with a second row each, of what comes with the first: writer(row, out, out of others).
+  // Builds this table and `others`, which has the same number of rows, in one pass. The writer is
+  // called as writer(row, out, out_of_others).
   template <class U, class MakeWriter>
   void build_with(ChunkedRows<U, ChunkRows>& others, const char* label, std::int64_t rows,
                   const MakeWriter& make_writer) {
@@ -53,8 +55,8 @@ class ChunkedRows {
     });
   }
 
-  // Has those rows written again for which again(row) holds; the others stay as they are. There are
-  // as many as before.
+  // Writes the rows again for which again(row) is true and keeps the other rows. `rows` must equal
+  // the number of rows of the last build.
   template <class Again, class MakeWriter>
   void rewrite(const char* label, std::int64_t rows, const Again& again,
                const MakeWriter& make_writer) {
@@ -83,7 +85,7 @@ class ChunkedRows {
     });
   }
 
-  // The rows of a chunk are needed no longer, nor its memory.
+  // Releases the memory of chunk `c`. The rows of this chunk must not be read until the next build.
   void drop_chunk(std::int64_t c) { chunks_[static_cast<std::size_t>(c)] = {}; }
 
   std::span<T> row(std::int64_t i) {
@@ -106,8 +108,8 @@ class ChunkedRows {
     for (Chunk& chunk : chunks_) chunk.entries.clear();
   }
 
-  // A vector grows by doubling: gives back what is far too much, but keeps some room for the next
-  // time, when the rows may be a little longer.
+  // Releases memory that the doubling of vectors has allocated in excess. A sixteenth is left as
+  // spare room, since rows may be a little longer in the next build.
   static void give_back(std::vector<T>& entries) {
     if (entries.capacity() <= entries.size() + entries.size() / 4) return;
     std::vector<T> fitting;

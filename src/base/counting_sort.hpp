@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counting sort on several threads. Stable, so that the order is the same for any number of them:
-// each thread has its own count of each key in its part of the entries.
+// Stable counting sort on several threads. Each thread counts the keys of its own part of the
+// entries. The order does not depend on the number of threads because the sort is stable.
 #pragma once
 
 #include <algorithm>
@@ -13,31 +13,34 @@
 
 namespace pnpbs {
 
+// A sorted order of entries by small integer keys.
 class CountingSort {
  public:
-  // Entries 0 .. n-1 by key(i), 0 .. keys-1; those with a negative key are left out.
+  // Counts entries 0 .. n-1 by key(i), which must be less than `keys`. Entries with a negative key
+  // are left out. Throws Error(ErrorKind::memory) if `n` exceeds the limit of a rank.
   template <class Key>
   CountingSort(std::int64_t n, std::int32_t keys, const Key& key);
 
-  // First place of each key, and behind the last one the number of places.
+  // Returns the sorted index of the first entry of each key, followed by the number of sorted
+  // entries.
   const std::vector<std::int32_t>& start() const { return start_; }
-  // Were the entries in order, and is none left out?
+  // Returns true if the entries are in order already and none is left out.
   bool in_order() const { return in_order_; }
 
-  // Calls visit(i, place) for every entry that has a place, on all threads. Once: it uses up the
-  // counts.
+  // Calls visit(i, sorted_index) for each entry that is not left out, on all threads. `key` must be
+  // the one of the constructor. May be called only once because it overwrites the counts.
   template <class Key, class Visit>
   void for_places(const Key& key, const Visit& visit);
 
  private:
   static constexpr std::int64_t kMaxParts = 16;       // bounds the memory for the counts
-  static constexpr std::int64_t kMinEntries = 20000;  // of a part
+  static constexpr std::int64_t kMinEntries = 20000;  // per part
 
   std::int64_t begin(std::int64_t part) const { return part * n_ / parts_; }
   std::int32_t* counts_of(std::int64_t part) const { return counts_.data() + part * keys_; }
 
   std::int64_t n_, parts_, keys_;
-  View<std::int32_t> counts_;  // of each part; then its next place for each key
+  View<std::int32_t> counts_;  // by part and key: first the count, later the next sorted index
   std::vector<std::int32_t> start_;
   bool in_order_ = true;
 };

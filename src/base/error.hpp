@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors are exceptions inside the library; src/api turns them into status and message.
+// Exceptions of the library, which src/api converts to a status and a message.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace pnpbs {
 
-// What went wrong, as the public interface tells it apart (pnpbs_status).
+// Category of an error. The public interface has a status for each (pnpbs_status).
 enum class ErrorKind {
-  stopped,  // by the monitor: no error to the caller
+  stopped,  // the monitor stopped the run; the caller gets no error
   argument,
   handle,
   state,
@@ -29,22 +29,23 @@ enum class ErrorKind {
   internal
 };
 
-// Further reasons that the public interface tells apart (PNPBS_REASON_...).
+// Detail of an error that the public interface reports as a constant PNPBS_REASON_...
 enum class ErrorReason {
   other,
   crossing  // curves cross or overlap
 };
 
+// An exception with a kind, a reason and a message that may name points.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, MessageText message, ErrorReason reason = ErrorReason::other)
       : Error(kind, std::make_shared<const MessageText>(as_worded(std::move(message))), reason) {}
-  // Another kind with the message of `other`. Needs no memory.
+  // Creates an error of another kind with the message of `other`. Allocates no memory.
   Error(ErrorKind kind, const Error& other)
       : std::runtime_error(other), kind_(kind), reason_(other.reason_), message_(other.message_) {}
   ErrorKind kind() const { return kind_; }
   ErrorReason reason() const { return reason_; }
-  // The text of what(), and the points in it.
+  // Returns the text of what() together with the points that it names.
   const MessageText& message() const { return *message_; }
 
  private:
@@ -59,7 +60,7 @@ class Error : public std::runtime_error {
   std::shared_ptr<const MessageText> message_;
 };
 
-// What failures are told as that are no Error.
+// Messages for exceptions that are not of type Error.
 inline constexpr const char* kOutOfMemory =
     "out of memory: fewer nodes (a larger spacing) or more memory is needed";
 inline constexpr const char* kArrayTooLong =
@@ -67,21 +68,23 @@ inline constexpr const char* kArrayTooLong =
 inline constexpr const char* kForeignException =
     "a callback threw something that is no std::exception";
 
-// A number as messages and reports show it: shortest text that reads back as the same double,
-// with a point in every locale.
+// Returns the shortest text that reads back as the same double, with a decimal point in every
+// locale. Messages and reports show numbers in this form.
 std::string number_text(double value);
 
+// Returns true if fewer nodes or more memory could avoid the error.
 inline bool is_lack_of_room(const Error& error) {
   return error.kind() == ErrorKind::spacing || error.kind() == ErrorKind::memory;
 }
 
-// Says that a domain cannot be what was given, and where.
+// Throws the error that a domain is invalid. `message` names the location.
 [[noreturn]] inline void reject_domain(const MessageText& message,
                                        ErrorReason reason = ErrorReason::other) {
   throw Error(ErrorKind::domain, message, reason);
 }
 
-// Triangles that enclose a body badly, which may be repaired.
+// An error of a surface whose triangles do not enclose a body. A repair of the triangles may
+// succeed.
 class BrokenSurface : public Error {
  public:
   explicit BrokenSurface(const MessageText& message) : Error(ErrorKind::domain, message) {}

@@ -14,7 +14,7 @@ __extension__ using UnsignedTwoWords = unsigned __int128;
 
 constexpr std::int64_t kDigit = std::int64_t{1} << 32;
 
-// A finite double as an integer times a power of 2.
+// A finite double as an integer times a power of 2: bits * 2^exponent.
 struct Parts {
   std::uint64_t bits;
   int exponent;
@@ -25,7 +25,7 @@ Parts parts(double x) {
   const auto word = std::bit_cast<std::uint64_t>(x);
   const int exponent = static_cast<int>(word >> 52 & 0x7ff);
   const std::uint64_t fraction = word & ((std::uint64_t{1} << 52) - 1);
-  // Those below 2^-1022 have no leading bit, and the exponent of 2^-1022.
+  // Subnormal numbers have no implicit leading bit, and their exponent is that of 2^-1022.
   return {exponent > 0 ? fraction | std::uint64_t{1} << 52 : fraction, std::max(exponent, 1) - 1075,
           word >> 63 != 0};
 }
@@ -38,7 +38,7 @@ bool ExactSum::count_not_finite(double term) {
   return true;
 }
 
-// Adds bits * 2^(place + kUnit).
+// Adds bits * 2^(place + kUnit). `place` is the index of the lowest bit in the accumulator.
 void ExactSum::add_bits(std::uint64_t bits, int place, bool negative) {
   const UnsignedTwoWords shifted = static_cast<UnsignedTwoWords>(bits) << (place % 32);
   const std::int64_t digits[3] = {static_cast<std::int64_t>(shifted & (kDigit - 1)),
@@ -84,7 +84,8 @@ void ExactProducts::add(double x, double y) {
   const std::uint64_t a = (p & (kLeading - 1)) | (i > 0 ? kLeading : 0);
   const std::uint64_t b = (q & (kLeading - 1)) | (j > 0 ? kLeading : 0);
   const auto product = static_cast<TwoWords>(a) * static_cast<TwoWords>(b);
-  // -1 if the signs differ: then all bits change, and one more is added.
+  // `sign` is -1 if the signs differ and 0 otherwise; (product ^ sign) - sign then negates the
+  // product without a branch.
   const auto sign = -static_cast<TwoWords>((p ^ q) >> 63);
   by_exponent_[std::max<std::uint64_t>(i, 1) + std::max<std::uint64_t>(j, 1)] +=
       (product ^ sign) - sign;
@@ -104,7 +105,7 @@ void ExactProducts::add_to(ExactSum& sum) const {
   sum.add(others_);
 }
 
-// Afterwards all digits but the last are from 0 to 2^32 - 1, and that has the sign.
+// Leaves all digits but the last in 0 .. 2^32 - 1; the last digit has the sign of the sum.
 void ExactSum::carry() {
   std::int64_t carried = 0;
   for (int k = 0; k + 1 < kDigits; ++k) {
@@ -140,7 +141,7 @@ double ExactSum::value() {
   };
   int high = 32 * top + 31;
   while (!bit(high)) --high;
-  // The last bit that a double of this size keeps.
+  // `low` is the last bit that a double of this magnitude can hold.
   const int low = std::max(high - 52, -1074 - kUnit);
   std::uint64_t bits = 0;
   for (int place = high; place >= low; --place) bits = bits << 1 | (bit(place) ? 1 : 0);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums of doubles, and of products of two, without any rounding until the end: a fixed-point number
-// long enough for all of them (U. Kulisch, W. Miranker, Computer Arithmetic in Theory and Practice,
-// 1981), in which the order of the terms does not matter. Its digits hold more than their 32 bits,
-// so that carries wait (R. Neal, "Fast exact summation using small and large superaccumulators",
-// 2015), and accumulators of threads and ranks are added digit by digit.
+// Exact sums of doubles and of products of two doubles. The sum is a fixed-point number that is
+// long enough for all terms (U. Kulisch, W. Miranker, Computer Arithmetic in Theory and Practice,
+// 1981), so it does not depend on the order of the terms, and only the final conversion to double
+// rounds. Digits of 32 bits are stored in 64 bits, so that carries can be postponed (R. Neal, "Fast
+// exact summation using small and large superaccumulators", 2015). Accumulators of threads and
+// ranks are added digit by digit.
 #pragma once
 
 #include <array>
@@ -12,28 +13,31 @@
 
 namespace pnpbs {
 
+// An accumulator that adds doubles without rounding.
 class ExactSum {
  public:
-  // Digits, and how many terms are NaN, +inf and -inf: integers that may be added up over ranks.
+  // Number of digits, and number of entries: the digits and the counts of terms that are NaN, +inf
+  // and -inf. All entries are integers that can be summed over ranks.
   static constexpr int kDigits = 136, kEntries = kDigits + 3;
 
   void add(double term);
   void add_product(double x, double y);
   void add(const ExactSum& other);
 
-  // After carry() the entries of 2^30 sums can be added.
+  // Normalizes the digits to 32 bits. Afterwards the entries of up to 2^30 sums can be added
+  // without overflow.
   void carry();
   std::array<std::int64_t, kEntries>& entries() { return entries_; }
 
-  // The double nearest to the sum, of two equally near ones that with an even last bit; an infinity
-  // if it is beyond the largest double. NaN if a term is, or there are infinities of both signs;
-  // otherwise an infinity if a term is. The sum of nothing, and any sum that is 0, is +0.
+  // Returns the sum rounded to the nearest double, ties to even. It is NaN if a term is NaN or if
+  // infinities of both signs were added, and otherwise infinite if a term is infinite or if the sum
+  // exceeds the largest double. An empty sum and any sum of value 0 give +0.
   double value();
 
  private:
   friend class ExactProducts;
-  // Digit k counts 2^(32 k - 2176); the least bit of a product of doubles, 2^-2148, is in the
-  // first.
+  // Digit k has the unit 2^(32 k - 2176). The smallest bit of a product of two doubles, 2^-2148,
+  // lies in the first digit.
   static constexpr int kUnit = -2176;
   static constexpr int kNaN = kDigits, kInfinity = kDigits + 1, kMinusInfinity = kDigits + 2;
   static constexpr std::int64_t kTermsToCarry = std::int64_t{1} << 28;
@@ -45,17 +49,17 @@ class ExactSum {
   }
 
   std::array<std::int64_t, kEntries> entries_{};
-  std::int64_t terms_ = 0;  // since the last carry
+  std::int64_t terms_ = 0;  // terms since the last carry
 };
 
-// Many products, much faster: whole numbers of two words, one for each sum of exponents, to which
-// the products of the fractions are added.
+// A faster accumulator for many products. It has a 128-bit integer for each sum of two exponents,
+// to which the products of the fractions are added.
 class ExactProducts {
  public:
   static constexpr std::int64_t kMaxTerms = std::int64_t{1} << 20;  // 2^126 / 2^106
 
   void add(double x, double y);
-  // All there are, at the end.
+  // Adds all products to `sum`. Called once, after the last product.
   void add_to(ExactSum& sum) const;
 
  private:
@@ -63,7 +67,7 @@ class ExactProducts {
   static constexpr std::size_t kExponents = 4096;
 
   std::vector<TwoWords> by_exponent_ = std::vector<TwoWords>(kExponents, 0);
-  ExactSum others_;  // that are not finite
+  ExactSum others_;  // products that are not finite
 };
 
 }  // namespace pnpbs

@@ -14,7 +14,8 @@ void FirstException::store() noexcept {
 
 namespace {
 
-// Made once, because making one allocates, and never destroyed, because Kokkos may end before.
+// The execution space is created once because its constructor allocates. It is never destroyed
+// because Kokkos may be finalized before static objects are destroyed.
 const Exec& execution_space() {
   static const Exec* const space = new Exec;
   return *space;
@@ -28,7 +29,7 @@ void for_each_range(const char* label, std::int64_t n,
   require_threads();
   const Exec& space = execution_space();
   const auto ranges = static_cast<std::int64_t>(space.concurrency());
-  // Only tools need the label, which would be copied.
+  // Only Kokkos tools read the label, and copying it allocates.
   const std::string name = Kokkos::Tools::profileLibraryLoaded() ? label : "";
   std::atomic<bool> started{false};
   const auto run = [&](std::int64_t range) {
@@ -44,8 +45,9 @@ void for_each_range(const char* label, std::int64_t n,
           run(range);
         });
   } catch (const std::bad_alloc&) {
-    // Kokkos allocates before it starts threads, and after they have ended. A kernel does not fail
-    // for that: callers change data in several kernels, all of which have to run.
+    // Kokkos allocates before it starts the threads and after they have ended. A kernel must not
+    // fail because of that: callers change data in a sequence of kernels, and all of them have to
+    // run.
     for (std::int64_t range = 0; !started && range < ranges; ++range) run(range);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where kernels run: the host's threads through Kokkos. The one place that knows which Kokkos
-// versions there are (4.5 to 5.x have the same calls for what we use).
+// Parallel loops and arrays on the threads of the host, through Kokkos. Only this header depends on
+// the Kokkos version; versions 4.5 to 5.x have the same calls for all that is used here.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -22,9 +22,9 @@
 
 namespace pnpbs {
 
-// A shared array of numbers or plain records in host memory. Copies refer to the same entries,
-// which are freed with the last of them. Freeing throws nothing and allocates nothing, which a
-// Kokkos::View does, in a destructor: a lack of memory would end the process there.
+// A shared array of numbers or plain records in host memory. Copies refer to the same entries, and
+// the last copy frees them. Unlike the destructor of a Kokkos::View, freeing neither throws nor
+// allocates, so a lack of memory cannot end the process there.
 template <class T>
 class View {
   using Entry = std::remove_const_t<T>;
@@ -32,9 +32,9 @@ class View {
 
  public:
   View() = default;
-  // Allocates n entries, without values, aligned to cache lines.
+  // Allocates n uninitialized entries, aligned to cache lines.
   explicit View(std::int64_t n) : entries_(allocated(n), Free{}), size_(n) {}
-  // Refers to the entries of another view, which this one does not change.
+  // Creates a read-only view of the entries of another view.
   template <class U>
   requires(std::same_as<const U, T>) View(const View<U>& other)
       : entries_(other.entries_), size_(other.size_) {}  // NOLINT: implicit
@@ -64,7 +64,8 @@ class View {
   std::int64_t size_ = 0;
 };
 
-// `label` says what the array is, for readers of the code.
+// Allocates an array of n uninitialized entries. `label` describes it to readers of the code and is
+// not used.
 template <class T>
 View<T> make_view(const char* /*label*/, std::int64_t n) {
   return View<T>(n);
@@ -72,11 +73,11 @@ View<T> make_view(const char* /*label*/, std::int64_t n) {
 
 using Exec = Kokkos::DefaultHostExecutionSpace;
 
-// The first exception of the bodies of a parallel loop. An exception must not leave a parallel
-// region, because that ends the process, so it is stored here until all bodies have ended.
+// Storage for the first exception thrown by the bodies of a parallel loop. An exception that leaves
+// a parallel region ends the process, so it is stored here until all bodies have ended.
 class FirstException {
  public:
-  // Called in a catch block.
+  // Stores the current exception if it is the first one. Must be called in a catch block.
   void store() noexcept;
   void rethrow() const {
     if (first_) std::rethrow_exception(first_);
@@ -94,9 +95,10 @@ class FirstException {
 void for_each_range(const char* label, std::int64_t n,
                     FunctionRef<void(std::int64_t begin, std::int64_t end)> body);
 
-// Calls body(i) for 0 <= i < n, also for the indices after one whose body throws, and rethrows the
-// first exception at the end. Bodies must not depend on each other: that, and reductions over
-// integers and maxima only, make results the same for any number of threads.
+// Calls body(i) for 0 <= i < n on all threads. If bodies throw, all other indices are still
+// visited, and the first exception is rethrown at the end. Bodies must not depend on each other.
+// Together with reductions that use only integers and maxima, this makes results independent of the
+// number of threads.
 template <class Body>
 void for_each(const char* label, std::int64_t n, const Body& body) {
   FirstException failure;
@@ -112,8 +114,9 @@ void for_each(const char* label, std::int64_t n, const Body& body) {
   failure.rethrow();
 }
 
-// Calls add(part, i) for 0 <= i < n, where `part` begins as `none` in each range, and join(part)
-// once for each range, one thread at a time. The result must not depend on the order of ranges.
+// Reduces over 0 <= i < n. Each range starts with a copy `part` of `none`, calls add(part, i) for
+// its indices, and then join(part), one thread at a time. The result must not depend on the order
+// of the ranges.
 template <class Part, class Add, class Join>
 void reduce(const char* label, std::int64_t n, const Part& none, const Add& add, const Join& join) {
   FirstException failure;
@@ -155,8 +158,8 @@ std::uint64_t sum_of(const char* label, std::int64_t n, const Body& body) {
   return result;
 }
 
-// Returns the integer sums that body(i, sums) adds to for 0 <= i < n. `none` holds the empty sums,
-// and sums.add(others) joins two.
+// Returns the sums to which body(i, sums) adds integers for 0 <= i < n. `none` holds empty sums,
+// and sums.add(others) adds two partial results.
 template <class Sums, class Body>
 Sums sums_over(const char* label, std::int64_t n, const Sums& none, const Body& body) {
   Sums all = none;
@@ -166,14 +169,15 @@ Sums sums_over(const char* label, std::int64_t n, const Sums& none, const Body& 
   return all;
 }
 
-// Sum of the doubles body(i), in fixed point.
+// Returns the sum of the doubles body(i) in fixed point, which is the same for any number of
+// threads.
 template <class Body>
 FixedPointSum fixed_point_sum_of(const char* label, std::int64_t n, const Body& body) {
   return sums_over(label, n, FixedPointSum(),
                    [&](std::int64_t i, FixedPointSum& sum) { sum.add(body(i)); });
 }
 
-// Makes room for n entries and keeps the first `kept`.
+// Enlarges the view to at least n entries and keeps the first `kept` of them.
 template <class T>
 void grow(View<T>& view, std::int64_t n, std::int64_t kept) {
   if (static_cast<std::int64_t>(view.extent(0)) >= n) return;

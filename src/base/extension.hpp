@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the name of a file tells about its format.
+// File name extensions, which determine the format of a file.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace pnpbs {
 
-// The extension without its dot, in small letters; empty if there is none.
+// Returns the extension in lower case without its dot, or an empty text if the path has none.
 inline std::string extension_of(std::string_view path) {
   const std::size_t dot = path.rfind('.');
   if (dot == std::string_view::npos || path.find('/', dot) != std::string_view::npos) return "";

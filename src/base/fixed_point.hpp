@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums of doubles that come out the same in any order: each term is rounded to a multiple of 2^-32
-// first, and the multiples are added as whole numbers.
+// Sums of doubles that do not depend on the order of the terms. Each term is rounded to a multiple
+// of 2^-32, and the multiples are added as integers.
 #pragma once
 
 #include <cstdint>
 
 namespace pnpbs {
 
-// Whole numbers of 128 bits as plain words, which messages can carry: MPI has none.
+// A 128-bit integer stored as two words, since MPI has no type for 128-bit integers.
 struct Int128 {
   __extension__ using Value = __int128;
 
@@ -24,23 +24,26 @@ struct Int128 {
   }
 };
 
+// The number 1 in units of 2^-32.
 inline constexpr std::int64_t kFixedPointOne = std::int64_t{1} << 32;
 
-// In units of 2^-32. The value must be below 2^31 in size.
+// Converts a value to units of 2^-32, rounded towards 0. Its magnitude must be below 2^31.
 inline std::int64_t fixed_point(double value) {
   return static_cast<std::int64_t>(value * 4294967296.0);
 }
 
-// What a sum in these units has beyond the whole number below it. Right for sums modulo 2^64, too.
+// Returns the fractional part of a sum, in units of 2^-32. The result is correct for sums modulo
+// 2^64, too.
 inline std::int64_t fraction_of(std::int64_t units) { return units & (kFixedPointOne - 1); }
 
-// a + b modulo 2^64: to overflow is no error.
+// Returns a + b modulo 2^64, without the undefined behaviour of signed overflow.
 inline std::int64_t wrapping_sum(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
 
-// Terms have up to 63 bits and a sign. Of 2^40 nodes, each with 2^6 pairs or elements, there are
-// 2^46 terms: their sum has at most 109 bits of the 127, whatever the terms are.
+// A sum of doubles in units of 2^-32. It cannot overflow: terms have up to 63 bits and a sign, and
+// 2^40 nodes with 2^6 pairs or elements each give 2^46 terms, whose sum has at most 109 of the 127
+// bits.
 class FixedPointSum {
  public:
   void add(double term) { add_units(fixed_point(term)); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What few indices of many hold, found by all threads and then visited in order.
+// Parallel search for the few indices that have a property.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace pnpbs {
 
-// Those 0 <= i < n for which holds(i), ascending.
+// Returns all i in 0 <= i < n for which holds(i) is true, in ascending order. `holds` is called on
+// all threads.
 template <class Holds>
 std::vector<std::int64_t> indices_where(const char* label, std::int64_t n, const Holds& holds) {
   const View<char> marked = make_view<char>(label, n);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A reference to a callable of one signature, as std::function_ref of C++26: two pointers, no copy
-// and no memory. A function that takes one is compiled once, not once for each callable.
+// A reference to a callable with a given signature, like std::function_ref of C++26. It consists of
+// two pointers and allocates nothing. A function that takes one is compiled once instead of once
+// per callable.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Conversion of signed numbers to indices of a std::vector.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 
 namespace pnpbs {
 
-// Numbers as indices of a std::vector.
 inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 inline std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 

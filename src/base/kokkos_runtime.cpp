@@ -23,8 +23,8 @@ namespace {
 
 std::mutex starting;
 bool started_here = false;
-std::atomic<int> running_threads{0};      // of Kokkos, once this library has seen it run
-std::atomic<int> threads_before_fork{0};  // if there were several, in a forked process
+std::atomic<int> running_threads{0};      // of Kokkos, set when this library starts or adopts it
+std::atomic<int> threads_before_fork{0};  // set in a forked process if there were several
 
 int cores_we_may_use() {
   cpu_set_t set;
@@ -37,12 +37,12 @@ bool positive_integer(const std::string& text, int& value) {
   return result.ec == std::errc() && result.ptr == text.data() + text.size() && value > 0;
 }
 
-// Kokkos reads KOKKOS_* when it starts and ends the process on a value it does not take.
+// Throws for KOKKOS_* variables with values that make Kokkos end the process when it starts.
 void check_environment() {
   const char* known_flags[] = {"KOKKOS_DISABLE_WARNINGS", "KOKKOS_PRINT_CONFIGURATION",
                                "KOKKOS_TUNE_INTERNALS"};
   const char* known_numbers[] = {"KOKKOS_NUM_THREADS", "KOKKOS_DEVICE_ID", "KOKKOS_NUM_DEVICES"};
-  const char* known_choices[] = {"random", "mpi_rank"};  // of KOKKOS_MAP_DEVICE_ID_BY
+  const char* known_choices[] = {"random", "mpi_rank"};  // values of KOKKOS_MAP_DEVICE_ID_BY
   for (char** entry = environ; entry && *entry; ++entry) {
     const std::string text = *entry;
     const std::size_t equals = text.find('=');
@@ -72,7 +72,8 @@ void check_environment() {
   }
 }
 
-// No View may live on when Kokkos ends, whoever ends it.
+// Registers `before_end` with Kokkos, once per process. All Views must be released before Kokkos
+// ends.
 void watch_end(void (*before_end)()) {
   static bool watching = false;
   if (watching) return;
@@ -84,7 +85,7 @@ void note_fork() {
   if (running_threads > 1) threads_before_fork = running_threads.load();
 }
 
-// Kokkos runs: from now on forks matter.
+// Records the number of threads and installs the handler of forks. Called when Kokkos runs.
 void watch_forks() {
   static const int watching = pthread_atfork(nullptr, nullptr, note_fork);
   if (watching != 0) throw std::bad_alloc();
@@ -95,7 +96,7 @@ int threads_of_environment() {
   for (const char* name : {"OMP_NUM_THREADS", "KOKKOS_NUM_THREADS"}) {
     const char* value = std::getenv(name);
     int threads = 0;
-    // OMP_NUM_THREADS may be a list, one number per nesting level: ours is the first.
+    // OMP_NUM_THREADS may list one number for each nesting level. The first one applies here.
     if (value && positive_integer(std::string(value, std::strcspn(value, ",")), threads))
       return threads;
   }
@@ -121,7 +122,7 @@ void start_kokkos(std::int64_t threads, int ranks_on_node, void (*before_end)())
   if (count == 0) count = std::max(1, cores_we_may_use() / std::max(1, ranks_on_node));
   Kokkos::InitializationSettings settings;
   settings.set_num_threads(count);
-  settings.set_disable_warnings(true);  // it would print about OMP_PROC_BIND
+  settings.set_disable_warnings(true);  // otherwise Kokkos prints a remark about OMP_PROC_BIND
   try {
     Kokkos::initialize(settings);
   } catch (const std::exception& failure) {

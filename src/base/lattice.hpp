@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lattice that bubbles settle into, and the numbers of the method that follow from it: what a
-// formula would otherwise say with a 2 or a 6 of the plane.
+// Properties of the lattice that bubbles settle into, for the plane and for space. Formulas of the
+// method take their lattice constants from here.
 #pragma once
 
 #include <cmath>
@@ -10,28 +10,29 @@ namespace pnpbs {
 template <int Dim>
 struct Lattice;
 
-// The plane's: hexagonal, every edge d.
+// The hexagonal lattice of the plane. Every edge has the length d.
 template <>
 struct Lattice<2> {
   static constexpr double kDensity = 1.1547005383792515;  // nodes per d^2: 2 / sqrt(3)
-  static constexpr int kNeighbours = 6;                   // by edges of the Delaunay triangulation
+  static constexpr int kNeighbours = 6;                   // Delaunay neighbours of a node
   static constexpr double kIdealOverlap = 6;              // overlap ratio of a node
-  static constexpr int kOverlapEnd = 16;                  // larger ratios are not told apart
+  static constexpr int kOverlapEnd = 16;  // larger overlap ratios are counted as this one
 };
 
-// The volume's: body-centred cubic. All its tetrahedra are alike, nothing is cospherical, and the
-// midpoints of its edges make the lattice of half the spacing. d is the mean of a node's edges: 8
-// along half diagonals of the cubic cell and 6 along its sides.
+// The body-centred cubic lattice of space. All its tetrahedra are congruent, no empty
+// sphere passes through five nodes, and the midpoints of its edges form the lattice of half the
+// spacing. A node has 8 edges along half diagonals of the cubic cell and 6 along its sides; d is
+// the mean of their lengths.
 template <>
 struct Lattice<3> {
-  static constexpr double kCell = 1.0829037686547607;     // its side over d: 14 / (4 sqrt(3) + 6)
+  static constexpr double kCell = 1.0829037686547607;     // side over d: 14 / (4 sqrt(3) + 6)
   static constexpr double kDensity = 1.5749268979030462;  // nodes per d^3: 2 / kCell^3
   static constexpr int kNeighbours = 14;
-  static constexpr double kIdealOverlap = 14;  // each edge adds 3 - 2 l / d
+  static constexpr double kIdealOverlap = 14;  // an edge of length l adds 3 - 2 l / d
   static constexpr int kOverlapEnd = 32;
 };
 
-// t^N for N >= 1, multiplied from the left.
+// Returns t^N for N >= 1. The factors are multiplied from left to right, so the rounding is fixed.
 template <int N>
 constexpr double power(double t) {
   double product = t;
@@ -39,7 +40,7 @@ constexpr double power(double t) {
   return product;
 }
 
-// The N-th root of t, N = 2 or 3.
+// Returns the N-th root of t, N = 2 or 3.
 template <int N>
 double root(double t) {
   static_assert(N == 2 || N == 3);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Bisection for the end of a leading range of indices.
 #pragma once
 
 #include <cstdint>
 
 namespace pnpbs {
 
-// Of so many places, for the first of which a condition holds and for the rest not: how many it
-// holds for, by bisection.
+// Returns the number of indices i in 0 <= i < places for which holds(i) is true, by bisection. The
+// condition must hold for a leading range of indices and for no other.
 template <class Holds>
 std::int64_t leading_count(std::int64_t places, const Holds& holds) {
   std::int64_t known = 0, end = places;

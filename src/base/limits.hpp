@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How large coordinates may be, and what counts as the same place.
+// Limits on coordinates, and tolerances within which points count as equal.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +10,23 @@
 
 namespace pnpbs {
 
-// Products of four differences of coordinates, as the in-circle test has them, then neither
-// overflow nor lose digits below the normal range.
+// Largest coordinate and smallest size of a domain. Within these limits, products of four
+// coordinate differences, as in the in-circle test, neither overflow nor lose digits in the
+// subnormal range.
 inline constexpr double kMaxCoordinate = 1e60;
 inline constexpr double kSmallestDomain = 1e-60;
 
-// And this many digits of the coordinates must be left to tell places in it apart: of a domain far
-// from the origin, in units of its largest coordinate.
+// Smallest size of a domain in units of its largest coordinate. It leaves enough digits to
+// distinguish the points of a domain far from the origin.
 inline constexpr double kSmallestRelativeSize = 1e-10;
 
-// In units of the domain's size, which is the longest side of its bounding box.
-inline constexpr double kSamePlace = 1e-12;    // vertices; a vertex and a segment
-inline constexpr double kSameCurveEnd = 1e-9;  // where one of them is the end of a curve
-inline constexpr double kSameVertex = 1e-9;    // vertices of surfaces, in space
+// Distances below which points are equal, in units of the longest side of the domain's bounding
+// box.
+inline constexpr double kSamePlace = 1e-12;  // between vertices, or between a vertex and a segment
+inline constexpr double kSameCurveEnd = 1e-9;  // if one of the points is the end of a curve
+inline constexpr double kSameVertex = 1e-9;    // between vertices of surfaces in space
 
+// Returns true if a coordinate is finite and not too large.
 inline bool is_usable(double coordinate) {
   return std::fabs(coordinate) <= kMaxCoordinate;  // false for NaN
 }
@@ -32,6 +35,7 @@ bool is_usable(const std::array<double, Dim>& point) {
   return std::all_of(point.begin(), point.end(), [](double x) { return is_usable(x); });
 }
 
+// Extends the box so that it contains the point.
 template <int Dim>
 void include(Box<Dim>& box, const std::type_identity_t<Point<Dim>>& point) {
   for (int k = 0; k < Dim; ++k) {
@@ -40,7 +44,7 @@ void include(Box<Dim>& box, const std::type_identity_t<Point<Dim>>& point) {
   }
 }
 
-// Holds no point yet.
+// Returns a box without points, which `include` can extend.
 template <int Dim>
 Box<Dim> empty_box() {
   Box<Dim> box;
@@ -49,6 +53,7 @@ Box<Dim> empty_box() {
   return box;
 }
 
+// Returns the longest side of a box.
 template <int Dim>
 double size_of(const Box<Dim>& box) {
   double size = box.high[0] - box.low[0];
@@ -56,6 +61,7 @@ double size_of(const Box<Dim>& box) {
   return size;
 }
 
+// Returns the largest absolute value of a coordinate in the box.
 template <int Dim>
 double farthest_coordinate(const Box<Dim>& box) {
   double farthest = 0;

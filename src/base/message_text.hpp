@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text of a message together with the points that it names, as data: who knows the chart of a
-// sphere or a projection can then tell longitude and latitude without parsing the text.
+// Text of a message together with the points that it names. The points are data, so that code that
+// has the chart of a sphere or a projection can replace them by longitude and latitude without
+// parsing the text.
 #pragma once
 
 #include <array>
@@ -12,14 +13,15 @@
 
 namespace pnpbs {
 
-// A point that a message names, and the bytes [begin, end) of the text that name it.
+// A point that a message names, and the bytes [begin, end) of the text that show it.
 struct NamedPoint {
-  std::array<double, 3> x{};  // the first `dimension` of them
+  std::array<double, 3> x{};  // only the first `dimension` entries are used
   int dimension = 0;
-  bool rounded = false;  // in the text; x is not
+  bool rounded = false;  // the text shows rounded coordinates; x is exact
   std::size_t begin = 0, end = 0;
 };
 
+// A text and the points in it. Concatenation keeps both consistent.
 class MessageText {
  public:
   MessageText() = default;
@@ -51,8 +53,8 @@ class MessageText {
   std::vector<NamedPoint> points_;  // in the order of the text
 };
 
-// Returns the message with the text words(point, text) in the place of each named point. The points
-// of the result are those of moved(point).
+// Returns the message with the text of each named point replaced by words(point, old_text). The
+// points of the result are moved(point).
 template <class Words, class Moved>
 MessageText with_points_told(const MessageText& message, const Words& words, const Moved& moved) {
   MessageText result;
@@ -71,8 +73,8 @@ MessageText with_points_told(const MessageText& message, const Words& words, con
   return result;
 }
 
-// Returns the message as it is handed out. A library of the tests has another function here, which
-// rewrites the words, to show that they decide nothing (tests/tool/wording.cpp).
+// Returns the message in the form that callers see. The tests link another function here, which
+// rewrites the words, to show that no code depends on them (tests/tool/wording.cpp).
 MessageText as_worded(MessageText message);
 
 }  // namespace pnpbs

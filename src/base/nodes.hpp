@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes of a level: one array per attribute. Order in memory follows the buckets and has no
-// influence on any result; what decides is the id.
+// The nodes of a level, with one array per attribute. Their order in memory follows the buckets and
+// does not influence any result; decisions are made by id.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,13 @@
 
 namespace pnpbs {
 
-// An attribute of the nodes: one value for each. A View is a handle, and whoever has a constant one
-// may write what it points to. Of this one only who may change the nodes may. Copies share the
-// values, as those of a View do.
+// An attribute of the nodes: an array with one value per node. Copies share the values, like copies
+// of a View. Unlike a const View, a const NodeArray gives read access only.
 template <class T>
 class NodeArray {
  public:
   NodeArray() = default;
-  NodeArray(View<T> view) : view_(std::move(view)) {}  // NOLINT: of a View it is made everywhere
+  NodeArray(View<T> view) : view_(std::move(view)) {}  // NOLINT: implicit conversion
 
   T& operator()(std::int64_t i) { return view_(i); }
   const T& operator()(std::int64_t i) const { return view_(i); }
@@ -38,7 +37,7 @@ class NodeArray {
   View<T> view_;
 };
 
-// A vector at each node, one array for each direction.
+// A vector field on the nodes, with one array per component.
 template <int Dim>
 using Field = std::array<NodeArray<double>, Dim>;
 
@@ -49,44 +48,48 @@ Point<Dim> point_at(const Field<Dim>& x, std::int64_t i) {
   return p;
 }
 
-// Where a node that takes no part in a pair is put: so far away that every force is exactly 0.
+// Coordinate of nodes that take no part in a pair. They are so far away that every force is exactly
+// 0.
 inline constexpr double kFarAway = 1e100;
 
-// What holds a node, and with that, how it may move: nothing, a place, a curve or a surface.
+// The geometry that a node is bound to, which restricts its motion: none, a point, a curve or a
+// surface.
 enum class Carrier : std::int8_t { free, fixed, curve, surface };
 
+// The owned nodes and ghosts of a rank.
 template <int Dim>
 struct Nodes {
   std::int64_t count = 0;
   Field<Dim> x;                 // position
   Field<Dim> v;                 // velocity, length per unit of time
-  Field<Dim> reference;         // position at the last event: what the boundary hides is judged
-                                // from there until the next one
-  NodeArray<double> d;          // spacing at the node, as last refreshed
+  Field<Dim> reference;         // position at the last event; visibility past the boundary
+                                // is determined from it until the next event
+  NodeArray<double> d;          // spacing at the node, as of the last refresh
   NodeArray<std::int64_t> id;   // global id
-  NodeArray<std::int32_t> tag;  // 0 inside
+  NodeArray<std::int32_t> tag;  // boundary tag; 0 for inner nodes
   NodeArray<Carrier> carrier;
   NodeArray<std::int32_t> boundary_node;  // in the plane: index into Boundary::nodes, -1 for an
-                                          // inner node; in space: see Ground<3>
+                                          // inner node; in space: see LevelGeometry<3>
   NodeArray<std::int32_t> reference_on;   // in space: boundary_node at the last event
-  NodeArray<char> owned;                  // 0: a ghost, another rank's node
-  Carrier moving = Carrier::free;         // those that move now; all others stay
+  NodeArray<char> owned;                  // 0: a ghost, owned by another rank
+  Carrier moving = Carrier::free;         // nodes with this carrier move, all others stay
 
   std::int64_t capacity() const { return static_cast<std::int64_t>(d.extent(0)) - 1; }
 
-  // Stamps for what is derived from the nodes. Which nodes there are, and their order in memory:
+  // Stamps that data derived from the nodes can be compared with. arrangement() changes with the
+  // set of nodes and with their order in memory.
   std::int64_t arrangement() const { return arrangement_; }
-  // Where they are, as far as moved() was called:
+  // Changes with the positions, provided that moved() was called.
   std::int64_t positions() const { return positions_; }
-  // Their reference positions:
+  // Changes with the reference positions.
   std::int64_t references() const { return references_; }
-  // Any of these.
+  // Changes with any of these.
   std::int64_t version() const { return arrangement_ + positions_ + references_; }
 
-  // Who writes positions says so.
+  // Must be called after positions have been written.
   void moved() { ++positions_; }
 
-  // An event: from now on visibility is judged from here.
+  // Sets the reference positions to the current positions. Called at an event.
   void set_reference_positions() {
     for_each("pnpbs::Nodes::set_reference_positions", count, [this](std::int64_t i) {
       for (int k = 0; k < Dim; ++k) reference[k](i) = x[k](i);
@@ -95,16 +98,18 @@ struct Nodes {
     ++references_;
     referenced_at_ = positions_;
   }
-  // Are the nodes where their reference positions are?
+  // Returns true if no position has changed since the reference positions were set.
   bool referenced_here() const { return referenced_at_ == positions_; }
 
-  // The far-away node behind the last one, which fills up the blocks of the lists.
+  // Sets the padding node behind the last node, which fills up incomplete blocks of the lists. It
+  // is far away.
   void set_padding() {
     for (int k = 0; k < Dim; ++k) x[k](count) = kFarAway;
     d(count) = 1;
   }
 
-  // So many nodes, yet to be put.
+  // Sets the number of nodes to n and reserves memory for `room` nodes. The caller must then write
+  // all attributes.
   void reset(std::int64_t n, std::int64_t room) {
     count = 0;
     reserve(room);
@@ -112,7 +117,7 @@ struct Nodes {
     ++arrangement_;
   }
 
-  // Room for n nodes and, behind them, the one far-away node that pads blocks of lists.
+  // Reserves memory for n nodes and for the padding node behind them.
   void reserve(std::int64_t n) {
     if (n <= capacity()) return;
     require_fits_rank(n, "nodes");
@@ -120,13 +125,13 @@ struct Nodes {
     spare_ = Spare();
   }
 
-  // Room for one number per node, for an order to put them in.
+  // Returns an array with an entry per node for a permutation. Its contents are undefined.
   View<std::int32_t>& order_scratch() {
     make_room(order_, "pnpbs::Nodes::order");
     return order_;
   }
 
-  // The same, and some for the next time.
+  // Reserves memory for n nodes, and a sixteenth more if it has to allocate.
   void reserve_with_room(std::int64_t n) {
     if (n > capacity()) reserve(with_room(n, n / 16));
   }
@@ -138,7 +143,7 @@ struct Nodes {
     ++arrangement_;
   }
 
-  // At a place that there is room for.
+  // Writes the attributes of an owned node at rest at index i, which must be within the capacity.
   void put(std::int64_t i, const Point<Dim>& position, double spacing, std::int64_t node_id,
            std::int32_t node_tag, Carrier node_carrier, std::int32_t on_boundary) {
     for (int k = 0; k < Dim; ++k) {
@@ -155,7 +160,7 @@ struct Nodes {
     owned(i) = 1;
   }
 
-  // Returns the same nodes with values of their own, which do not change with these.
+  // Returns a deep copy of the nodes.
   Nodes copy() const {
     Nodes copied = *this;
     copied.for_arrays([this](auto& array, const char*) { copy_array(array, count + 1); });
@@ -164,8 +169,8 @@ struct Nodes {
     return copied;
   }
 
-  // Makes the stamps newer than those of nodes that this copy is put in place of: no stamp comes
-  // twice for different nodes.
+  // Makes the stamps of this copy newer than those of `replaced`, the nodes that the copy replaces.
+  // Different nodes thus never have the same stamp.
   void renew_stamps(const Nodes& replaced) noexcept {
     const bool referenced = referenced_here();
     arrangement_ = replaced.arrangement_ + 1;
@@ -180,16 +185,17 @@ struct Nodes {
   }
   bool moves(std::int64_t i) const { return carrier(i) == moving; }
 
-  // Puts the nodes into the order given: new place i holds what was at from(i). Array by array,
-  // into spare ones that are kept: nothing is allocated from one rebuild of the lists to the next.
+  // Reorders the nodes: the node at new index i is the one that was at index from(i). Arrays are
+  // permuted one by one into spare arrays that are kept, so that rebuilding the lists allocates
+  // nothing.
   void permute(const View<std::int32_t>& from) {
-    make_spare();  // a lack of memory changes no array, or all would be in different orders
+    make_spare();  // before any change: if memory is lacking, all arrays keep the same order
     for_arrays([&](auto& array, const char*) { permute_array(array, spare_for(array), from); });
     ++arrangement_;
   }
 
-  // Keeps the first `kept` nodes named, whose places increase, and drops the others. In place, with
-  // a thread for each array.
+  // Keeps the nodes at the first `kept` indices in `places`, which must increase, and drops all
+  // others. Works in place, with one thread per array.
   void keep(const View<std::int32_t>& places, std::int64_t kept) {
     constexpr int kReal = 3 * Dim + 1;
     std::array<NodeArray<double>, kReal> real;

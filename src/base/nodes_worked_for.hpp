@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The number of nodes and ghosts that a phase of a run computes for.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace pnpbs {
 
-// Those of a rank's nodes and ghosts for which worked_for(i), counted once.
+// Counts the nodes and ghosts i of a rank for which worked_for(i) is true, each once.
 template <int Dim, class WorkedFor>
 NodesWorkedFor nodes_worked_for(const Nodes<Dim>& nodes, const WorkedFor& worked_for) {
   return sums_over("pnpbs::nodes_worked_for", nodes.count, NodesWorkedFor(),

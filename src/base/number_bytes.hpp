@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers as they stand in binary files.
+// Conversion of numbers from the bytes of binary files.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 
 namespace pnpbs {
 
+// Returns the number that is stored at `bytes` in the given byte order. `bytes` need not be
+// aligned.
 template <class Number>
 Number number_from_bytes(const char* bytes, std::endian order) {
   std::array<char, sizeof(Number)> field;

@@ -7,8 +7,8 @@ namespace pnpbs {
 
 namespace {
 
-// RTLD_DEEPBIND: libraries call themselves, too, by names that a host program may have. The
-// sanitizers' run-time libraries end the process at the sight of it.
+// RTLD_DEEPBIND makes a library resolve its own symbols first, which a host program may define as
+// well. The run-time libraries of the sanitizers abort the process if this flag is used.
 int open_mode() {
   int mode = RTLD_NOW | RTLD_LOCAL;
 #ifdef RTLD_DEEPBIND

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points and lists of names as messages show them.
+// Text of points and of lists of names in messages.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@
 
 namespace pnpbs {
 
-// "(1.5, 2)", which is known as a point to the message that it becomes a part of.
+// Returns a text such as "(1.5, 2)", with the point attached as data. number(x) gives the text of a
+// coordinate.
 template <std::size_t Dim, class NumberText>
 MessageText text_of_point(const std::array<double, Dim>& point, bool rounded,
                           const NumberText& number) {
@@ -32,12 +33,13 @@ MessageText text_of_point(const std::array<double, Dim>& point, bool rounded,
   return {std::move(text), {named}};
 }
 
+// Returns the text of a point with all digits.
 template <std::size_t Dim>
 MessageText point_text(const std::array<double, Dim>& point) {
   return text_of_point(point, false, number_text);
 }
 
-// Four digits, of a number that only shows how large something is.
+// Returns the number with four digits, for messages that show only a magnitude.
 inline std::string rounded_text(double value) {
   char text[40];
   const auto end =
@@ -45,18 +47,20 @@ inline std::string rounded_text(double value) {
   return std::string(text, end);
 }
 
+// Returns the text of a point with rounded coordinates.
 template <int Dim>
 MessageText rounded_point_text(const Point<Dim>& point) {
   return text_of_point(point, true, rounded_text);
 }
 
-// Of a point on the Earth. Seven digits after the decimal point are a centimetre.
+// Returns the text of a point on the Earth. Seven digits after the decimal point resolve a
+// centimetre.
 inline std::string degrees_text(const Point<2>& degrees) {
   const auto rounded = [](double value) { return number_text(std::round(value * 1e7) / 1e7); };
   return "longitude " + rounded(degrees[0]) + ", latitude " + rounded(degrees[1]);
 }
 
-// The first few names, and how many more there are: "a, b, c and 4 more".
+// Returns the first names and the number of the others: "a, b, c and 4 more".
 template <class Text>
 Text list_text(const std::vector<Text>& names, std::size_t at_most = 3) {
   Text text;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Over all ranks there may be 2^40 nodes; what one rank has is numbered in 32 bits.
+// The limit on the number of nodes of one rank. All ranks together may have 2^40 nodes, but a rank
+// numbers its own nodes with 32 bits.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,12 @@
 
 namespace pnpbs {
 
-// With some room for what pads blocks.
+// Largest number of nodes on a rank. The 64 numbers above it are reserved for the padding of
+// blocks.
 inline constexpr std::int64_t kMaxOnRank = (std::int64_t{1} << 31) - 64;
 
+// Throws Error(ErrorKind::memory) if `count` exceeds this limit. `name` is the plural noun for the
+// message.
 inline void require_fits_rank(std::int64_t count, const char* name) {
   if (count <= kMaxOnRank) return;
   throw Error(ErrorKind::memory, "a rank would have " + std::to_string(count) + " " + name +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text in small letters, whatever the language of the process: those of ASCII.
+// Conversion of ASCII letters to lower case, independent of the locale.
 #pragma once
 
 #include <string>

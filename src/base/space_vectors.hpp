@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors in space, and what has the same name in the plane.
+// Vector operations in space, and the same operations for the plane where they exist.
 #pragma once
 
 #include <cmath>
@@ -27,23 +27,24 @@ inline double length(const Point<2>& a) { return std::sqrt(dot(a, a)); }
 
 inline double length(const Point<3>& a) { return std::sqrt(dot(a, a)); }
 
-// a + t b
+// Returns a + t b.
 inline Point<3> shifted(const Point<3>& a, double t, const Point<3>& b) {
   return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
 }
 
-// Rounded as the other points on the way from a to b, so not always middle_of to the last bit.
+// Returns the midpoint of a and b. It is rounded like the other points of the segment, so its last
+// bits may differ from those of middle_of(a, b).
 inline Point<3> halfway(const Point<3>& a, const Point<3>& b) {
   return shifted(a, 0.5, difference(b, a));
 }
 
-// Of length 1; that of 0 is 0.
+// Returns a vector of length 1 in the direction of a, or 0 if a is 0.
 inline Point<3> unit_vector(const Point<3>& a) {
   const double whole = length(a);
   return whole > 0 ? Point<3>{a[0] / whole, a[1] / whole, a[2] / whole} : Point<3>{};
 }
 
-// The part of a that is at right angles to a unit vector.
+// Returns the component of a that is perpendicular to a unit vector.
 inline Point<3> part_across(const Point<3>& a, const Point<3>& unit) {
   return shifted(a, -dot(a, unit), unit);
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kernels that run whether Kokkos does or not: a domain may be asked before there is any placement.
+// Parallel loops for code that may run before Kokkos has started: a domain can be queried before a
+// placement exists.
 #pragma once
 
 #include "base/execution.hpp"
 
 namespace pnpbs {
 
-// As for_each, or on the calling thread alone.
+// Calls body(i) for 0 <= i < n like for_each, or on the calling thread alone if Kokkos does not
+// run.
 template <class Body>
 void for_each_if_started(const char* label, std::int64_t n, const Body& body) {
   if (Kokkos::is_initialized() && !Kokkos::is_finalized()) return for_each(label, n, body);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall-clock seconds by phase, and the nodes a phase worked for, for the report.
+// Wall-clock seconds for each phase of a run, and the number of nodes that each phase computes for,
+// for the report.
 #pragma once
 
 #include <array>
@@ -9,6 +10,7 @@
 
 namespace pnpbs {
 
+// The phases of a run. `total` is the whole run.
 enum class Phase {
   boundary,
   tree,
@@ -26,9 +28,10 @@ enum class Phase {
 };
 inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::total) + 1;
 
-// Ghosts are worked for so that a rank finds itself what others decide.
+// Numbers of nodes that a phase computes for. A rank also computes for ghosts where this replaces
+// messages.
 struct NodesWorkedFor {
-  std::int64_t all = 0, owned = 0;  // with ghosts; each as often as it was worked for
+  std::int64_t all = 0, owned = 0;  // `all` includes ghosts; a node counts once per computation
 
   void add(const NodesWorkedFor& more) {
     all += more.all;
@@ -36,6 +39,7 @@ struct NodesWorkedFor {
   }
 };
 
+// The times and node counts of all phases.
 class Timers {
  public:
   double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
@@ -50,7 +54,7 @@ class Timers {
   std::array<NodesWorkedFor, kPhases> nodes_{};
 };
 
-// Counts the time from here to the end of the scope.
+// A timer that adds the time until the end of its scope to a phase.
 class PhaseTimer {
  public:
   PhaseTimer(Timers& timers, Phase phase)

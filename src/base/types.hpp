@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points and boxes in 2 or 3 dimensions, and the Kokkos types all parts share.
+// Points and boxes in two or three dimensions.
 #pragma once
 
 #include <array>
@@ -8,15 +8,18 @@
 
 namespace pnpbs {
 
+// A point or a vector.
 template <int Dim>
 using Point = std::array<double, Dim>;
 
+// An axis-aligned box.
 template <int Dim>
 struct Box {
   Point<Dim> low;
   Point<Dim> high;
 };
 
+// Returns the box enlarged by `way` on all sides.
 template <int Dim>
 inline Box<Dim> widened(Box<Dim> box, double way) {
   for (int k = 0; k < Dim; ++k) {
@@ -26,6 +29,7 @@ inline Box<Dim> widened(Box<Dim> box, double way) {
   return box;
 }
 
+// Returns the box of all points whose coordinates differ from those of x by at most `reach`.
 template <int Dim>
 inline Box<Dim> box_around(const Point<Dim>& x, double reach) {
   return widened(Box<Dim>{x, x}, reach);

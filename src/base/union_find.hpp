@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets that are joined one by one; each is known by its least member.
+// Disjoint sets that can be joined (union-find). The root of a set is its smallest member.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,12 @@
 
 namespace pnpbs {
 
+// A partition of the numbers 0 .. count-1 into disjoint sets.
 template <class Index>
 class UnionFind {
  public:
   explicit UnionFind(std::size_t count) : parent_(count) { part_all(); }
-  // Each is a set of its own again.
+  // Makes each member a set of its own again.
   void part_all() { std::iota(parent_.begin(), parent_.end(), Index{0}); }
   Index root(Index x) {
     while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warnings as data: what programs decide by is the code and the numbers, never the text.
+// Warnings as data. Programs decide by the code and the numbers, never by the text.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace pnpbs {
 
-// The numbers are those of the constants PNPBS_WARNING_... of the public header. Hundreds are the
-// kinds: the domain, the spacing, the elements, and the options and the run.
+// Codes of warnings, equal to the constants PNPBS_WARNING_... of the public header. The hundreds
+// stand for the domain (1), the spacing (2), the elements (3), and the options and the run (4).
 enum class WarningCode : std::int32_t {
   unknown = 0,
   left_out_outside = 101,
@@ -46,13 +46,14 @@ enum class WarningCode : std::int32_t {
   depends_on_ranks = 403
 };
 
+// A warning with its code, message and numbers.
 struct Warning {
   static constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
   Warning(WarningCode of, MessageText text, std::int64_t how_many = 0, double number = kNoValue)
       : code(of), message(as_worded(std::move(text))), count(how_many), value(number) {}
 
-  // The first point that the message names.
+  // Returns the first point that the message names, if any.
   std::optional<NamedPoint> point() const {
     if (message.points().empty()) return std::nullopt;
     return message.points().front();
@@ -60,8 +61,8 @@ struct Warning {
 
   WarningCode code;
   MessageText message;
-  std::int64_t count;  // of the nodes, triangles, edges or points that it is about; 0: none
-  double value;        // that it is about, in the unit of the code; NaN: none
+  std::int64_t count;  // affected nodes, triangles, edges or points; 0 if not applicable
+  double value;        // in the unit of the code; NaN if not applicable
 };
 
 }  // namespace pnpbs

@@ -17,10 +17,10 @@
 namespace pnpbs {
 namespace {
 
-// Numbers of the cells, edges and vertices of a grid over all ranks. Each is led by a node: those
-// of the node with the least id come first. So they do not depend on the ranks.
+// Global numbers of the cells, edges and vertices. Each of them is led by a node. They are numbered
+// in the order of the ids of their leaders, so the numbers do not depend on the ranks.
 
-// Of what a node leads: how many there are, or the number of the first one, from 0.
+// Numbers of the entities that a node leads, or the number of the first of each kind.
 struct LedEntities {
   std::int64_t cells = 0, edges = 0, vertices = 0;
 
@@ -32,13 +32,14 @@ struct LedEntities {
   }
 };
 
+// The entities of a node on their way to the block of its id and back.
 struct Entry {
   std::int64_t id;
-  std::int32_t rank;  // that has the node
+  std::int32_t rank;  // rank that owns the node
   LedEntities led;
 };
 
-// What the entries before each one count, from `next` on.
+// Replaces the counts by their exclusive prefix sums, beginning with `next`.
 void count_up(std::vector<Entry>& entries, LedEntities next) {
   for (Entry& entry : entries) {
     const LedEntities count = entry.led;
@@ -53,8 +54,8 @@ LedEntities sum_of(const std::vector<Entry>& entries) {
   return sum;
 }
 
-// The first numbers at each of this rank's nodes, and in `total` how many there are on all ranks.
-// ids: increasing, and on no other rank. Collective.
+// Returns the first numbers at each owned node of this rank, and the numbers of all entities in
+// `total`. `ids` must be increasing, and no id may be on two ranks. Collective.
 std::vector<LedEntities> first_numbers(const Communicator& comm,
                                        const std::vector<std::int64_t>& ids,
                                        const std::vector<LedEntities>& counts, LedEntities& total) {
@@ -88,11 +89,11 @@ constexpr std::int64_t kNone = SphereGrid::kNone;
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// The stars of a rank's own nodes, of their neighbours, whose edges count in the weights, and of
-// the neighbours of these, which may lead such an edge.
+// Number of ghost layers of the mesh. The weights need the stars of owned nodes and of their
+// neighbours, and the neighbours of these may lead an edge.
 constexpr int kLayers = 3;
 
-// Builds it step by step, in the order of the steps.
+// Builds the grid. The functions are called in the order of their declaration.
 class Builder {
  public:
   Builder(Results<2>& results, SphereGrid& grid)
@@ -117,14 +118,14 @@ class Builder {
   std::int64_t vertex_number(std::int32_t triangle, const std::vector<LedEntities>& first) const;
   std::int64_t edge_number(std::int32_t node, std::int32_t other,
                            const std::vector<LedEntities>& first) const;
-  // Adds the values at the nodes of other ranks to those of own nodes. Collective.
+  // Appends the values at ghosts, requested from their owners, to those of owned nodes. Collective.
   template <class Value>
   void ask_for_ghosts(std::vector<Value>& values) const;
 
   Results<2>& results_;
   const Communicator& comm_;
   SphereGrid& grid_;
-  std::vector<std::int64_t> numbers_;  // of the nodes, contiguous by rank
+  std::vector<std::int64_t> numbers_;  // global numbers of the nodes, contiguous by rank
 };
 
 void Builder::take_mesh() {
@@ -144,7 +145,8 @@ void Builder::take_mesh() {
   find_centres();
 }
 
-// The corners begin with the least id, on all ranks.
+// The corners of a triangle begin with the smallest id on all ranks, so that all ranks compute the
+// same bits.
 void Builder::find_centres() {
   grid_.centres.resize(grid_.triangles.size());
   for_each("pnpbs::SphereGrid::centres", std::ssize(grid_.triangles), [&](std::int64_t t) {
@@ -167,11 +169,11 @@ void Builder::ask_for_ghosts(std::vector<Value>& values) const {
   };
   std::vector<Answer> answers =
       ask_owners<Answer>(comm_, ranges, ghosts, give, [](const Answer& a) { return a.number; });
-  std::ranges::sort(answers, {}, &Answer::number);  // as the ghosts are
+  std::ranges::sort(answers, {}, &Answer::number);  // ghosts are sorted by number, too
   for (const Answer& answer : answers) values.push_back(answer.value);
 }
 
-// Which nodes have one; the numbers follow.
+// Determines which nodes have a cell. Their numbers are set later.
 void Builder::find_cells() {
   grid_.cell.resize(index(grid_.owned));
   std::int32_t longest = 0;
@@ -189,6 +191,7 @@ void Builder::find_cells() {
   ask_for_ghosts(grid_.cell);
 }
 
+// Counts the entities that a node leads.
 LedEntities Builder::led_by(std::int32_t node) const {
   LedEntities led;
   if (!grid_.has_cell(node)) return led;
@@ -200,6 +203,7 @@ LedEntities Builder::led_by(std::int32_t node) const {
   return led;
 }
 
+// Returns the first numbers at all nodes and sets the total numbers of the grid. Collective.
 std::vector<LedEntities> Builder::first_of_nodes() {
   std::vector<LedEntities> counts(index(grid_.owned));
   for_each("pnpbs::SphereGrid::count", grid_.owned,
@@ -214,7 +218,8 @@ std::vector<LedEntities> Builder::first_of_nodes() {
   return first;
 }
 
-// Those that a node leads are numbered by the ids of its neighbours.
+// Returns the number of an edge. The edges that a node leads are numbered in the order of the ids
+// of its neighbours.
 std::int64_t Builder::edge_number(std::int32_t node, std::int32_t other,
                                   const std::vector<LedEntities>& first) const {
   if (!grid_.leads(node, other)) std::swap(node, other);
@@ -245,7 +250,7 @@ void Builder::number_entities(const std::vector<LedEntities>& first) {
   const auto nodes = static_cast<std::int64_t>(grid_.ids.size());
   for (std::int64_t i = 0; i < nodes; ++i)
     if (grid_.cell[index(i)] != kNone) grid_.cell[index(i)] = first[index(i)].cells;
-  std::vector<char> near(index(nodes), 0);  // own nodes and their neighbours
+  std::vector<char> near(index(nodes), 0);  // owned nodes and their neighbours
   grid_.vertex.assign(grid_.triangles.size(), kNone);
   std::vector<char> own_vertex(grid_.triangles.size(), 0);
   for (std::int32_t i = 0; i < grid_.owned; ++i) {
@@ -268,8 +273,9 @@ void Builder::number_entities(const std::vector<LedEntities>& first) {
   });
 }
 
-// Both halves turn as the ring does, unless the vertex lies beyond an edge, at an obtuse triangle:
-// there the area of a half is negative, and the kites still add up to cells and to triangles.
+// Computes the kites from signed areas of two triangles. The area of one is negative if the vertex
+// lies beyond an edge, as for an obtuse triangle. The kites still sum up to the areas of cells and
+// of triangles.
 void Builder::find_kites() {
   const StarRings& rings = grid_.rings;
   grid_.kite.assign(index(rings.places()), 0);

@@ -10,7 +10,7 @@ namespace pnpbs {
 
 namespace {
 
-// The neighbours that follow a node in a triangle, counter-clockwise.
+// Returns the two other corners of a triangle, in counter-clockwise order after the node.
 std::pair<std::int32_t, std::int32_t> others(const StarRings::Triangle& triangle,
                                              std::int32_t node) {
   const std::size_t k = node == triangle[0] ? 0 : node == triangle[1] ? 1 : 2;
@@ -35,7 +35,7 @@ StarRings::StarRings(const std::vector<Triangle>& triangles, const std::vector<s
            [&](std::int64_t i) { put_in_order(static_cast<std::int32_t>(i), triangles, ids); });
 }
 
-// Each triangle behind the one that ends with the neighbour that it begins with.
+// Orders the ring of a node: each triangle follows the one whose last neighbour is its first.
 void StarRings::put_in_order(std::int32_t node, const std::vector<Triangle>& triangles,
                              const std::vector<std::int64_t>& ids) {
   if (size(node) == 0) return;
@@ -55,7 +55,7 @@ void StarRings::put_in_order(std::int32_t node, const std::vector<Triangle>& tri
   std::int32_t first = 0;
   bool open = false;
   for (std::int32_t k = 0; k < n && !open; ++k) {
-    open = ends_none(k);  // an open ring begins here
+    open = ends_none(k);  // an open ring begins with this triangle
     if (open || id_of(k) < id_of(first)) first = k;
   }
   std::swap(ring[0], ring[first]);

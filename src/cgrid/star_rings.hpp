@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes and triangles around each node of a triangulation, counter-clockwise, in compressed
-// rows.
+// Rings: the neighbours and triangles around each node of a triangulation in counter-clockwise
+// order, in compressed rows.
 #pragma once
 
 #include <array>
@@ -10,13 +10,14 @@
 
 namespace pnpbs {
 
+// The rings of all nodes. `place` is an index into their concatenation.
 class StarRings {
  public:
-  using Triangle = std::array<std::int32_t, 3>;  // nodes, counter-clockwise
+  using Triangle = std::array<std::int32_t, 3>;  // node indices, counter-clockwise
 
   StarRings() = default;
-  // A closed ring begins with the neighbour of the least id, so that it is the same on all ranks
-  // that have it.
+  // Builds the rings. A closed ring begins with the neighbour that has the smallest id, so that it
+  // is the same on all ranks.
   StarRings(const std::vector<Triangle>& triangles, const std::vector<std::int64_t>& ids);
 
   std::int64_t begin(std::int32_t node) const { return offsets_[static_cast<std::size_t>(node)]; }
@@ -25,7 +26,7 @@ class StarRings {
     return static_cast<std::int32_t>(end(node) - begin(node));
   }
   std::int64_t places() const { return offsets_.back(); }
-  // At a place of the ring: the neighbour, and the triangle between it and the next one.
+  // Return the neighbour at this index, and the triangle between it and the next neighbour.
   std::int32_t neighbour(std::int64_t place) const {
     return neighbours_[static_cast<std::size_t>(place)];
   }
@@ -38,19 +39,19 @@ class StarRings {
   std::int64_t before(std::int32_t node, std::int64_t place) const {
     return (place > begin(node) ? place : end(node)) - 1;
   }
-  // Of this neighbour; it must be one.
+  // Returns the index of a neighbour in the ring of the node.
   std::int64_t place_of(std::int32_t node, std::int32_t neighbour) const {
     std::int64_t place = begin(node);
     while (this->neighbour(place) != neighbour) ++place;
     return place;
   }
-  // Of this triangle; it must be one of them.
+  // Returns the index of a triangle in the ring of the node.
   std::int64_t place_of_triangle(std::int32_t node, std::int32_t triangle) const {
     std::int64_t place = begin(node);
     while (this->triangle(place) != triangle) ++place;
     return place;
   }
-  // Do the triangles go all the way around the node?
+  // Returns true if the triangles surround the node completely.
   bool closed(std::int32_t node) const { return closed_[static_cast<std::size_t>(node)] != 0; }
 
  private:

@@ -15,6 +15,7 @@ namespace pnpbs {
 
 namespace {
 
+// A boundary face of the tetrahedra.
 struct Face {
   FacetCorners<3> corners;
   double d;  // the least at its corners
@@ -53,13 +54,15 @@ double farthest_face(const std::vector<Face>& faces, const SurfaceIndex& surface
   return farthest;
 }
 
-// The largest distance over d of a triangle from the faces; it is halved until it is small.
+// Distances of surface triangles from the faces. A triangle is bisected until its edges are at most
+// d/2.
 class SurfacePieces {
  public:
   explicit SurfacePieces(const std::vector<Face>& faces) : faces_(faces), tree_(corners(faces)) {}
 
+  // Returns the largest distance over d between the piece and the faces.
   double farthest(const FacetCorners<3>& piece) const {
-    constexpr double kLongest = 1;  // side of a piece, in d
+    constexpr double kLongest = 1;  // longest edge of a piece, in d
     const Point<3> middle = centroid(piece);
     const NearestTriangles::Nearest nearest = tree_.nearest(middle);
     const double d = faces_[static_cast<std::size_t>(nearest.triangle)].d;
@@ -87,6 +90,7 @@ class SurfacePieces {
   NearestTriangles tree_;
 };
 
+// Returns the largest distance over d of this rank's share of the surface triangles from the faces.
 double farthest_surface(const Level<3>& level, const std::vector<Face>& faces) {
   const SurfacePieces pieces(faces);
   const Surface& surface = level.geometry.surface();

@@ -10,7 +10,8 @@ namespace pnpbs {
 
 namespace {
 
-// What the boundary's nodes do to x in the plane, of which so much is enough to hold it.
+// Sum of the pushes of boundary edges above which a point of the plane is in the region. Fitted
+// (see kPlaneReach).
 constexpr double kEnough = 1.27;
 
 }  // namespace
@@ -45,11 +46,12 @@ bool BoundaryRoom<Dim>::any_nearer(const Point<Dim>& x, double reach) const {
   return limit < 0;
 }
 
-// Of an edge: how far its ends are within reach, in mean d. Nothing from behind, where x would not
-// see them.
+// Returns the push of an edge: the mean depth, in mean d, by which its ends are within reach of x.
+// It is 0 if the side of the edge that faces x is outside the domain, since its nodes are not
+// visible from x then.
 template <>
 double BoundaryRoom<2>::push_of(std::int32_t f, const Point<2>& x, double d) const {
-  constexpr double kPoint = 1.53;  // that one node alone takes what any other does: 1 / density
+  constexpr double kPoint = 1.53;  // gives an isolated node the area of any other, 1 / density
   const BoundaryEdge& edge = map_.facet(f);
   const auto& [a, b] = map_.corners(f);
   const auto from = [&](std::int32_t node, const Point<2>& at) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The room that the nodes of the boundary take inside.
+// The region near the boundary that the bubbles of boundary nodes keep free of inner nodes.
 #pragma once
 
 #include <vector>
@@ -10,34 +10,36 @@
 
 namespace pnpbs {
 
-// No inner node comes to rest there. Where the boundary's nodes are d apart they keep others off
-// for about half of d; where they are closer in the plane, as vertices of the input are, for more.
+// The region in which no inner node comes to rest. It reaches about d/2 from the boundary where
+// boundary nodes are d apart, and farther where they are closer in the plane, as vertices of the
+// input may be.
 template <int Dim>
 class BoundaryRoom {
  public:
-  // The map stays the caller's. d is asked at the boundary's nodes in the plane. In space the room
-  // reaches so far, in d.
+  // `map` must outlive this object. In the plane, d is evaluated at the boundary nodes. `reach` is
+  // the depth of the region in space, and the range of boundary nodes in the plane (kPlaneReach),
+  // in d.
   BoundaryRoom(const SizedTree<Dim>& map, const SpacingEvaluator<Dim>& spacing, double reach);
 
-  // Does it hold x, which is inside, where the spacing is d?
+  // Returns true if the region contains the point x of the domain, where the spacing is d.
   bool holds(const Point<Dim>& x, double d) const;
-  // Is any facet that near to x?
+  // Returns true if a facet is closer to x than `reach`.
   bool any_nearer(const Point<Dim>& x, double reach) const;
 
   double reach() const { return reach_; }
 
-  // In the plane: how far nodes of the boundary act, in d. Fitted, like kEnough, to the inner nodes
-  // of runs with 160 to 160 000 nodes in square, ring and lakes, d even and graded 1:30, edges of
-  // the boundary from d down to a tenth of it. tests/bench/node_count_study.py tells how near
-  // numbers of nodes come with it.
+  // Range of boundary nodes in the plane, in d. It is fitted together with kEnough to the inner
+  // nodes of runs with 160 to 160 000 nodes in a square, a ring and lakes, with constant d and d
+  // graded 1:30, and boundary edges between d and d/10. tests/bench/node_count_study.py measures
+  // the error of the resulting numbers of nodes.
   static constexpr double kPlaneReach = 1.35;
 
  private:
-  double push_of(std::int32_t f, const Point<Dim>& x, double d) const;  // in the plane alone
+  double push_of(std::int32_t f, const Point<Dim>& x, double d) const;  // only in the plane
 
   const SizedTree<Dim>& map_;
-  BoxTree<Dim> boxes_;     // of the facets
-  std::vector<double> d_;  // at the boundary's nodes
+  BoxTree<Dim> boxes_;     // boxes of the facets
+  std::vector<double> d_;  // spacing at the boundary nodes
   double reach_;
 };
 

@@ -15,6 +15,7 @@ namespace pnpbs {
 
 namespace {
 
+// Returns true if an open face at the owned node i does not lie along a surface.
 bool is_bridging(const Level<3>& level, std::int64_t i) {
   return level.nodes.owned(i) &&
          std::ranges::any_of(open_faces(level, i), [&](const FaceSide& side) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the boundary of the tetrahedra a surface like that of the domain?
+// Comparison of the topology of the boundary of the tetrahedra with that of the domain.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,17 @@
 
 namespace pnpbs {
 
+// Topological quantities of both boundaries. All counts are over all ranks.
 struct BoundaryTopology {
-  // Nodes where it is torn: around those on surfaces that bound the domain, the faces are not one
-  // disk; or they are from inside and have faces.
+  // Nodes at which the boundary is torn: nodes on bounding surfaces around which the faces do not
+  // form one disk, and inner nodes with boundary faces.
   FoundNodes<3> torn;
-  bool torn_on_surfaces = false;  // is one of them on a surface?
-  // Euler's characteristic, vertices less edges plus triangles: of the boundary and of the domain's
-  // surfaces. Where nothing is torn they differ by 2 for each handle or hole, and each piece.
+  bool torn_on_surfaces = false;  // true if one of them is on a surface
+  // Euler characteristic, vertices minus edges plus triangles, of the boundary and of the surfaces
+  // of the domain. If nothing is torn, they differ by 2 for each surplus or missing handle, hole or
+  // piece.
   std::int64_t euler = 0, euler_of_domain = 0;
+  // Numbers of connected pieces.
   std::int64_t pieces = 0, pieces_of_domain = 0;
 
   bool agrees() const {
@@ -25,15 +28,15 @@ struct BoundaryTopology {
   }
 };
 
-// Of a body, after prepare_stars. This rank's nodes where it is torn are added to `torn`, with
-// their neighbours. Collective.
+// Computes the topology of a body. Positions of this rank's nodes at which the boundary is torn,
+// and of their neighbours, are appended to `torn`. Requires prepare_stars(). Collective.
 BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<3>>& torn);
 
-// Where a boundary that is torn nowhere may differ from the surfaces, of this rank: the nodes of
-// its pieces that are too many (a bubble, say), or those with open faces that do not lie along the
-// surfaces but go from one sheet of them to another, which may be right where they are rough.
-// Whichever are fewer: what is too many where a neck is cut is a half of the body. Of a body, after
-// prepare_stars. Collective.
+// Returns this rank's nodes at which the topology of an untorn boundary may differ from that of the
+// surfaces. These are either the nodes of surplus pieces (such as a bubble), or the nodes with open
+// faces that bridge two sheets of the surfaces instead of lying along one; such faces may be
+// correct where the surfaces are rough. The smaller set is returned, since the surplus piece is
+// half of the body if a neck is cut. For bodies. Requires prepare_stars(). Collective.
 std::vector<Point<3>> places_of_other_topology(const Level<3>& level);
 
 }  // namespace pnpbs

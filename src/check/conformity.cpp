@@ -14,7 +14,7 @@ namespace pnpbs {
 
 namespace {
 
-// Where the boundary of the tetrahedra is not that of the domain.
+// Advice for a boundary of the tetrahedra that differs from that of the domain.
 constexpr const char* kWaysOut =
     "make it smaller there, try the option resolve, or repair the body to a resolution of the "
     "spacing, which removes what is finer (pnpbs_domain_set_resurfaced, in the command --repair "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Do the elements fill the domain? What can be told of that for certain: the same at the end of a
-// run, for its outcome and its warning, and by the check of the results.
+// Conformity of the elements: whether they fill the domain, as far as this can be determined
+// reliably. It decides the outcome and the warning at the end of a run and is part of the check of
+// results.
 #pragma once
 
 #include <compare>
@@ -16,29 +17,30 @@
 
 namespace pnpbs {
 
-// How far the elements are from filling the domain. Of two rounds of a run the one with fewer
-// faults is better: what is named first counts first.
+// A measure of how far the elements are from filling the domain. Of two rounds, the one with the
+// smaller value is better; members are compared in the order of their declaration.
 struct ElementFaults {
   bool no_elements = false;
-  std::int64_t pieces = 0;            // of the boundary, too many or too few
-  std::int64_t euler = 0;             // by which its Euler characteristic is off
-  std::int64_t lost_thousandths = 0;  // of the volume, by which it is off
-  std::int64_t torn = 0;  // nodes in no element, or where the boundary is torn; flat elements
+  std::int64_t pieces = 0;            // surplus or missing pieces of the boundary
+  std::int64_t euler = 0;             // error of its Euler characteristic
+  std::int64_t lost_thousandths = 0;  // error of the volume, in thousandths
+  std::int64_t torn = 0;              // nodes in no element or at a torn boundary; flat elements
 
   auto operator<=>(const ElementFaults&) const = default;
 };
 
+// The faults that decide whether the elements conform. Counts are over all ranks.
 template <int Dim>
 struct Conformity {
-  std::int64_t nodes = 0;     // over all ranks, as all here
+  std::int64_t nodes = 0;     // all nodes
   FoundNodes<Dim> isolated;   // nodes in no element
-  FoundNodes<Dim> unmatched;  // edges of surfaces alone with more or fewer triangles than sheets
-                              // meet there; found at the end that has the lesser id
-  ElementMeasure measure;     // in space, if what the elements fill may be far off
-  BoundaryTopology boundary;  // of bodies
-  FoundNodes<Dim> flat;       // of bodies: elements without a volume
-  // This rank's places where elements are lacking: nodes in none, edges that do not join, where the
-  // boundary is torn, and corners of elements without a volume.
+  FoundNodes<Dim> unmatched;  // surfaces alone: edges whose number of triangles differs
+                              // from the number of sheets; found at the end with the smaller id
+  ElementMeasure measure;     // space: set only if the volume may be far off
+  BoundaryTopology boundary;  // bodies only
+  FoundNodes<Dim> flat;       // bodies only: elements of volume 0
+  // Points of this rank where elements are missing: nodes in no element, unmatched edges, nodes at
+  // a torn boundary, and corners of flat elements.
   std::vector<Point<Dim>> torn;
 
   bool any_elements() const { return isolated.count < nodes; }
@@ -46,7 +48,7 @@ struct Conformity {
     return any_elements() && isolated.count == 0 && unmatched.count == 0 && flat.count == 0 &&
            !measure.far_off();
   }
-  // Nodes, edges or elements that text_of counts; 0 if it counts none.
+  // Returns the number of nodes, edges or elements that text_of reports, or 0 if it reports none.
   std::int64_t faults() const {
     if (!any_elements()) return 0;
     for (const std::int64_t count : {isolated.count, unmatched.count, flat.count})
@@ -57,11 +59,12 @@ struct Conformity {
   ElementFaults element_faults() const;
 };
 
-// After prepare_stars. Collective.
+// Determines the conformity. Requires prepare_stars(). Collective.
 template <int Dim>
 Conformity<Dim> conformity_of(const Results<Dim>& results);
 
-// What is wrong, with places; empty if nothing is. Collective.
+// Returns a message about the first fault, with a point, or an empty text if the elements conform.
+// Collective.
 template <int Dim>
 MessageText text_of(const Conformity<Dim>& conformity, const Results<Dim>& results);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The check that each simplex of a star is in the stars of its other corners, too, on whatever
-// ranks these are.
+// The check that each simplex of a star is also in the stars of its other corners, which may be on
+// other ranks.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace pnpbs {
 
-// Others: how many other corners a simplex has. Where they are fewer than Dim, the stars are those
-// of surfaces alone.
+// The check of one set of stars. `Others` is the number of other corners of a simplex. If it is
+// less than Dim, the stars are those of surfaces alone.
 template <int Dim, std::size_t Others>
 class CornerCheck {
  public:
@@ -24,8 +24,8 @@ class CornerCheck {
 
   explicit CornerCheck(const NodeCheck<Dim>& check) : check_(check), level_(check.level()) {}
 
-  // The star of this node must have the simplex with the others. Stars of other ranks are asked
-  // later.
+  // Checks that the star of node `corner` has the simplex with the corners `others`. Stars of other
+  // ranks are checked in look_elsewhere().
   void look_at(std::int64_t corner, const Corners& others) {
     const Corners key = key_of(others);
     if (!level_.nodes.owned(corner))
@@ -34,7 +34,7 @@ class CornerCheck {
       fail(check_.name(corner), [&](std::size_t k) { return check_.name(others[k]); });
   }
 
-  // Collective.
+  // Checks the stars of other ranks. Collective.
   void look_elsewhere() const {
     if (level_.comm->size() == 1) return;
     for (const Wanted& wanted : redistribute(*level_.comm, elsewhere_, [](const Wanted& sent) {
@@ -49,12 +49,13 @@ class CornerCheck {
 
  private:
   struct Wanted {
-    std::int64_t of;     // ids: the star of `of` must have
-    Corners others;      // these
-    std::int64_t owner;  // of `of`
+    std::int64_t of;     // id of the node whose star must have the simplex
+    Corners others;      // ids of the other corners
+    std::int64_t owner;  // rank that owns `of`
   };
 
-  // Ids: of a triangle in their order, which tells how it turns; of a tetrahedron increasing.
+  // Returns the ids of the other corners: in their order for a triangle, whose orientation counts,
+  // and sorted for a tetrahedron.
   template <class Index>
   Corners key_of(const std::array<Index, Others>& corners) const {
     Corners ids;

@@ -15,12 +15,13 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kTolerance = 1e-9;  // of the domain, for rounding
-constexpr double kSmall = 1e-3;      // of the domain
-// Of the absolute chord error: how far it is known. Measured on scans and random bodies with 3 000
-// nodes: it explains 93 % of what is lost or more.
+constexpr double kTolerance = 1e-9;  // for rounding errors, relative to the domain
+constexpr double kSmall = 1e-3;      // relative to the domain
+// Uncertainty of the chord error, relative to the absolute chord error. Measured on scans and
+// random bodies with 3 000 nodes, where the chord error explains at least 93 % of the missing
+// volume.
 constexpr double kChordError = 0.15;
-constexpr double kFoundTo = 1e-6;  // of its resolution: as well as edges of a level set are known
+constexpr double kFoundTo = 1e-6;  // precision of edges of a level set, in its resolution
 
 class Measuring : public VolumeNodeCheck {
  public:
@@ -39,7 +40,7 @@ class Measuring : public VolumeNodeCheck {
     return measure;
   }
 
-  // Without what lies between.
+  // Returns the measure without the bounds on what lies between elements and surfaces.
   ElementMeasure of_elements() const {
     ElementMeasure measure;
     measure.domain = domain_;
@@ -49,7 +50,7 @@ class Measuring : public VolumeNodeCheck {
 
  private:
   double volume_of_tetrahedra() const {
-    constexpr std::int64_t kChunk = 4096;  // places whose sums are added in order
+    constexpr std::int64_t kChunk = 4096;  // nodes whose sums are added in order
     const std::int64_t chunks = (p_.count() + kChunk - 1) / kChunk;
     const View<double> volumes = make_view<double>("pnpbs::volume_of_tetrahedra", chunks);
     for_each("pnpbs::volume_of_tetrahedra", chunks, [&](std::int64_t chunk) {
@@ -59,6 +60,7 @@ class Measuring : public VolumeNodeCheck {
     return sum_over_ranks(std::accumulate(volumes.data(), volumes.data() + chunks, 0.0), domain_);
   }
 
+  // Returns the volume of the tetrahedra whose first corners have the indices begin .. end-1.
   double volume_of_tetrahedra(std::int64_t begin, std::int64_t end) const {
     double sum = 0;
     p_.for_elements(begin, end, [&](const std::array<std::int64_t, 4>& places) {
@@ -81,8 +83,8 @@ class Measuring : public VolumeNodeCheck {
     return std::sqrt(dot(normal, normal));
   }
 
-  // What they enclose, how far rounding may put that off, and how much of the body may lie on the
-  // other side of them.
+  // Adds the enclosed volume, the bound of its rounding error, and the bounds of the volume between
+  // the boundary faces and the surfaces.
   void add_to_volume(ElementMeasure& measure) const {
     constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
     double enclosed = 0, rounding = 0, cut_off = 0, chord = 0, absolute_chord = 0;
@@ -93,8 +95,8 @@ class Measuring : public VolumeNodeCheck {
                      r = difference(x[2], low);
       enclosed += dot(p, cross(q, r)) / 6;
       rounding += 4 * kEpsilon * std::sqrt(dot(p, p) * dot(q, q)) * std::sqrt(dot(r, r));
-      // Gaps are about as wide as at the worst of these places, or a third less; twice as wide has
-      // room for what lies between.
+      // Gaps are at most about as wide as at the worst sample. Twice the area times this width is a
+      // safe bound.
       cut_off += twice_area(x) * (max_gap(x) + kFoundTo * resolution_);
       const auto [outwards, both_ways] = chord_error_at(x);
       chord += outwards;
@@ -107,7 +109,7 @@ class Measuring : public VolumeNodeCheck {
     measure.between = sum_over_ranks(cut_off, domain_);
   }
 
-  // What lies between a face and the surfaces, outwards, and without regard to the side.
+  // Returns the volume between a face and the surfaces: signed (positive outwards) and absolute.
   std::array<double, 2> chord_error_at(const std::array<Point<3>, 3>& corners) const {
     const Point<3> normal =
         cross(difference(corners[1], corners[0]), difference(corners[2], corners[0]));
@@ -123,6 +125,7 @@ class Measuring : public VolumeNodeCheck {
     return error;
   }
 
+  // Adds the bound of the area between the triangles and the surfaces.
   void add_to_area(ElementMeasure& measure) const {
     double missed = 0;
     p_.for_open_facets([&](const Three& places) {
@@ -137,21 +140,22 @@ class Measuring : public VolumeNodeCheck {
     measure.between = sum_over_ranks(missed, domain_);
   }
 
-  // What a surface that rises that far from a triangle, and sinks to its corners, may have more of
-  // area than that.
+  // Returns a bound of the area that a surface may have in excess of a triangle, if it rises from
+  // the corners to the largest measured distance.
   double missed_beside(const std::array<Point<3>, 3>& corners) const {
-    constexpr double kSafe = 16;  // eight for a dome
+    constexpr double kSafe = 16;  // 8 for a dome, doubled
     const auto [a, b, c] = corners;
     const double area = twice_area(corners);
     const double longest = std::max({distance<3>(a, b), distance<3>(b, c), distance<3>(c, a)});
-    const double rise = max_gap(corners) * longest / area;  // over the least height
+    const double rise = max_gap(corners) * longest / area;  // in units of the smallest height
     return 0.5 * area * std::min(kSafe * rise * rise, 1.0);
   }
 
-  // What lies between a feature edge and an element's edge that follows it, of one of the sheets
-  // that meet there: on the surface as far as the feature edge is, or beyond it, as far as the
-  // surface is. The sheet of a triangle ends at the one and the triangle at the other, so this is
-  // of first order in how far they are apart, even where the triangle lies in a flat sheet.
+  // Returns a bound of the area between a feature edge and the element edge that follows it, for
+  // one of the sheets that meet there. The sheet of a triangle ends at the feature edge and the
+  // triangle ends at its own edge. The difference is of first order in their distance, even if the
+  // triangle lies in a flat sheet. The distance is that along the surface plus that from the
+  // surface.
   double missed_at_feature(const Point<3>& a, const Point<3>& b) const {
     const Point<3> middle = middle_of<3>(a, b);
     const double length = distance<3>(a, b);

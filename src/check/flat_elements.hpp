@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra without a volume: between nodes in one plane and on one sphere, as the corners of a
-// rectangle across a bar that is thinner than d, none of which may move. No solver can use them.
+// Search for tetrahedra of volume 0. Their nodes lie in one plane and on one sphere, like the
+// corners of a rectangle across a bar that is thinner than d, and none of them may move. Solvers
+// cannot use such elements.
 #pragma once
 
 #include <vector>
@@ -10,8 +11,9 @@
 
 namespace pnpbs {
 
-// Found at the corner with the least id, over all ranks; this rank's corners are added to `places`.
-// By the stars of owned nodes. Collective.
+// Finds the flat elements among the stars of owned nodes. Each is counted at the corner with the
+// smallest id, over all ranks. The corners of this rank's flat elements are appended to `places`.
+// Collective.
 FoundNodes<3> flat_elements(const Level<3>& level, std::vector<Point<3>>& places);
 
 }  // namespace pnpbs

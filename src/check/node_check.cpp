@@ -31,7 +31,8 @@ std::int64_t NodeCheck<Dim>::owned_node(std::int64_t id) const {
   return nodes_.id(i) == id ? i : -1;
 }
 
-// The nodes of all ranks, distributed by their keys: those with the same key come to the same rank.
+// Distributes the nodes of all ranks by their keys, so that nodes with the same key are on the same
+// rank. Collective.
 template <int Dim>
 std::vector<typename NodeCheck<Dim>::PlacedId> NodeCheck<Dim>::gathered_by(
     std::uint64_t (*key)(const PlacedId&)) const {
@@ -63,7 +64,7 @@ void NodeCheck<Dim>::check_places() const {
   });
   std::vector<PlacedId> nodes = gathered_by([](const PlacedId& node) {
     std::uint64_t hash = 0;
-    for (const double x : node.x) hash = mixed_with(hash, x + 0.0);  // one place of the two zeros
+    for (const double x : node.x) hash = mixed_with(hash, x + 0.0);  // -0 and 0 are the same point
     return hash;
   });
   std::ranges::sort(nodes, {}, &PlacedId::x);
@@ -128,7 +129,7 @@ void NodeCheck<Dim>::check_lists() const {
 template <int Dim>
 double NodeCheck<Dim>::sum_over_ranks(double mine, double unit) const {
   constexpr double kFine = 0x1p40, kMax = 1e6;
-  const double share = mine / unit;  // of nodes that are nowhere it is no number, and far off
+  const double share = mine / unit;  // may be NaN or huge if nodes have invalid positions
   const double parts = (std::isnan(share) ? kMax : std::clamp(share, -kMax, kMax)) * kFine;
   const std::uint64_t sum =
       comm_.allreduce_sum(static_cast<std::uint64_t>(static_cast<std::int64_t>(parts)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the check of the results asks of nodes and adjacency lists, in the plane and in space; and
-// what it needs to ask more.
+// Checks of nodes and adjacency lists that the plane and space have in common, and helpers of
+// further checks.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace pnpbs {
 
-// Throws Error(ErrorKind::internal).
+// Throws Error(ErrorKind::internal) with a message that the check failed.
 [[noreturn]] void fail_check(const MessageText& what);
 
-// Of what is handed out. Its checks are collective, and fail on any rank that finds something.
+// Checks of the returned results. They are collective and throw on each rank that finds a fault.
 template <int Dim>
 class NodeCheck {
  public:
@@ -26,18 +26,18 @@ class NodeCheck {
         nodes_(level_.nodes),
         owned_(results.count()) {}
 
-  // Ids are unique.
+  // Checks that ids are unique and not negative.
   void check_ids() const;
-  // No two nodes lie in one place.
+  // Checks that positions are finite and that no two nodes coincide.
   void check_places() const;
-  // Node i is in the list of node j where j is in that of i.
+  // Checks that the lists are sorted by id and symmetric.
   void check_lists() const;
 
   const Level<Dim>& level() const { return level_; }
   MessageText name(std::int64_t i) const {
     return std::to_string(nodes_.id(i)) + " " + point_text(position(i));
   }
-  // The owned node with this id, or -1.
+  // Returns the index of the owned node with this id, or -1.
   std::int64_t owned_node(std::int64_t id) const;
   int owner_of(std::int64_t i) const { return level_.tree->owner_at(position(i)); }
 
@@ -46,10 +46,10 @@ class NodeCheck {
     std::int64_t id;
     Point<Dim> x;
   };
-  // Two numbers of a node of another rank's, to look for there.
+  // A pair of a list to be checked on the rank that owns the first node.
   struct ListedPair {
     std::int64_t of, listed;  // ids: the list of `of` must have `listed`
-    std::int32_t owner;       // of `of`
+    std::int32_t owner;       // rank that owns `of`
   };
 
   Point<Dim> position(std::int64_t i) const { return nodes_.position(i); }
@@ -58,12 +58,13 @@ class NodeCheck {
     for (std::int64_t place = 0; place < owned_; ++place) visit(p_.node_at(place));
   }
 
+  // Checks that node i lies inside.
   void check_inside(std::int64_t i, const FacetIndex<Dim>& boundary) const;
-  // Node i, which was laid on the boundary, is still there.
+  // Checks that node i is still at the point `laid` of the boundary where it was placed.
   void check_laid(std::int64_t i, const Point<Dim>& laid) const;
-  // Of the nodes that were laid there, each comes once, but for as many as were left out and
-  // those that may_lack(k): times is how often on this rank, and where(k) where it was laid.
-  // Collective.
+  // Checks that each node placed on the boundary occurs once, except for the number of nodes left
+  // out and those for which may_lack(k) is true. times[k] is the number of occurrences on this
+  // rank, and where(k) is the position. Collective.
   template <class Where, class MayLack>
   void check_laid_come_once(std::vector<std::int64_t> times, const Where& where,
                             const MayLack& may_lack) const {
@@ -74,7 +75,8 @@ class NodeCheck {
         fail_check("the boundary's node " + point_text(where(k)) + " comes " +
                    std::to_string(times[k]) + " times");
   }
-  // Of all ranks, in parts of 2^-40 of the unit: a sum with no order. Collective.
+  // Returns the sum over all ranks, in multiples of 2^-40 `unit`, so that it does not depend on the
+  // order. Collective.
   double sum_over_ranks(double mine, double unit) const;
 
   const Results<Dim>& p_;

@@ -15,6 +15,7 @@ namespace pnpbs {
 
 namespace {
 
+// The check of plane domains and spheres. Triangles are checked only if `fills` is true.
 class ResultCheck : public NodeCheck<2> {
  public:
   explicit ResultCheck(const Results<2>& results)
@@ -70,7 +71,8 @@ void ResultCheck::check_boundary_nodes() const {
   for_owned([&](std::int64_t i) {
     if (nodes_.boundary_node(i) >= 0) ++times[static_cast<std::size_t>(nodes_.boundary_node(i))];
   });
-  // Of a patch that closes a sphere, those that the finish has freed are boundary nodes no more.
+  // The finish frees nodes in the margin of a patch that closes a sphere. They are no boundary
+  // nodes any more.
   check_laid_come_once(
       std::move(times), [this](std::size_t b) { return laid(b); },
       [this](std::size_t b) {
@@ -112,14 +114,15 @@ void ResultCheck::check_star(std::int64_t i, CornerCheck<2, 2>& corners) const {
   }
 }
 
-// On which sides of the edge from node i to node j there are triangles.
+// Checks that the edge from node i to node j has triangles exactly on the sides that lie inside the
+// domain.
 void ResultCheck::check_sides_of(std::int64_t i, std::int64_t j, bool left, bool right) const {
   bool left_inside = true, right_inside = true;
   const std::int32_t b = nodes_.boundary_node(i), c = nodes_.boundary_node(j);
   for (std::int32_t k = b < 0 ? 0 : sectors_.begin(b); b >= 0 && k < sectors_.end(b); ++k) {
     if (sectors_.edge(k).other != c) continue;
     const BoundaryEdge& e = boundary_.facets[static_cast<std::size_t>(sectors_.edge(k).edge)];
-    if (closed_ && e.bounds()) continue;  // the sphere goes on behind it
+    if (closed_ && e.bounds()) continue;  // the sphere continues behind it
     left_inside = e.begin == b ? e.left_inside : e.right_inside;
     right_inside = e.begin == b ? e.right_inside : e.left_inside;
   }
@@ -132,13 +135,13 @@ void ResultCheck::check_sides_of(std::int64_t i, std::int64_t j, bool left, bool
              side(on_left));
 }
 
-// Every edge of the boundary must be an edge of the star.
+// Checks that every boundary edge at node i is an edge of its star.
 void ResultCheck::check_boundary_edges_of(std::int64_t i) const {
   const std::int32_t b = nodes_.boundary_node(i);
   if (b < 0) return;
   for (std::int32_t k = sectors_.begin(b); k < sectors_.end(b); ++k) {
     const std::int32_t other = sectors_.edge(k).other;
-    if (other == b) continue;  // a fixed node
+    if (other == b) continue;  // the edge of a fixed node
     bool found = false;
     level_.stars.for_neighbours(
         i, [&](std::int64_t j) { found = found || nodes_.boundary_node(j) == other; });
@@ -163,7 +166,7 @@ double ResultCheck::area_of_triangles(double unit) const {
   return sum_over_ranks(mine, unit);
 }
 
-// What the boundary's edges enclose, and how far rounding may put it off.
+// The area enclosed by the boundary edges, and a bound of its rounding error.
 struct Enclosed {
   double area = 0, rounding = 0;
 };

@@ -18,7 +18,7 @@ bool is_feature_node(const Nodes<3>& nodes, std::int64_t i) {
   return nodes.boundary_node(i) >= 0 && nodes.carrier(i) != Carrier::surface;
 }
 
-// As the triangles of this rank have them, each with one triangle.
+// Returns the edges of this rank's triangles, once for each triangle.
 std::vector<SurfaceEdge> edges_here(const Results<3>& results) {
   const Nodes<3>& nodes = results.level().nodes;
   std::vector<SurfaceEdge> edges;
@@ -34,7 +34,7 @@ std::vector<SurfaceEdge> edges_here(const Results<3>& results) {
   return edges;
 }
 
-// All records of an edge come to one rank.
+// Sends all records of an edge to the same rank. Collective.
 std::vector<SurfaceEdge> gathered(const Communicator& comm, const std::vector<SurfaceEdge>& edges) {
   if (comm.size() == 1) return edges;
   return redistribute(comm, edges, [&](const SurfaceEdge& edge) {

@@ -12,6 +12,7 @@ namespace pnpbs {
 
 namespace {
 
+// The check of surfaces alone. Triangles are checked only if `fills` is true.
 class SurfaceResultCheck : public VolumeNodeCheck {
  public:
   explicit SurfaceResultCheck(const Results<3>& results) : VolumeNodeCheck(results) {}

@@ -36,8 +36,8 @@ void VolumeNodeCheck::check_sides() const {
   });
 }
 
-// To the plane of the facet next to it, if its foot lies in that: along a needle the foot itself is
-// uncertain by many roundings.
+// Returns the distance to the plane of the nearest facet if the foot point lies in the facet. On a
+// needle, the distance to the foot point itself has a large rounding error.
 double VolumeNodeCheck::gap_to_facet(const Point<3>& x) const {
   const SurfaceIndex& index = geometry_.domain().index();
   const NearestPoint<3> nearest = index.nearest(x, std::numeric_limits<double>::infinity());
@@ -49,7 +49,8 @@ double VolumeNodeCheck::gap_to_facet(const Point<3>& x) const {
   return std::fabs(dot(normal, difference(x, nearest.x))) / std::sqrt(dot(normal, normal));
 }
 
-// As near to it as rounding lets it lie; to the triangles of a level set, as it may be moved.
+// Checks that the node is on its surface up to rounding. A node on a level set may be off its
+// triangles by the resolution.
 void VolumeNodeCheck::check_on_surface(std::int64_t i) const {
   const double gap = gap_to_facet(position(i));
   const LevelSet* set = geometry_.domain().level_sets().at(nodes_.boundary_node(i));
@@ -71,7 +72,7 @@ void VolumeNodeCheck::check_feature_nodes() const {
 double VolumeNodeCheck::max_gap(const std::array<Point<3>, 3>& corners) const {
   double gap = 0;
   for (const Point<3>& x : triangle_samples(corners)) gap = std::max(gap, gap_to_surface(x));
-  // Nodes of a level set lie on it, and so off its triangles where these round its edges.
+  // Nodes of a level set lie on it, and thus off its triangles where these round its edges.
   if (resolution_ > 0)
     for (const Point<3>& corner : corners) gap = std::max(gap, gap_to_surface(corner));
   return gap;

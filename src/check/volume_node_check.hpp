@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the checks of the results ask of nodes in space, whether the domain is filled or not.
+// Checks of the nodes in space that bodies and surfaces alone have in common.
 #pragma once
 
 #include <array>
@@ -10,11 +10,12 @@
 
 namespace pnpbs {
 
+// Checks of nodes on surfaces, on features and inside.
 class VolumeNodeCheck : public NodeCheck<3> {
  public:
   explicit VolumeNodeCheck(const Results<3>& results);
 
-  // The nodes and their lists, by themselves.
+  // Checks nodes and lists without regard to elements.
   void check_nodes_and_lists() const {
     check_ids();
     check_places();
@@ -33,16 +34,17 @@ class VolumeNodeCheck : public NodeCheck<3> {
     return geometry_.domain().index().clearance(x, std::numeric_limits<double>::infinity());
   }
   std::array<Point<3>, 3> positions_at(const Three& places) const;
-  // Between a triangle and the surface, at its middle and those of its edges.
+  // Returns the largest distance of a triangle from the surface, sampled at its centroid and edge
+  // midpoints.
   double max_gap(const std::array<Point<3>, 3>& corners) const;
 
   const LevelGeometry<3>& geometry_;
-  double resolution_ = 0;  // of the domain's level sets; 0 without any
+  double resolution_ = 0;  // largest of the domain's level sets; 0 if it has none
 
  private:
-  // Each node lies where its carrier is: on its surface, its feature edge, inside.
+  // Checks that each node lies on its carrier: a surface, a feature edge, or the inside.
   void check_sides() const;
-  // Of those on feature edges each comes once.
+  // Checks that each node on feature edges occurs once.
   void check_feature_nodes() const;
   const Point<3>& laid(std::size_t n) const { return geometry_.features().nodes[n].position; }
   void check_on_surface(std::int64_t i) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The check of the results in space.
+// The check of the results of bodies.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,13 +22,14 @@ namespace {
 
 using Three = std::array<std::int64_t, 3>;
 
-// An edge of a triangle of the boundary, as that turns.
+// An edge of a boundary triangle, with the orientation of the triangle.
 struct TurningEdge {
   std::int64_t low, high;  // ids
-  std::int64_t turn;       // 1 from low to high, -1 back
+  std::int64_t turn;       // 1 if the triangle runs from low to high, -1 otherwise
   Point<3> middle;
 };
 
+// The check of a body.
 class VolumeResultCheck : public VolumeNodeCheck {
  public:
   VolumeResultCheck(const Results<3>& results, const Conformity<3>& conformity)
@@ -76,10 +77,10 @@ void VolumeResultCheck::check_star(std::int64_t i, CornerCheck<3, 3>& corners) c
   });
 }
 
-// On either side of a face there is one tetrahedron at most; inside there are two. (Where nodes of
-// the surfaces are lacking, as these are torn, inner ones may be the outermost.)
+// Checks that a face has at most one tetrahedron on either side, and one on both sides if its nodes
+// are inner nodes. Where the surfaces are torn and lack nodes, inner nodes may be outermost.
 void VolumeResultCheck::check_faces(std::int64_t i) const {
-  using Side = std::pair<std::int32_t, std::int32_t>;  // of the face with node i, as it turns
+  using Side = std::pair<std::int32_t, std::int32_t>;  // other nodes of an oriented face at node i
   std::vector<Side> sides;
   level_.stars.for_simplices(i, [&](const Corners& corners) {
     const auto [a, b, c] = corners;
@@ -101,7 +102,8 @@ void VolumeResultCheck::check_faces(std::int64_t i) const {
 
 // ------------------------------------------------------------------ the boundary ---------------
 
-// The open facets are closed surfaces: at each edge as many turn one way as the other.
+// Checks that the open facets form closed surfaces: at each edge as many run in one direction as in
+// the other.
 void VolumeResultCheck::check_boundary() const {
   std::vector<TurningEdge> edges;
   p_.for_open_facets([&](const Three& places) {
@@ -139,7 +141,7 @@ void VolumeResultCheck::check_boundary() const {
 
 // ------------------------------------------------------------------ volume ---------------------
 
-// What is far off is no defect of ours: the run has said so.
+// A domain that is not filled is no error here: the run has reported it.
 void VolumeResultCheck::check_volume(bool fills) const {
   const ElementMeasure measure = measure_of_elements(p_);
   if (!(measure.domain > measure.rounding)) return;  // too thin to be measured

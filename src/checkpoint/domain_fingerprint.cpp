@@ -8,6 +8,7 @@ namespace pnpbs {
 
 namespace {
 
+// A hash of numbers in the order of their addition.
 class Fingerprint {
  public:
   void add(double value) { value_ = mixed_with(value_, value); }
@@ -27,12 +28,13 @@ std::uint64_t fingerprint_of(const PlaneDomain& domain) {
   Fingerprint print;
   if (const Embedding<2>& in = domain.embedding(); in.is_sphere())
     print.add(in.chart().projected_from());
-  // How a whole sphere is closed depends on the spacing.
+  // The patch that closes a whole sphere depends on the spacing and is no part of the user's
+  // domain.
   const bool whole = domain.is_whole_sphere();
   for (const BoundaryCurve& curve : domain.curves()) {
     if (whole && curve.bounds()) continue;
     print.add(curve.tag);
-    print.add(curve.left_inside);  // the role, and holes
+    print.add(curve.left_inside);  // depend on the role and on holes
     print.add(curve.right_inside);
     for (const Point<2>& x : curve.points) print.add(x);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A number that tells whether ranks describe the same domain.
+// Fingerprints of domains, which show whether ranks and checkpoints use the same domain.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,13 @@
 
 namespace pnpbs {
 
+// Returns a hash of the domain, which must have been checked. On a whole sphere the patch that
+// closes it is left out.
 std::uint64_t fingerprint_of(const PlaneDomain& domain);
 std::uint64_t fingerprint_of(const VolumeDomain& domain);
 
-// Throws unless all ranks have the same one: others would wait for each other for ever. Collective.
+// Throws unless all ranks have the same domain, since they would wait for each other forever
+// otherwise. Collective.
 void require_same_domain(const Communicator& comm, const PlaneDomain& domain);
 void require_same_domain(const Communicator& comm, const VolumeDomain& domain);
 

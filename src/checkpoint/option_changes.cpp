@@ -11,9 +11,10 @@ namespace pnpbs {
 
 namespace {
 
-// What d is made of: other nodes than those saved would be wanted.
+// Options that determine d. With other values, other nodes than the saved ones would be needed.
 constexpr std::string_view kOfSpacing[] = {"growth_limit", "resolve", "wanted_nodes"};
 
+// A line of the options in the checkpoint and at present; one of them may be empty.
 struct LinePair {
   std::string then, now;
 };
@@ -43,6 +44,7 @@ std::vector<LinePair> different_lines(const std::string& then, const std::string
                                        ", and now there is " + pair.now + ": " + remedy);
 }
 
+// Throws if the change is not allowed.
 void require_wanted(const LinePair& pair, const Options& now) {
   const std::string name = name_in(pair.now);
   if (name != name_in(pair.then) || now.choice("restart_options") == "same")

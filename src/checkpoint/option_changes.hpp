@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What has become of the options since a checkpoint.
+// Changes of the options between a checkpoint and its restart.
 #pragma once
 
 #include <string>
@@ -9,18 +9,20 @@
 
 namespace pnpbs {
 
+// An option with its value in the checkpoint and its present value.
 struct OptionChange {
   std::string name, then, now;
 };
 
-// The options that decide on the nodes, "name = value" in lines.
+// Returns the options that influence the nodes, as lines "name = value".
 std::string lines_of_deciding(const Options& options);
 
-// From those lines of a checkpoint to the options there are now. Throws Error(ErrorKind::argument)
-// for a change that nobody has asked for, and for one that asks for another spacing.
+// Returns the changes from these lines of a checkpoint to the present options. Throws
+// Error(ErrorKind::argument) for a change that the user has not requested and for a change of an
+// option that determines the spacing.
 std::vector<OptionChange> changes_since(const std::string& saved_lines, const Options& now);
 
-// For a warning.
+// Returns the changes as text for a warning.
 std::string text_of(const std::vector<OptionChange>& changes);
 
 }  // namespace pnpbs

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All of a placement that decides on what comes later, as a checkpoint holds it: what is one for
-// all, and the nodes. What can be found again from the domain, the spacing and the options, such as
-// the tree and the discretized boundary, is not part of it; fingerprints tell that these are the
-// same.
+// The contents of a checkpoint: all state of a placement that influences further computations,
+// namely global state and the nodes. What follows from the domain, the spacing and the options,
+// such as the tree and the discretized boundary, is not stored. Fingerprints show whether these are
+// unchanged.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,11 @@
 
 namespace pnpbs {
 
+// The global state of a checkpoint.
 struct SavedState {
   std::int64_t dimension = 0, nodes = 0, next_id = 0, moving = 0;
-  // Schedule, and whether the step is one whose event has not been asked yet if bubbles rest.
+  // State of the schedule. at_event is 1 if the event of the last step has not yet tested whether
+  // the bubbles rest.
   std::int64_t step = 0, refined = 0, coarser = 0, taken_over = 0, ended = 0,
                population_settled = 0, quiet_events = 0, at_event = 0;
   std::int64_t coarser_levels = 0, steps_done = 0, inserted = 0, deleted = 0, dropped = 0,
@@ -25,20 +27,19 @@ struct SavedState {
   std::int64_t held_rounds = 0, start_nodes_before_reduction = 0;
   double max_speed = 0, mean_speed = 0, meeting_radius = 0, least_before_held = 0, count_factor = 1;
   std::uint64_t domain_fingerprint = 0;
-  std::uint64_t checksum = 0;  // of the nodes, whatever their order, and of the tables
-  std::string options;         // those that decide, "name = value" in lines
-  std::string warnings;        // of the last run: see saved_warnings.hpp
+  std::uint64_t checksum = 0;  // of the nodes in any order, and of the tables
+  std::string options;         // deciding options as lines "name = value"
+  std::string warnings;        // warnings of the last run, see saved_warnings.hpp
 
-  // These are tables: rows of numbers of a fixed length. for_tables() visits them.
-  std::vector<double> held;  // places where d is reduced, each followed by d there
-  std::vector<double>
-      undersampled_points;  // SizingField::undersampled_points(): the same of d found there
-  std::vector<double> finer_slopes;  // places, growth from there, d there, 1 if surely inside
-  std::vector<double> edge_bands;    // of the last finish
-  std::vector<double> steepest;      // how the spacing grows: a place, and the growth there
+  // Tables: rows of numbers of fixed length. for_tables() visits them.
+  std::vector<double> held;  // points at which d is reduced, each followed by d there
+  std::vector<double> undersampled_points;  // SizingField::undersampled_points(), likewise
+  std::vector<double> finer_slopes;         // point, growth, d, 1 if surely inside the domain
+  std::vector<double> edge_bands;           // edge bands of the last finish
+  std::vector<double> steepest;             // point of the steepest growth of d, and the growth
 };
 
-// Calls visit(name, field) for each field: a number is an int64, a double or a fingerprint.
+// Calls visit(name, field) for each field, which is an int64, a double, a uint64 or a string.
 template <class State, class Visit>
 void for_fields(State& state, const Visit& visit) {
   visit("dimension", state.dimension);
@@ -88,6 +89,7 @@ void for_tables(State& state, const Visit& visit) {
   visit("steepest", state.steepest);
 }
 
+// Returns a hash of all tables.
 inline std::uint64_t checksum_of_tables(const SavedState& state) {
   std::uint64_t h = 0;
   for_tables(state, [&](const char*, const std::vector<double>& numbers) {
@@ -97,12 +99,14 @@ inline std::uint64_t checksum_of_tables(const SavedState& state) {
   return h;
 }
 
+// A node of a checkpoint.
 template <int Dim>
 struct SavedNode {
   PackedNode<Dim> node;
-  double spacing;  // that d would be refreshed to where the node is: to tell another spacing by
+  double spacing;  // d at the node, which detects a changed spacing
 };
 
+// Returns a hash of a node. The sum of these hashes does not depend on the order of the nodes.
 template <int Dim>
 std::uint64_t checksum_of(const SavedNode<Dim>& saved) {
   const PackedNode<Dim>& node = saved.node;

@@ -12,6 +12,7 @@ namespace pnpbs {
 
 namespace {
 
+// A reader of this text.
 class WarningReader {
  public:
   explicit WarningReader(const std::string& saved) : rest_(saved) {}
@@ -65,7 +66,7 @@ class WarningReader {
   }
 
   std::string_view rest_;
-  std::size_t last_ = 0;  // end of the point before, in the text to come
+  std::size_t last_ = 0;  // end of the previous point in the message
 };
 
 }  // namespace

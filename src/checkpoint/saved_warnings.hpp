@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warnings in the form in which a checkpoint stores them.
+// Conversion of warnings to the text that a checkpoint stores.
 #pragma once
 
 #include <span>
@@ -10,11 +10,12 @@
 
 namespace pnpbs {
 
-// Each warning is a line of its numbers, "code count value points length", a line
-// "dimension rounded begin end x y z" for each point that it names, and its text.
+// Returns the warnings as text. Each warning is a line "code count value points length" of its
+// numbers, a line "dimension rounded begin end x y z" for each point that it names, and its
+// message.
 std::string saved_warnings(std::span<const Warning> warnings);
 
-// Throws Error(ErrorKind::file) if the text is none of saved_warnings().
+// Returns the warnings of such a text. Throws Error(ErrorKind::file) if it is damaged.
 std::vector<Warning> warnings_in(const std::string& saved);
 
 }  // namespace pnpbs

@@ -23,11 +23,12 @@ namespace pnpbs {
 
 namespace {
 
+// Throws the error of a damaged checkpoint.
 [[noreturn]] void damaged(const MessageText& what) { throw Error(ErrorKind::file, what); }
 
 bool is_flag(std::int64_t value) { return value == 0 || value == 1; }
 
-// Is this a node that a level with that ground can have?
+// Returns true if the boundary data of a node are possible on this level.
 bool fits_geometry(const LevelGeometry<2>& geometry, const PackedNode<2>& node) {
   if (node.carrier == Carrier::free) return node.boundary_node == -1;
   if (node.carrier != Carrier::fixed) return false;
@@ -53,11 +54,12 @@ bool fits_geometry(const LevelGeometry<3>& geometry, const PackedNode<3>& node) 
   return false;
 }
 
+// Throws if the id, position, velocity or spacing of a node is invalid.
 template <int Dim>
 void require_possible_node(const Level<Dim>& level, const SavedState& state,
                            const PackedNode<Dim>& node) {
   const Box<Dim>& bounds = level.geometry.bounds();
-  const double margin = size_of(bounds);  // nodes on a level set may lie a little outside
+  const double margin = size_of(bounds);  // nodes on a level set may be slightly outside
   bool inside = true;
   for (int k = 0; k < Dim; ++k)
     inside = inside && node.x[k] >= bounds.low[k] - margin && node.x[k] <= bounds.high[k] + margin;
@@ -74,7 +76,7 @@ void require_possible_node(const Level<Dim>& level, const SavedState& state,
             "have: it is damaged");
 }
 
-// No id twice. Collective.
+// Throws if an id occurs twice on all ranks together. Collective.
 template <int Dim>
 void require_different_ids(const Communicator& comm, const std::vector<SavedNode<Dim>>& nodes) {
   std::vector<std::int64_t> ids;
@@ -91,7 +93,7 @@ void require_different_ids(const Communicator& comm, const std::vector<SavedNode
   });
 }
 
-// Each to the rank that owns its place.
+// Sends each node to the rank that owns its position and adds it to the level there. Collective.
 template <int Dim>
 void put_saved_nodes(Level<Dim>& level, const SavedState& state,
                      std::vector<SavedNode<Dim>>& saved) {
@@ -118,7 +120,8 @@ void put_saved_nodes(Level<Dim>& level, const SavedState& state,
   level.next_id = state.next_id;
 }
 
-// By now the boundary is that of the same spacing.
+// Throws if nodes do not fit the boundary of the level. As the spacing is known to be the same, so
+// should the boundary be. Collective.
 template <int Dim>
 void require_same_boundary(const Level<Dim>& level, const std::vector<SavedNode<Dim>>& saved) {
   collective_try(*level.comm, [&] {
@@ -130,7 +133,7 @@ void require_same_boundary(const Level<Dim>& level, const std::vector<SavedNode<
   });
 }
 
-// At the nodes, before any of them has moved.
+// Throws if d at a node differs from the saved value. Called before any node moves. Collective.
 template <int Dim>
 void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<Dim>>& saved) {
   const View<double> d = spacing_at_owned_nodes(level, level.geometry.spacing());
@@ -146,7 +149,7 @@ void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<D
   });
 }
 
-// What no placement can have saved.
+// Throws if the global state is one that no placement can have.
 void require_possible(const SavedState& s) {
   warnings_in(s.warnings);
   const auto count = [](std::int64_t n) { return n >= 0; };
@@ -167,7 +170,8 @@ void require_possible(const SavedState& s) {
     damaged("its record of the run is impossible: it is damaged");
 }
 
-// Calls visit(row) for the rows of a table, each so long.
+// Calls visit(row) for each row of a table, which has `length` numbers. Throws if the last row is
+// incomplete.
 template <class Visit>
 void for_rows(const std::vector<double>& table, std::size_t length, const char* what,
               const Visit& visit) {
@@ -362,7 +366,7 @@ std::shared_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<Sav
   put_saved_nodes(*level, saved, nodes);
   require_same_spacing(*level, nodes);
   require_same_boundary(*level, nodes);
-  // As it would have been at the next step after the options were changed.
+  // Does what the next step would have done after a change of the options.
   if (saved.meeting_radius != meeting_radius(settings)) level->nodes.set_reference_positions();
   recognise_margin(*level);
   exchange(*level, kStarHops);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Placements as they are saved, and as they go on from there.
+// Conversion of a placement to the contents of a checkpoint, and restart from them.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,15 @@
 
 namespace pnpbs {
 
-// A placement as it is saved: of its nodes, those of this rank.
+// The contents of a checkpoint that is to be written. Node data are those of this rank.
 template <int Dim>
 struct Saved {
   SavedState state;
+  // Must outlive this object.
   const Nodes<Dim>* nodes = nullptr;
-  std::vector<std::int32_t> owned;    // indices into these
-  View<double> spacing;               // by the same
-  const Patch<Dim>* patch = nullptr;  // of a spacing by values at nodes there were; else none
+  std::vector<std::int32_t> owned;    // indices of the owned nodes
+  View<double> spacing;               // d by node, as in SavedNode::spacing
+  const Patch<Dim>* patch = nullptr;  // values at earlier nodes if d is given by them, or null
 
   std::int64_t count() const { return static_cast<std::int64_t>(owned.size()); }
   SavedNode<Dim> node(std::int64_t k) const {
@@ -34,33 +35,36 @@ struct Saved {
   }
 };
 
-// The nodes of a level, and where its run is. `spacing`: the user's, with the places that runs
-// found to be finer; at_event: is the step one whose event has not been asked yet if the bubbles
-// rest? Collective.
+// Returns the contents of a checkpoint of this level and run. `spacing` is the user's spacing with
+// the undersampled points that runs have found. `at_event` is true if the event of the present step
+// has not yet tested whether the bubbles rest. Collective.
 template <int Dim>
 Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
                     const SizingField<Dim>& spacing, const RunState& run, const Options& options,
                     bool at_event);
 
-// The places that runs had found to be finer.
+// Returns the undersampled points that earlier runs have found. Throws Error(ErrorKind::file) if
+// they are invalid.
 template <int Dim>
 SpacingHints<Dim> undersampled_points_of(const SavedState& saved);
 
-// Throws Error(ErrorKind::state) if the nodes wait for another spacing than they were placed for:
-// one that replaced it, or what these options have made of it since then.
+// Throws Error(ErrorKind::state) if the spacing has been replaced or changed by options since the
+// nodes were placed. The nodes do not fit the spacing then.
 void require_savable_spacing(bool replaced, const Options& now, const Options& then);
-// Throws unless it is of this dimension, domain and these options. Collective.
+// Throws unless the checkpoint is of this dimension, this domain and these options, and valid.
+// Collective.
 template <int Dim>
 void require_same_as(const SavedState& saved, const Communicator& comm, Domain<Dim>& domain,
                      const Options& options);
-// The level that goes on from there, if its boundary and its spacing are those of then. `nodes`:
-// anyone's, all of them over all ranks. Collective.
+// Returns a level with the saved nodes. Throws if its boundary or spacing differs from those of the
+// checkpoint. `nodes` may be in any distribution over the ranks; together they must be complete.
+// Collective.
 template <int Dim>
 std::shared_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
                                         LevelBuilder<Dim>& builder,
                                         const EffectiveSpacing<Dim>& to_place,
                                         const Settings& settings, PlacedSpacing<Dim>& placed);
-// The run goes on from there, on that level.
+// Sets the state of the run and of the level to that of the checkpoint.
 template <int Dim>
 void adopt_state(const SavedState& saved, RunState& run, Level<Dim>& level);
 

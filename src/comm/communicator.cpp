@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all communicators have in common: agreement on failures.
+// Code that all communicators share: reductions and the agreement on failures.
 #include "comm/communicator.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace pnpbs {
 
 namespace {
 
-// An exchange without neighbours.
+// The exchange of a rank without neighbours.
 class NoExchange : public PersistentExchange {
  public:
   void start() noexcept override {}
@@ -53,7 +53,8 @@ class SerialCommunicator : public Communicator {
   int message_length(std::uint64_t) const override { return 0; }
 };
 
-// Kind, reason and message of a failure, in a message of one size: sending it needs no memory.
+// Kind, reason and message of a failure in a record of fixed size, which can be broadcast without
+// allocating memory.
 struct FailureNote {
   ErrorKind kind = ErrorKind::internal;
   ErrorReason reason = ErrorReason::other;
@@ -65,7 +66,7 @@ struct FailureNote {
     kind = of;
     std::strncpy(text.data(), what, text.size() - 1);
   }
-  // Points that do not fit stay parts of the text.
+  // Points that do not fit into the record remain as text only.
   void set(const Error& error) {
     set(error.kind(), error.what());
     reason = error.reason();
@@ -77,6 +78,7 @@ struct FailureNote {
   }
 };
 
+// Returns the record of an exception of any type.
 FailureNote describe(std::exception_ptr failure) {
   FailureNote note;
   try {
@@ -95,19 +97,20 @@ FailureNote describe(std::exception_ptr failure) {
   return note;
 }
 
-// For a rank that has no memory for the text: it throws the same as the others all the same.
+// The error of a rank that cannot allocate the message. It has the same kind as the error of the
+// other ranks.
 const AgreedError kNoRoomForText(ErrorKind::memory, kOutOfMemory);
 
 }  // namespace
 
-// The lowest failed rank is the largest of size - rank.
+// The maximum of size - rank is that of the lowest failed rank.
 Communicator::Reduction Communicator::reduce_or_fail(Reduction mine,
                                                      std::exception_ptr failure) const {
   if (failure) mine.failed = size() - rank();
   Reduction all;
   try {
     all = reduce(mine);
-  } catch (...) {  // the other ranks wait for this one
+  } catch (...) {  // the other ranks wait in the reduction
     if (!failure) failure = std::current_exception();
     mine.failed = size() - rank();
     all = reduce(mine);
@@ -162,7 +165,8 @@ void Communicator::allreduce_sum(std::vector<std::int64_t>& values) const {
   sum_entries(values);
 }
 
-// A sum goes as three parts, of 32 bits but for the last, so that those of 2^31 ranks add up.
+// Each sum is split into two parts of 32 bits and the upper word, so that the parts of 2^31 ranks
+// can be added.
 void Communicator::allreduce_sum(std::vector<std::int64_t>& values,
                                  std::vector<FixedPointSum>& sums) const {
   constexpr std::uint64_t kPart = 0xffffffffu;
@@ -186,7 +190,7 @@ std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
   return scan(value);
 }
 
-// With the integers below 2^32 that both halves are, doubles are exact.
+// Both halves are integers below 2^32, which doubles represent exactly.
 bool Communicator::same_on_all(std::uint64_t value) const {
   for (const int shift : {0, 32}) {
     const double half = static_cast<double>((value >> shift) & 0xffffffffu);

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processes that place nodes together. Serial: one process, no MPI call ever.
+// Communication between the processes that place nodes together. A serial communicator has one
+// process and calls no MPI function.
 //
-// Nobody waits for a rank that has failed. Every operation here but exchange() begins with a
-// reduction of one and the same form, in which each rank tells whether it has failed. A rank that
-// throws between two of them leaves for the end of the work it is in, where agree_on_failure has it
-// take part in that reduction; the others, wherever they are, then throw its failure, too. What all
-// ranks throw is an AgreedError, and is not told again. Exchanges between neighbours have no such
-// beginning: the ranks must have agreed before that all of them take part.
+// Failure protocol. No rank waits for a rank that has failed. Every collective operation except
+// exchange() begins with the same kind of reduction, in which each rank also contributes whether it
+// has failed. A rank that throws between two operations leaves its work and enters this reduction
+// in agree_on_failure. All other ranks, whatever operation they have reached, then throw the same
+// failure as an AgreedError. An AgreedError is already known to all ranks and is not reported
+// again. Exchanges between neighbours have no such reduction: the ranks must have agreed before
+// that all of them take part.
 //
-// The same holds where a call of MPI fails. The exchange is completed on all ranks, so that none
-// waits for a message, and the ranks that lack one throw. The tags of messages change whenever
-// ranks agree on a failure: a message that was left over then is never taken for one of a later
-// exchange. If MPI fails in a collective operation but a reduction, or sends nothing at all any
-// more, ranks may wait for ever.
+// The same holds if a call of MPI fails. The exchange is completed on all ranks, so that none waits
+// for a message, and the ranks that lack a message throw. The tags of messages change whenever
+// ranks agree on a failure, so a message left over from before is never received in a later
+// exchange. Ranks may wait forever if MPI fails in a collective operation other than a reduction,
+// or if it stops sending messages at all.
 #pragma once
 
 #include <cstddef>
@@ -31,80 +33,87 @@ namespace pnpbs {
 
 using Bytes = std::vector<char>;
 
-// A failure that all ranks throw.
+// An error that all ranks throw.
 class AgreedError : public Error {
  public:
   using Error::Error;
 };
 
-// A message and the rank it goes to, or comes from.
+// A message together with its destination rank, or its source rank once received.
 struct Message {
   int rank;
   Bytes bytes;
 };
 
-// An exchange between neighbours that can be done again and again: messages of known sizes from
-// and to buffers that stay where they are. Between start() and wait() these belong to it. Its
-// destructor waits for messages that are on their way.
+// A persistent exchange between neighbours: messages of fixed sizes from and to fixed buffers,
+// repeated any number of times. The buffers must not be touched between start() and wait(). The
+// destructor waits for pending messages.
 class PersistentExchange {
  public:
   virtual ~PersistentExchange() = default;
-  // Posts the messages. All neighbours start; several exchanges may be under way at a time, and
-  // ranks start them in the same order. Does not throw and allocates no memory.
+  // Posts the messages. All neighbours must start the exchange. Several exchanges may be pending if
+  // all ranks start them in the same order. Neither throws nor allocates memory.
   virtual void start() noexcept = 0;
-  // Waits for this rank's messages. Local: other ranks need not wait. Throws Error(ErrorKind::mpi)
-  // if one of them failed, when all have ended.
+  // Waits for the messages of this rank. Local: other ranks need not wait. Throws
+  // Error(ErrorKind::mpi) after all messages have ended if one of them failed.
   virtual void wait() = 0;
 };
 
+// A group of ranks and the operations between them. Operations are collective unless they are
+// declared local, and if one rank throws, all ranks throw.
 class Communicator {
  public:
   virtual ~Communicator() = default;
   virtual int rank() const = 0;
   virtual int size() const = 0;
-  // Ranks of this communicator on this node: they share its cores.
+  // Returns the number of ranks of this communicator on this node, which share its cores.
   virtual int ranks_on_node() const = 0;
 
-  // Collective; integers and maxima only, so that no result depends on the order of ranks.
+  // Reductions of integers and maxima only, so that no result depends on the order of the ranks.
   std::uint64_t allreduce_sum(std::uint64_t value) const;  // modulo 2^64
   FixedPointSum allreduce_sum(const FixedPointSum& sum) const;
   double allreduce_max(double value) const;
   void allreduce_sum(std::vector<std::int64_t>& values) const;  // entry by entry
-  // Both at once, entry by entry.
+  // Sums the entries of both vectors over all ranks in one reduction.
   void allreduce_sum(std::vector<std::int64_t>& values, std::vector<FixedPointSum>& sums) const;
-  // Of the ranks before this one, modulo 2^64.
+  // Returns the sum over the ranks before this one, modulo 2^64.
   std::int64_t exclusive_scan(std::int64_t value) const;
+  // Returns true if all ranks pass the same value.
   bool same_on_all(std::uint64_t value) const;
+  // Replaces `bytes` on all ranks by those of rank `root`; the sizes need not agree before.
   void broadcast(Bytes& bytes, int root) const;
-  // What every rank gives, one after the other by rank.
+  // Returns the bytes of all ranks, concatenated by rank.
   Bytes allgather(const Bytes& mine) const;
-  // Brings each message to its rank, this one included; returns what has come, by rank. At most one
-  // to each; empty ones may be left out. Nobody need know who sends to it, and the cost grows with
-  // the messages of a rank, not with the ranks (but for the reductions). Throws on all ranks.
+  // Sends each message to its rank, which may be this one, and returns the received messages sorted
+  // by rank. A rank sends at most one message to each other rank, and may omit empty ones.
+  // Receivers need not know their senders. Apart from the reductions, the cost grows with the
+  // number of messages of a rank and not with the number of ranks.
   virtual std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const = 0;
 
-  // Sends outgoing[k] to rank neighbours[k] and returns what they sent. Every rank named must name
-  // us in its own call at the same time. Messages may be empty. Collective, without a reduction at
-  // its beginning: the ranks agree once they know the sizes, also on `failure`, that of this rank's
-  // work before, if there is one. After that only MPI can fail: on a rank that lacks a message.
+  // Sends outgoing[k] to rank neighbours[k] and returns the messages of the neighbours in the same
+  // order. Neighbours must name each other in calls at the same time. Messages may be empty.
+  // Collective, without a reduction at the beginning: the ranks agree on failures once the sizes
+  // are known. `failure` is the failure of this rank's preceding work, or null. Afterwards only MPI
+  // can fail, and only the ranks that lack a message throw.
   virtual std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                                       const std::vector<Bytes>& outgoing,
                                       std::exception_ptr failure) const = 0;
-  // An exchange for messages whose sizes both sides know: incoming[k] has the size of what comes.
-  // The buffers must outlive it. Local.
+  // Creates a persistent exchange. incoming[k] must have the size of the message from
+  // neighbours[k]. The buffers must outlive the exchange. Local.
   virtual std::unique_ptr<PersistentExchange> persistent_exchange(
       const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
       std::vector<Bytes>& incoming) const = 0;
 
-  // Opens an existing file for all ranks to write parts of. Collective; agreed. `name` stands for
-  // the file in messages.
+  // Opens an existing file, to which all ranks write parts. `name` stands for the file in error
+  // messages. Throws Error(ErrorKind::file) on all ranks.
   virtual std::unique_ptr<SharedWriter> open_file(const std::string& path,
                                                   const std::string& name) const = 0;
 
  protected:
-  // What all reductions of single values are made of.
+  // The operand of all reductions of single values. `failed` is combined by maximum, `sum` by sum,
+  // `max` by maximum.
   struct Reduction {
-    std::int64_t failed = 0;  // size - rank of a rank that has failed; the largest counts
+    std::int64_t failed = 0;  // size - rank of a failed rank, or 0
     Int128 sum;
     double max = -std::numeric_limits<double>::infinity();
   };
@@ -112,13 +121,15 @@ class Communicator {
   virtual void sum_entries(std::vector<std::int64_t>& values) const = 0;
   virtual std::int64_t scan(std::int64_t value) const = 0;
   virtual void broadcast_bytes(char* bytes, std::size_t n, int root) const = 0;
-  // These find all their memory before ranks wait for each other: `all` has its size.
+  // The following two operations allocate nothing while ranks wait for each other: the caller has
+  // resized `all`.
   virtual void allgather_sizes(std::uint64_t mine, std::vector<std::uint64_t>& all) const = 0;
   virtual void allgather_bytes(const Bytes& mine, const std::vector<int>& sizes,
                                const std::vector<int>& offsets, Bytes& all) const = 0;
-  // Throws if that many bytes are too many for allgather_bytes().
+  // Throws if `size` bytes are too many for allgather_bytes(). Otherwise returns the size as an
+  // int.
   virtual int message_length(std::uint64_t size) const = 0;
-  // Failures that the ranks have agreed on so far, the same on all of them.
+  // Returns the number of failures that the ranks have agreed on, which is the same on all ranks.
   std::uint32_t agreed_failures() const { return agreed_failures_; }
 
  private:
@@ -128,21 +139,23 @@ class Communicator {
   mutable std::uint32_t agreed_failures_ = 0;
 };
 
+// Returns a communicator of one process.
 std::shared_ptr<Communicator> serial_communicator();
 
-// A duplicate of the communicator with this Fortran handle. Collective. Throws
-// Error(ErrorKind::mpi or ::unsupported).
+// Returns a duplicate of the MPI communicator with this Fortran handle. Collective. Throws
+// Error(ErrorKind::mpi) or, in builds without MPI, Error(ErrorKind::unsupported).
 std::shared_ptr<Communicator> mpi_communicator(std::int32_t fortran_handle);
 
-// Throws Error(ErrorKind::mpi) unless this is what MPI_Get_library_version tells of the MPI that
-// we call: handles of one library mean nothing to another.
+// Throws Error(ErrorKind::mpi) unless `library` is the version text (MPI_Get_library_version) of
+// the MPI library that PNPBS calls. Handles of one MPI library are invalid in another.
 void require_our_mpi(const std::string& library);
 
-// Collective: if any rank failed, all ranks throw the failure of the lowest one, named.
+// Throws on all ranks if a rank has a failure: an AgreedError with the message of the lowest failed
+// rank and its number. Collective.
 void agree_on_failure(const Communicator& comm, std::exception_ptr failure);
 
-// Runs a piece of this rank's work unless one before it has failed. Its failure waits in `failure`
-// until the ranks agree on it, as others wait for messages meanwhile.
+// Runs local work unless an earlier part has failed. An exception is stored in `failure` until the
+// ranks agree on it, since other ranks wait for messages meanwhile.
 template <class Work>
 void attempt(std::exception_ptr& failure, const Work& work) {
   if (failure) return;
@@ -153,8 +166,8 @@ void attempt(std::exception_ptr& failure, const Work& work) {
   }
 }
 
-// Runs a piece of this rank's work in any case, because other ranks wait for it, and keeps its
-// failure unless there is one already.
+// Runs local work even after a failure, because other ranks wait for it. An exception is stored in
+// `failure` unless one is stored already.
 template <class Work>
 void run_and_keep(std::exception_ptr& failure, const Work& work) {
   try {
@@ -164,8 +177,8 @@ void run_and_keep(std::exception_ptr& failure, const Work& work) {
   }
 }
 
-// What a piece of this rank's work throws, null if nothing; but what the ranks have agreed on
-// already goes on its way.
+// Runs local work and returns its exception, or null. An AgreedError is rethrown because all ranks
+// throw it.
 template <class Work>
 std::exception_ptr failure_of(const Work& work) {
   try {
@@ -178,7 +191,7 @@ std::exception_ptr failure_of(const Work& work) {
   return nullptr;
 }
 
-// Runs a piece of work on every rank; if it throws on one, it throws on all.
+// Runs work on every rank. If it throws on one rank, all ranks throw. Collective.
 template <class Work>
 void collective_try(const Communicator& comm, const Work& work) {
   if (comm.size() == 1) return work();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Buffers for the values of nodes on their way between ranks.
+// Allocation of the buffers of an exchange of node values.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace pnpbs {
 
-// One for each row of an exchange pattern, so many bytes for each of its nodes.
+// Returns a buffer for each row of an exchange pattern, with `bytes_of_node` bytes for each node of
+// the row.
 inline std::vector<Bytes> exchange_buffers(const std::vector<std::int64_t>& offsets,
                                            std::size_t bytes_of_node) {
   std::vector<Bytes> all;

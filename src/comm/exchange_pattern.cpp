@@ -9,15 +9,15 @@ namespace {
 
 struct Request {
   std::int64_t id;
-  std::int32_t from, by;  // the owner, and who has the node as a ghost
+  std::int32_t from, by;  // the owner, and the rank that has the node as a ghost
 };
 
-// Rows of places, one per rank of the pattern. entries: (rank, place), each rank's by id.
+// Pairs (rank, node index).
 using Entries = std::vector<std::pair<std::int32_t, std::int64_t>>;
 
 void make_rows(const std::vector<std::int32_t>& ranks, Entries entries,
                std::vector<std::int64_t>& offsets, std::vector<std::int64_t>& places) {
-  std::sort(entries.begin(), entries.end());  // places are in the order of ids
+  std::sort(entries.begin(), entries.end());  // node indices increase with the ids
   offsets.assign(1, 0);
   for (const std::int32_t rank : ranks) {
     for (std::size_t k = places.size(); k < entries.size() && entries[k].first == rank; ++k)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How values at nodes reach their ghosts on other ranks: the plan of an exchange, for us and for
-// the user's solver.
+// The halo exchange plan that copies values of owned nodes to their ghosts on other ranks. The
+// library and the solvers of users follow it.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,23 @@
 
 namespace pnpbs {
 
+// A halo exchange plan of one rank.
 struct ExchangePattern {
-  std::vector<std::int32_t> ranks;  // who sends to us or gets from us, in increasing order
-  // Compressed rows, one per rank: places of owned nodes to send, and of ghosts to fill (owned
-  // nodes come first, then ghosts), both by increasing id.
+  std::vector<std::int32_t> ranks;  // ranks that exchange with this one, increasing
+  // Compressed rows, one per rank: indices of the owned nodes to send and of the ghosts to receive.
+  // Owned nodes are numbered first, then ghosts, both by increasing id.
   std::vector<std::int64_t> send_offsets, send_nodes, receive_offsets, receive_nodes;
 };
 
-// ids: of the owned nodes, in increasing order, then of the ghosts, in increasing order; owners: of
-// the ghosts. Collective.
+// Builds the plan. `ids` has the ids of the owned nodes and then those of the ghosts, each in
+// increasing order. `owners` has the owner of each ghost. Collective. Throws if a rank does not own
+// a node that is its ghost elsewhere.
 ExchangePattern make_exchange_pattern(const Communicator& comm, std::int64_t owned,
                                       const std::vector<std::int64_t>& ids,
                                       const std::vector<std::int32_t>& owners);
 
-// Fills the values of the ghosts with those of their owners. Collective.
+// Copies the values of the owned nodes to their ghosts. `values` has an entry per node and ghost.
+// Collective.
 template <class Value>
 void fill_ghosts(const Communicator& comm, const ExchangePattern& pattern,
                  std::vector<Value>& values) {

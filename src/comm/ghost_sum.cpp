@@ -14,7 +14,7 @@ void GhostSum::pack(const Communicator& comm, const std::shared_ptr<const Exchan
   const std::size_t bytes_of_node = static_cast<std::size_t>(components) * sizeof(double);
   if (pattern != pattern_ || components != components_) {
     exchange_.reset();
-    pattern_.reset();  // until all is made
+    pattern_.reset();  // until everything is allocated
     outgoing_ = exchange_buffers(pattern->receive_offsets, bytes_of_node);
     incoming_ = exchange_buffers(pattern->send_offsets, bytes_of_node);
     exchange_ = comm.persistent_exchange(pattern->ranks, outgoing_, incoming_);
@@ -46,13 +46,13 @@ void GhostSum::exchange() {
   }
 }
 
-// Of one node; value: [components].
+// Adds the values of one node to value[components].
 void GhostSum::add_exactly(const Part* first, const Part* last, double* value) const {
   for (std::int64_t c = 0; c < components_; ++c) {
     const auto part = [&](const Part* p) {
       return parts_[static_cast<std::size_t>(p->place * components_ + c)];
     };
-    if (last - first == 1) {  // of two terms, the processor's sum is the exact one, rounded
+    if (last - first == 1) {  // the processor rounds the exact sum of two terms
       value[c] += part(first);
       continue;
     }
@@ -71,7 +71,7 @@ void GhostSum::add(std::int64_t n, double* values) const {
     add_exactly(first, last, values + first->node * components_);
     first = last;
   }
-  // A sum that is 0 is +0, also where nothing came: a part that is 0 makes no difference.
+  // A sum that is 0 has to be +0. Adding 0.0 turns -0 into +0 at nodes that received nothing, too.
   for (double* value = values; value != values + n * components_; ++value) *value += 0.0;
 }
 

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Values at ghosts on their way to the owners of these nodes, where they are added up: the way of
-// GhostUpdate back. Buffers are kept from one sum to the next.
+// Sum of the values at ghosts into the values of their owners, the reverse of GhostUpdate. Buffers
+// are kept from one sum to the next.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +11,22 @@
 
 namespace pnpbs {
 
+// A sum over ghosts, performed by pack(), exchange() and add() in this order.
 class GhostSum {
  public:
-  // Copies the values of the ghosts. values: [nodes and ghosts][components]. Local.
+  // Copies the values of the ghosts. `values` has the shape [nodes and ghosts][components]. Local.
   void pack(const Communicator& comm, const std::shared_ptr<const ExchangePattern>& pattern,
             std::int64_t components, const double* values);
-  // Sends what is packed, and waits for what comes. All ranks do, after they have agreed that all
-  // of them have packed. Throws Error(ErrorKind::mpi) on a rank that lacks some of it.
+  // Sends the packed values and waits for those of other ranks. All ranks must call it, after they
+  // have agreed that all of them have packed. Throws Error(ErrorKind::mpi) on a rank that lacks a
+  // message.
   void exchange();
-  // Adds what has come to the values of the owned nodes, of which there are n: the exact sum,
-  // rounded once, so that no order of ranks matters. Local.
+  // Adds the received values to the n owned nodes. The sum at a node is exact and rounded once, so
+  // it does not depend on the order of ranks. Local.
   void add(std::int64_t n, double* values) const;
 
  private:
-  // Something that came for an owned node: where it is in `parts_`.
+  // A received value: the owned node that it belongs to and its row in `parts_`.
   struct Part {
     std::int64_t node, place;
   };
@@ -35,9 +36,9 @@ class GhostSum {
   std::shared_ptr<const ExchangePattern> pattern_;
   std::int64_t components_ = 0;
   std::vector<Bytes> outgoing_, incoming_;
-  std::vector<Part> by_node_;                     // of the pattern
-  std::vector<double> parts_;                     // [all that comes][components]
-  std::unique_ptr<PersistentExchange> exchange_;  // between the buffers, and gone before them
+  std::vector<Part> by_node_;  // received values sorted by node, fixed by the pattern
+  std::vector<double> parts_;  // [received values][components]
+  std::unique_ptr<PersistentExchange> exchange_;  // refers to the buffers, hence declared last
 };
 
 }  // namespace pnpbs

@@ -13,7 +13,7 @@ void GhostUpdate::pack(const Communicator& comm,
   const std::size_t bytes_of_node = static_cast<std::size_t>(components) * sizeof(double);
   if (pattern != pattern_ || components != components_) {
     exchange_.reset();
-    pattern_.reset();  // until all is made
+    pattern_.reset();  // until everything is allocated
     outgoing_ = exchange_buffers(pattern->send_offsets, bytes_of_node);
     incoming_ = exchange_buffers(pattern->receive_offsets, bytes_of_node);
     exchange_ = comm.persistent_exchange(pattern->ranks, outgoing_, incoming_);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kSentAtOnce = 1 << 15;
 
-// This rank's, increasing.
+// The ids of the owned nodes of this rank, in increasing order.
 struct OwnedIds {
   std::int64_t count;
   const std::function<std::int64_t(std::int64_t)>& id;
@@ -25,13 +25,13 @@ struct OwnedIds {
   }
 };
 
-// For every wanted number, the least id that has at least so many smaller ones: by bisection, all
-// at once, so that no rank ever sees the others' ids.
+// Returns for each number the smallest id that has at least so many smaller ids. All bisections run
+// at the same time, and no rank needs the ids of the others. Collective.
 std::vector<std::int64_t> ids_that_begin(const Communicator& comm, const OwnedIds& owned,
                                          const std::vector<std::int64_t>& numbers) {
   const double max =
       comm.allreduce_max(owned.count == 0 ? 0 : static_cast<double>(owned.id(owned.count - 1)));
-  // A double may have lost the last bits of a large id.
+  // The conversion to double may have lost the last bits of a large id.
   const std::int64_t bound = max < 0x1p62 ? static_cast<std::int64_t>(max * (1 + 0x1p-40)) + 2
                                           : std::numeric_limits<std::int64_t>::max();
   std::vector<std::int64_t> low(numbers.size(), 0), high(numbers.size(), bound);
@@ -59,8 +59,8 @@ IdBlocks::IdBlocks(const Communicator& comm, std::int64_t owned,
                    const std::function<std::int64_t(std::int64_t)>& owned_id)
     : comm_(comm) {
   const std::int64_t total = span_of(comm, static_cast<std::size_t>(owned)).total;
-  std::vector<std::int64_t> numbers{0};  // that blocks begin with
-  // total * r / size, without a product that could overflow.
+  std::vector<std::int64_t> numbers{0};  // first number of each block
+  // Equals total * r / size, computed without a product that could overflow.
   for (int r = 1; r <= comm.size(); ++r)
     numbers.push_back(total / comm.size() * r + total % comm.size() * r / comm.size());
   const auto rank = static_cast<std::size_t>(comm.rank());
@@ -69,7 +69,8 @@ IdBlocks::IdBlocks(const Communicator& comm, std::int64_t owned,
   numbers.erase(numbers.begin());
   numbers.pop_back();
   if (comm.size() > 1) begin_ = ids_that_begin(comm, {owned, owned_id}, numbers);
-  // Not all at once: the messages would need several times the memory of the ids.
+  // Sends the ids in portions, since all messages together would need several times the memory of
+  // the ids.
   const auto max = static_cast<std::int64_t>(comm.allreduce_max(static_cast<double>(owned)));
   for (std::int64_t begin = 0; begin < max; begin += kSentAtOnce) {
     std::vector<std::int64_t> part;
@@ -103,7 +104,7 @@ std::int64_t IdBlocks::number_in_block(std::int64_t id) const {
   return span_.first + (found - ids_.begin());
 }
 
-// Most are in this rank's own block; the others are asked for.
+// Most ids lie in the block of this rank; for the others, the ranks with their blocks are queried.
 std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& ids) const {
   Outbox questions, answers;
   for (const std::int64_t id : ids)
@@ -120,7 +121,7 @@ std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& 
   collective_try(comm_, [&] {
     RankPlaces places;
     for (const Message& theirs : told) places.add(theirs.rank);
-    std::vector<std::size_t> at(told.size());  // answers come in the order of the questions
+    std::vector<std::size_t> at(told.size());  // answers are in the order of the questions
     for (const std::int64_t id : ids) {
       std::int64_t number;
       if (rank_of(id) == comm_.rank()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all our calls of MPI have in common; only in builds with MPI.
+// Helpers for calls of MPI. Compiled only in builds with MPI.
 #pragma once
 
 #include <mpi.h>
@@ -13,12 +13,13 @@
 
 namespace pnpbs::mpi {
 
+// Throws Error(ErrorKind::mpi) unless `code` is MPI_SUCCESS.
 inline void check(int code, const char* call) {
   if (code != MPI_SUCCESS)
     throw Error(ErrorKind::mpi, std::string(call) + " failed with code " + std::to_string(code));
 }
 
-// The length of a message, as MPI takes it.
+// Converts the length of a message to the type of MPI. Throws if it is too long.
 inline int count(std::size_t n) {
   if (n > 0x7fffffff)
     throw Error(ErrorKind::mpi, "a message of " + std::to_string(n) +
@@ -26,12 +27,14 @@ inline int count(std::size_t n) {
   return static_cast<int>(n);
 }
 
-// Long messages go in pieces, so that one that finds no memory can be received all the same.
+// Long messages are sent in pieces, so that they can be received and dropped even if there is no
+// memory for them.
 constexpr int kPiece = 1 << 18;  // bytes
 
+// Returns the number of pieces of a message of `size` bytes.
 inline std::uint64_t pieces(std::uint64_t size) { return (size + kPiece - 1) / kPiece; }
 
-// Calls visit(offset, length) for the pieces of a message.
+// Calls visit(offset, length) for each piece of a message of `size` bytes.
 template <class Visit>
 void for_pieces(std::uint64_t size, const Visit& visit) {
   for (std::uint64_t at = 0; at < size; at += kPiece)

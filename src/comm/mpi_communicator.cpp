@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ranks of an MPI communicator.
+// A communicator on top of MPI.
 #include <algorithm>
 #include <memory>
 #include <new>
@@ -36,7 +36,8 @@ bool mpi_has_ended() {
   return finalized != 0;
 }
 
-// After it has ended MPI would abort the process. Asked where calls begin to talk.
+// Throws if MPI has ended, because MPI would then abort the process. Called before the first
+// communication of an operation.
 void require_mpi_runs() {
   if (mpi_has_ended())
     throw Error(ErrorKind::mpi,
@@ -49,7 +50,7 @@ std::uint64_t pieces_of(const std::vector<Bytes>& messages) {
   return all;
 }
 
-// One message to and from each neighbour, in pieces. The memory must have been reserved.
+// Posts one message to and from each neighbour, in pieces. The memory must have been reserved.
 void post(MPI_Comm comm, int tag, const std::vector<int>& neighbours,
           const std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming, MpiMessages& messages) {
   for (std::size_t k = 0; k < neighbours.size(); ++k)
@@ -64,14 +65,15 @@ void post(MPI_Comm comm, int tag, const std::vector<int>& neighbours,
 
 class MpiCommunicator : public Communicator {
  public:
-  // Allocates the memory for as many neighbours as there can be, so that exchanges need none.
+  // Allocates memory for the largest possible number of neighbours, so that exchanges allocate
+  // none.
   explicit MpiCommunicator(int ranks) : sizes_in_(index(ranks)), sizes_out_(index(ranks)) {
     messages_.reserve(2 * static_cast<std::uint64_t>(ranks));
   }
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;
   ~MpiCommunicator() override {
-    if (mpi_has_ended()) return;  // to free anything would abort
+    if (mpi_has_ended()) return;  // MPI aborts if an object is freed now
     if (combining_ != MPI_OP_NULL) MPI_Op_free(&combining_);
     if (reduction_ != MPI_DATATYPE_NULL) MPI_Type_free(&reduction_);
     if (comm_ != MPI_COMM_NULL) MPI_Comm_free(&comm_);
@@ -80,7 +82,7 @@ class MpiCommunicator : public Communicator {
   // Duplicates the communicator. Collective.
   void connect(MPI_Comm parent) {
     check(MPI_Comm_dup(parent, &comm_), "MPI_Comm_dup");
-    // No error of this library's calls ends the process.
+    // Errors of MPI are returned as codes and do not end the process.
     check(MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
     check(MPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
     check(MPI_Comm_size(comm_, &size_), "MPI_Comm_size");
@@ -99,8 +101,8 @@ class MpiCommunicator : public Communicator {
   int size() const override { return size_; }
   int ranks_on_node() const override { return ranks_on_node_; }
 
-  // Sizes first, then the messages, in pieces of limited size. Memory is allocated between the two,
-  // and only if that was possible on all ranks messages are sent.
+  // The sizes are exchanged first. Then each rank allocates its memory, and the messages are sent
+  // only if all ranks have succeeded.
   std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                               const std::vector<Bytes>& outgoing,
                               std::exception_ptr failure) const override {
@@ -124,8 +126,8 @@ class MpiCommunicator : public Communicator {
     return std::make_unique<MpiPersistentExchange>(*this, neighbours, outgoing, incoming);
   }
 
-  // The agreement at its end keeps the next exchange from mixing with this one: nobody begins that
-  // before all have stopped receiving.
+  // The agreement at the end separates consecutive exchanges: no rank begins the next one before
+  // all have stopped receiving.
   std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const override {
     std::vector<Message> incoming;
     std::optional<MpiSparseExchange> exchange;
@@ -168,7 +170,7 @@ class MpiCommunicator : public Communicator {
     const auto mine = static_cast<std::uint64_t>(value);
     std::uint64_t before = 0;
     check(MPI_Exscan(&mine, &before, 1, MPI_UINT64_T, MPI_SUM, comm_), "MPI_Exscan");
-    // MPI leaves that of the first rank open.
+    // MPI leaves the result of rank 0 undefined.
     return rank_ == 0 ? 0 : static_cast<std::int64_t>(before);
   }
   void broadcast_bytes(char* bytes, std::size_t n, int root) const override {
@@ -187,7 +189,8 @@ class MpiCommunicator : public Communicator {
   int message_length(std::uint64_t size) const override { return count(size); }
 
  private:
-  // Messages that are waited for later must not meet those that come in between.
+  // Each kind of message has its own tag, because messages that are received later must not be
+  // mixed up with those in between.
   static constexpr int kSizeTag = 1, kDataTag = 2, kPersistentTag = 3, kSparseTag = 4;
   static constexpr int kTags = kSparseTag + MpiSparseExchange::kTags;
 
@@ -204,7 +207,7 @@ class MpiCommunicator : public Communicator {
       if (messages_.none() || mpi_has_ended()) return;
       try {
         messages_.wait();
-      } catch (...) {  // the values are dropped anyway
+      } catch (...) {  // the values are discarded anyway
       }
     }
 
@@ -217,7 +220,7 @@ class MpiCommunicator : public Communicator {
     }
 
    private:
-    const MpiCommunicator& comm_;  // used by start() alone
+    const MpiCommunicator& comm_;  // used only by start()
     const std::vector<int> neighbours_;
     const std::vector<Bytes>& outgoing_;
     std::vector<Bytes>& incoming_;
@@ -226,13 +229,13 @@ class MpiCommunicator : public Communicator {
 
   static std::size_t index(int rank) { return static_cast<std::size_t>(rank); }
 
-  // MPI has tags up to 32767 at least.
+  // Tags depend on the number of agreed failures. MPI guarantees tags up to 32767.
   int tag(int of_kind) const {
     constexpr std::uint32_t kCycle = 32768 / kTags;
     return static_cast<int>(agreed_failures() % kCycle) * kTags + of_kind;
   }
 
-  // A size that does not arrive is unknown, and the exchange goes no further then.
+  // If a size does not arrive, wait() throws and the exchange ends here.
   void exchange_sizes(const std::vector<int>& neighbours,
                       const std::vector<Bytes>& outgoing) const {
     require_mpi_runs();
@@ -245,6 +248,7 @@ class MpiCommunicator : public Communicator {
     messages_.wait();
   }
 
+  // The MPI reduction operation for Reduction.
   static void combine(void* in, void* in_out, int* length, MPI_Datatype*) {
     const auto* from = static_cast<const Reduction*>(in);
     auto* to = static_cast<Reduction*>(in_out);
@@ -259,13 +263,14 @@ class MpiCommunicator : public Communicator {
   MPI_Datatype reduction_ = MPI_DATATYPE_NULL;
   MPI_Op combining_ = MPI_OP_NULL;
   int rank_ = 0, size_ = 1, ranks_on_node_ = 1;
-  // Sizes of the messages from and to neighbours, and the messages that bring them.
+  // Sizes of the messages from and to neighbours, and the messages that carry these sizes.
   mutable std::vector<std::uint64_t> sizes_in_, sizes_out_;
   mutable MpiMessages messages_;
   std::unique_ptr<char[]> dropped_ = std::make_unique<char[]>(kPiece);
 };
 
-// All ranks have their memory before the first of them waits for the others.
+// The ranks agree that all of them have allocated their memory before any of them waits in a
+// collective call.
 std::shared_ptr<Communicator> connected_to(MPI_Comm parent) {
   int ranks = 0;
   check(MPI_Comm_size(parent, &ranks), "MPI_Comm_size");
@@ -300,7 +305,7 @@ std::shared_ptr<Communicator> mpi_communicator(std::int32_t fortran_handle) {
 }
 
 void require_our_mpi(const std::string& library) {
-  // Fortran strings come padded with blanks, C ones sometimes with the end of a line.
+  // Version texts of Fortran are padded with blanks, and those of C may end with a newline.
   const auto trimmed = [](const std::string& text) {
     const std::size_t last = text.find_last_not_of(" \n\t\r");
     return last == std::string::npos ? std::string() : text.substr(0, last + 1);

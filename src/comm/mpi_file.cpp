@@ -14,8 +14,8 @@ namespace {
 
 class MpiFile : public SharedWriter {
  public:
-  // Errors of files are returned unless the host has asked for something else, so say it for this
-  // one; for the opening itself the handler of MPI_FILE_NULL counts.
+  // Sets the error handler of the file, because the host program may have changed the default. The
+  // opening itself uses the handler of MPI_FILE_NULL.
   MpiFile(const std::string& path, std::string name) : name_(std::move(name)) {
     check(MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_));
     check(MPI_File_set_errhandler(file_, MPI_ERRORS_RETURN));
@@ -27,12 +27,12 @@ class MpiFile : public SharedWriter {
   }
 
   void write_at(std::int64_t place, std::span<const char> bytes) override {
-    const int size = static_cast<int>(bytes.size());  // a sink's buffer, never near 2^31
+    const int size = static_cast<int>(bytes.size());  // the buffer of a sink, never near 2^31
     MPI_Status status;
     check(MPI_File_write_at(file_, place, bytes.data(), size, MPI_BYTE, &status));
     int wrote = 0;
     check(MPI_Get_count(&status, MPI_BYTE, &wrote));
-    if (wrote != size)  // how some file systems' drivers say that the disk is full
+    if (wrote != size)  // some file system drivers report a full disk this way
       throw Error(ErrorKind::file, "cannot write " + name_ + ": only " + std::to_string(wrote) +
                                        " of " + std::to_string(size) +
                                        " bytes were written; is the disk full?");

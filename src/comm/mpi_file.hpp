@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A SharedWriter by MPI-IO, which knows how to share a file over the network; only in builds with
+// A SharedWriter on MPI-IO, which also works on network file systems. Compiled only in builds with
 // MPI.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace pnpbs {
 
-// The file must exist. Each rank opens it by itself: where one cannot, a collective opening waits
-// for ever in some implementations. Throws Error(ErrorKind::file).
+// Opens an existing file. Local, because in some implementations a collective opening waits forever
+// if one rank fails. Throws Error(ErrorKind::file).
 std::unique_ptr<SharedWriter> open_by_mpi(const std::string& path, const std::string& name);
 
 }  // namespace pnpbs

@@ -21,7 +21,8 @@ void MpiMessages::note(const Failure& failure) {
   if (!failure_.call) failure_ = failure;
 }
 
-// A request that is not null although the call failed is waited for: its message may come.
+// If a call fails but returns a request, the request is waited for, because its message may still
+// arrive.
 void MpiMessages::receive(void* to, int bytes, int from, int tag, MPI_Comm comm) {
   receives_.push_back({from, bytes});
   MPI_Request& request = requests_.emplace_back(MPI_REQUEST_NULL);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages between pairs of ranks that travel at the same time. Only in builds with MPI.
+// A set of concurrent point-to-point messages. Compiled only in builds with MPI.
 //
 // A call of MPI that fails on one rank must not leave another rank waiting. A message that cannot
-// be sent is replaced by an empty one, so that its receiver gets one message in any case and sees
-// by the length that it is not the right one. A receive that cannot be posted is posted once more,
-// so that the sender is not kept waiting.
+// be sent is replaced by an empty one, so that its receiver gets a message and detects the failure
+// by its length. A receive that cannot be posted is posted a second time, so that the sender does
+// not wait.
 #pragma once
 
 #include <mpi.h>
@@ -14,28 +14,28 @@
 
 namespace pnpbs {
 
+// Pending messages of one rank.
 class MpiMessages {
  public:
-  // Allocates memory for so many messages on their way.
+  // Allocates memory for this number of pending messages.
   void reserve(std::uint64_t messages);
 
-  // Post one message, of at least one byte. The memory must have been reserved, and the buffer must
-  // stay until wait(). Neither throws; wait() reports a failure. Local.
+  // Post one message of at least one byte. The memory must have been reserved, and the buffer must
+  // stay valid until wait(). Neither function throws; wait() reports failures. Local.
   void receive(void* to, int bytes, int from, int tag, MPI_Comm comm);
   void send(const void* bytes, int n, int to, int tag, MPI_Comm comm);
 
-  // Waits until no message is on its way. Throws Error(ErrorKind::mpi) if any of them failed.
-  // Local.
+  // Waits until all messages have ended. Throws Error(ErrorKind::mpi) if one of them failed. Local.
   void wait();
 
   bool none() const { return requests_.empty(); }
 
  private:
-  // What wait() reports: the first call that failed.
+  // The first call that failed, which wait() reports.
   struct Failure {
     const char* call = nullptr;
-    int code = 0, rank = -1;         // the rank at the other end, -1 if there is no single one
-    int expected = 0, received = 0;  // bytes, of a message that arrived with another length
+    int code = 0, rank = -1;         // rank at the other end, or -1
+    int expected = 0, received = 0;  // bytes, if a message has another length
   };
   void note(const Failure& failure);
   void complete_rest();
@@ -44,9 +44,9 @@ class MpiMessages {
   std::vector<MPI_Request> requests_;
   std::vector<MPI_Status> statuses_;
   struct Receive {
-    int rank, bytes;  // bytes: -1 of a message that is sent
+    int rank, bytes;  // bytes: -1 for a message that is sent
   };
-  std::vector<Receive> receives_;  // one for each request
+  std::vector<Receive> receives_;  // one per request
   Failure failure_;
 };
 

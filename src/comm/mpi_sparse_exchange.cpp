@@ -10,12 +10,12 @@ namespace pnpbs {
 
 namespace {
 
-// Calls of MPI that may fail before an exchange is given up.
+// Number of failed MPI calls after which an exchange is aborted.
 constexpr int kMostFailures = 100;
 
 bool is_long(const Message& message) { return message.bytes.size() > mpi::kPiece; }
 
-// Room for a message at the end of `incoming`; none if there is no memory.
+// Appends an empty message to `incoming` and returns its buffer, or nullptr if memory is lacking.
 char* room_for(std::vector<Message>& incoming, int rank, std::uint64_t size,
                std::exception_ptr& failure) {
   char* room = nullptr;
@@ -61,7 +61,8 @@ void MpiSparseExchange::run(std::vector<Message>& incoming, char* dropped,
   run_and_keep(failure, [&] { pieces_.wait(); });
 }
 
-// A message that could not be announced does not arrive, and nobody waits for it.
+// Starts a synchronous send. Returns false if the message could not be started; no rank waits for
+// it then.
 bool MpiSparseExchange::announce(const void* bytes, int n, MPI_Datatype type, int to, int tag,
                                  std::exception_ptr& failure) {
   MPI_Request& request = announced_.emplace_back(MPI_REQUEST_NULL);
@@ -88,7 +89,8 @@ void MpiSparseExchange::send(std::exception_ptr& failure) {
   }
 }
 
-// Enters the barrier once this rank's messages have been received.
+// Enters the barrier once all messages of this rank have been received. Returns true when all ranks
+// have entered it.
 bool MpiSparseExchange::all_entered_barrier() {
   int all = 0;
   if (entered_) {
@@ -128,7 +130,7 @@ void MpiSparseExchange::receive_whole(std::vector<Message>& incoming, char* drop
       "MPI_Recv");
 }
 
-// Its sender has sent all pieces with the size.
+// The sender has posted all pieces together with the size.
 void MpiSparseExchange::receive_long(std::vector<Message>& incoming, char* dropped,
                                      std::exception_ptr& failure) {
   MPI_Status status;

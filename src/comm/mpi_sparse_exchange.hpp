@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages to ranks that do not expect them, without a word to all the others (NBX of Hoefler,
-// Siebert, Lumsdaine, "Scalable communication protocols for dynamic sparse data exchange", PPoPP
-// 2010): a rank whose messages have all been received enters a barrier and goes on receiving until
-// all have entered. Only in builds with MPI.
+// A sparse exchange of messages whose receivers do not know the senders, by the algorithm NBX (T.
+// Hoefler, C. Siebert, A. Lumsdaine, "Scalable communication protocols for dynamic sparse data
+// exchange", PPoPP 2010). A rank whose messages have all been received enters a barrier and
+// continues to receive until all ranks have entered it. Compiled only in builds with MPI.
 #pragma once
 
 #include <mpi.h>
@@ -16,24 +16,27 @@
 
 namespace pnpbs {
 
+// One sparse exchange.
 class MpiSparseExchange {
  public:
-  // The tags of its messages.
+  // Number of message tags that an exchange uses.
   static constexpr int kTags = 3;
 
-  // Allocates the memory that sending takes. The messages stay the caller's; a rank's own is left
-  // out. Tags: `first_tag` and those after it.
+  // Allocates the memory for sending. `outgoing` must outlive this object; a message of the rank to
+  // itself is skipped. Uses the tags `first_tag` to `first_tag` + kTags - 1.
   MpiSparseExchange(MPI_Comm comm, int rank, int first_tag, const std::vector<Message>& outgoing);
 
-  // Collective. Appends what has come, in any order. Everything is received even without memory for
-  // it, because its sender must not wait: then it goes to `dropped`, of one piece, and the failure
-  // is kept. So is the failure of a call of MPI, and the exchange goes on. No rank may begin
-  // another one before all have ended this: the caller sees to that.
+  // Runs the exchange and appends the received messages in any order. Collective. A message without
+  // memory for it is received into `dropped`, which has kPiece bytes, because its sender must not
+  // wait. This failure and those of MPI calls are stored in `failure`, and the exchange continues.
+  // The caller must ensure that no rank begins another exchange before all ranks have ended this
+  // one.
   void run(std::vector<Message>& incoming, char* dropped, std::exception_ptr& failure);
 
  private:
-  // A message of one piece as it is; the size of a longer one, whose pieces follow. No other tags:
-  // a rank that is done already may send to one that still looks for messages.
+  // Tags of a message of one piece, of the size of a longer message, and of its pieces. No other
+  // exchange may use these tags, since a rank that has finished may send to one that still probes
+  // for messages.
   int whole_tag() const { return first_tag_; }
   int long_tag() const { return first_tag_ + 1; }
   int piece_tag() const { return first_tag_ + 2; }
@@ -50,11 +53,11 @@ class MpiSparseExchange {
   MPI_Comm comm_;
   int rank_, first_tag_;
   const std::vector<Message>& outgoing_;
-  std::vector<std::uint64_t> sizes_;    // of the long messages, on their way
-  std::vector<MPI_Request> announced_;  // are done when they are being received
-  MpiMessages pieces_;                  // of long messages
-  MpiMessages piece_;                   // one that is being received
-  bool entered_ = false;                // the barrier
+  std::vector<std::uint64_t> sizes_;    // sizes of the long messages, while they are sent
+  std::vector<MPI_Request> announced_;  // complete when their receipt has begun
+  MpiMessages pieces_;                  // pieces of long messages, being sent
+  MpiMessages piece_;                   // the piece that is being received
+  bool entered_ = false;                // the barrier has been entered
   MPI_Request barrier_ = MPI_REQUEST_NULL;
 };
 

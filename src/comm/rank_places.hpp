@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The places of some ranks in a list of them: takes memory for these, however many ranks there are.
+// Indices of ranks in a list of some of them. Memory grows with the length of the list, not with
+// the number of ranks.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +9,16 @@
 
 namespace pnpbs {
 
+// A map from ranks to list indices.
 class RankPlaces {
  public:
-  // -1 for a rank that has none.
+  // Returns the index of a rank, or -1 if it is not in the list.
   int of(int rank) const {
     const auto at = std::lower_bound(places_.begin(), places_.end(), std::pair(rank, 0));
     return at != places_.end() && at->first == rank ? at->second : -1;
   }
 
-  // The next place, for a rank that has none yet.
+  // Adds a rank that is not in the list yet, and returns its index.
   int add(int rank) {
     const auto place = static_cast<int>(places_.size());
     const auto at = std::lower_bound(places_.begin(), places_.end(), std::pair(rank, 0));
@@ -25,7 +27,7 @@ class RankPlaces {
   }
 
  private:
-  std::vector<std::pair<int, int>> places_;  // ranks, increasing, and their places
+  std::vector<std::pair<int, int>> places_;  // (rank, index), sorted by rank
 };
 
 }  // namespace pnpbs

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Things numbered through over the ranks: those of rank 0 first, then those of rank 1, ...
+// Contiguous global numbering of items over the ranks: the items of rank 0 come first, then those
+// of rank 1, and so on.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +10,14 @@
 
 namespace pnpbs {
 
+// The range of global numbers of this rank's items.
 struct RankSpan {
-  std::int64_t first = 0;  // number of this rank's first
-  std::int64_t count = 0;  // of this rank
-  std::int64_t total = 0;  // of all ranks
+  std::int64_t first = 0;  // number of the first item of this rank
+  std::int64_t count = 0;  // number of items of this rank
+  std::int64_t total = 0;  // number of items of all ranks
 };
 
-// Collective.
+// Returns the range of this rank, which has `count` items. Collective.
 inline RankSpan span_of(const Communicator& comm, std::size_t count) {
   RankSpan span;
   span.count = static_cast<std::int64_t>(count);

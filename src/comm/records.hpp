@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages as rows of plain records.
+// Messages as sequences of plain records.
 #pragma once
 
 #include <cstring>
@@ -10,6 +10,7 @@
 
 namespace pnpbs {
 
+// Appends the bytes of a record to a message.
 template <class Record>
 void pack(Bytes& bytes, const Record& record) {
   const std::size_t at = bytes.size();
@@ -17,6 +18,7 @@ void pack(Bytes& bytes, const Record& record) {
   std::memcpy(bytes.data() + at, &record, sizeof record);
 }
 
+// Calls visit(record) for each record of the messages.
 template <class Record, class Visit>
 void for_records(const std::vector<Bytes>& messages, const Visit& visit) {
   for (const Bytes& bytes : messages)
@@ -27,11 +29,12 @@ void for_records(const std::vector<Bytes>& messages, const Visit& visit) {
     }
 }
 
-// One message for each rank that gets anything.
+// Outgoing messages, one for each rank that receives anything.
 class Outbox {
  public:
+  // Returns the message to `rank`. The reference is valid until the next call.
   Bytes& to(int rank) {
-    // Records for one rank mostly come in a row.
+    // Consecutive records mostly have the same destination.
     if (messages_.empty() || messages_[last_].rank != rank) last_ = place(rank);
     return messages_[last_].bytes;
   }
@@ -52,7 +55,7 @@ class Outbox {
   std::size_t last_ = 0;
 };
 
-// Those of all ranks, rank by rank, on each of them. Collective.
+// Returns the records of all ranks, sorted by rank, on each rank. Collective.
 template <class Record>
 std::vector<Record> of_all_ranks(const Communicator& comm, const std::vector<Record>& own) {
   Bytes mine;
@@ -62,7 +65,8 @@ std::vector<Record> of_all_ranks(const Communicator& comm, const std::vector<Rec
   return all;
 }
 
-// Sends what is in the outbox, and returns the records that have come here, by rank. Collective.
+// Sends the messages of the outbox and returns the received records, sorted by rank of the sender.
+// Collective.
 template <class Record>
 std::vector<Record> deliver(const Communicator& comm, const Outbox& outgoing) {
   std::vector<Record> arrived;
@@ -71,8 +75,7 @@ std::vector<Record> deliver(const Communicator& comm, const Outbox& outgoing) {
   return arrived;
 }
 
-// Brings each record to rank owner(record), from wherever it is, and returns what has come here.
-// Collective.
+// Sends each record to rank owner(record) and returns the received records. Collective.
 template <class Record, class Owner>
 std::vector<Record> redistribute(const Communicator& comm, const std::vector<Record>& records,
                                  const Owner& owner) {

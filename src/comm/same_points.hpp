@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Do all ranks ask about the same points? Then each can answer for its part, without a question.
+// Comparison of the points that ranks query. If all ranks query the same points, each rank can
+// answer for its own part without sending the points.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace pnpbs {
 
-// Collective.
+// Returns true if all ranks pass the same points, compared by a hash. Collective.
 template <int Dim>
 bool same_points(const Communicator& comm, std::int64_t n, const Point<Dim>* x) {
   if (comm.size() == 1) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file that several ranks write parts of at the same time, each at its own place.
+// A file that several ranks write at the same time, each at its own offsets.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,17 @@
 
 namespace pnpbs {
 
+// A file opened for writing.
 class SharedWriter {
  public:
-  virtual ~SharedWriter() = default;  // closes if nobody has; not told if that fails
-  // Local, both. Throw Error(ErrorKind::file).
+  virtual ~SharedWriter() = default;  // closes the file if it is open; ignores errors
+  // Write at an offset in bytes, and close the file. Local. Both throw Error(ErrorKind::file).
   virtual void write_at(std::int64_t place, std::span<const char> bytes) = 0;
   virtual void close() = 0;
 };
 
-// One process alone, by plain system calls. The file must exist. `name` is for messages.
+// Opens an existing file for one process by plain system calls. `name` stands for the file in error
+// messages.
 std::unique_ptr<SharedWriter> open_alone(const std::string& path, const std::string& name);
 
 }  // namespace pnpbs

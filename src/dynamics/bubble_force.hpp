@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The resultant force on the bubbles of a block: the sum over their adjacency lists.
+// The resultant forces on the bubbles of a block: sums over their adjacency lists.
 #pragma once
 
 #include <array>
@@ -10,10 +10,11 @@
 
 namespace pnpbs {
 
+// A vector for each lane of a block.
 template <int Dim>
 using BlockVector = std::array<std::array<double, kLanes>, Dim>;
 
-// Positions as plain pointers, so that the compiler sees that nothing aliases.
+// Positions as plain pointers, from which the compiler can infer that the arrays do not alias.
 template <int Dim>
 using Positions = std::array<const double*, Dim>;
 
@@ -24,8 +25,9 @@ Positions<Dim> positions_of(const Field<Dim>& x) {
   return p;
 }
 
-// Force on nodes first .. first + kLanes - 1 (those beyond the last node read the padding and are
-// not used). Each lane adds its neighbours in the order of the list.
+// Computes the forces on the nodes self[0 .. kLanes-1] of a block. Lanes beyond the last node read
+// the padding node, and their forces are not used. Each lane adds its neighbours in the order of
+// the list.
 template <int Dim, class Law>
 inline void block_force(const ListBlock& list, const Law& law, const Positions<Dim>& x,
                         const double* d, const std::int64_t (&self)[kLanes],
@@ -42,7 +44,7 @@ inline void block_force(const ListBlock& list, const Law& law, const Positions<D
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::int32_t j = entries[lane];
       double gap[Dim];
-      double square = 1e-200;  // two nodes in one place push nowhere, instead of 0/0
+      double square = 1e-200;  // coincident nodes exert no force; avoids 0/0
       for (int k = 0; k < Dim; ++k) {
         gap[k] = own[k][lane] - x[k][j];
         square += gap[k] * gap[k];
@@ -56,7 +58,8 @@ inline void block_force(const ListBlock& list, const Law& law, const Positions<D
   force = sum;
 }
 
-// The nodes of block b; lanes beyond the last node stand for the far-away one.
+// Writes the node indices of block b to `self`. Lanes beyond the last node get the index of the
+// padding node.
 inline void block_nodes(std::int64_t b, std::int64_t count, std::int64_t (&self)[kLanes]) {
   for (int lane = 0; lane < kLanes; ++lane) {
     const std::int64_t i = b * kLanes + lane;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The force between two bubbles. f(w) is its law, w = distance / desired distance, where the
-// desired distance d_ij is (d_i + d_j) / 2; positive pushes. `range` is the w from which on it is
-// 0.
+// Pair laws: the force between two bubbles. A law is a function f(w) of w = distance / d_ij, where
+// the desired distance d_ij is (d_i + d_j) / 2. Positive values repel. `range` is the w from which
+// on the force is 0.
 //
-// Along a chain of bubbles that are squeezed alike, a coarse one is pushed by one fine neighbour
-// per fine spacing: with F = f(w) for every pair, the force per length (per area in a volume) is
-// f(w) / d, and fine regions crush coarse ones. With F_ij = d_ij^(Dim-1) f(w) the stress is a
-// function of w alone, so a graded set is at rest where all of it is squeezed alike.
+// Scaling of the force. If F = f(w) for every pair, equally squeezed bubbles exert the force f(w) /
+// d per unit of length (in space f(w) / d^2 per unit of area), so fine regions crush coarse ones.
+// With F_ij = d_ij^(Dim-1) f(w) the stress is a function of w alone, and a graded set is at rest
+// when all bubbles are equally squeezed.
 //
-// per_length(distance, desired) is the pair's force over its distance, what a kernel multiplies
-// with the vector between the two; acceleration_scale(d) makes the sum of these an acceleration in
-// units in which fine and coarse bubbles are equally stiff.
+// per_length(distance, d_ij) is the force of a pair over its distance; a kernel multiplies it by
+// the vector between the two nodes. acceleration_scale(d) converts the sum of the forces to an
+// acceleration, in units in which fine and coarse bubbles are equally stiff.
 #pragma once
 
 #include <type_traits>
@@ -19,8 +19,8 @@
 
 namespace pnpbs {
 
-// Equation (2) of the paper (after Shimada and Gossard): pushes below w = 1, pulls up to 1.5. To
-// the letter, the same force for pairs of all sizes.
+// The cubic law, equation (2) of the paper (after Shimada and Gossard): repels below w = 1 and
+// attracts up to 1.5. As in the paper, the force does not depend on the size of the bubbles.
 struct CubicLaw {
   double k0 = 1;
   double range = method::kCubicLawRange;
@@ -40,24 +40,25 @@ struct CubicLaw {
   }
 };
 
-// d^(2 - Dim), the acceleration_scale of all laws whose force is d_ij^(Dim-1) f(w).
+// Returns d^(2 - Dim), the acceleration_scale of all laws with the force d_ij^(Dim-1) f(w).
 template <int Dim>
 double stress_free_scale(double d) {
   return Dim == 2 ? 1.0 : 1.0 / d;
 }
 
-// A linear push up to a rest length a little above the desired distance, no pull. Around five- and
-// seven-neighbour nodes the pull of the cubic law distorts triangles; a push does not. The density
-// is then held by the population control. Leaves no stress.
+// A linear repulsion up to a rest length slightly above the desired distance, without attraction.
+// The attraction of the cubic law distorts triangles around nodes with five and seven neighbours.
+// Population control maintains the density instead. This law leaves no stress.
 struct LinearPush {
   double k0 = 1;
-  double range = 1.06;  // the rest length in desired distances
+  double range = 1.06;  // rest length in desired distances
 
   double operator()(double w) const {
     const double f = k0 * (1.0 - w / range);
     return f > 0.0 ? f : 0.0;
   }
-  // d_ij^(Dim-1) f(w) / distance with one division: they are what the kernel's time goes into.
+  // Returns d_ij^(Dim-1) f(w) / distance. The expression has a single division because divisions
+  // dominate the time of the kernel.
   template <int Dim>
   double per_length(double distance, double desired) const {
     const double gap = range * desired - distance;
@@ -71,9 +72,9 @@ struct LinearPush {
   }
 };
 
-// A push that fades out smoothly, (1 - (w / range)^2)^2, for volumes: it takes body-centred cubic
-// order, where a linear push that reaches no farther than touching bubbles prefers close packing,
-// and a pull damages the lattice. Leaves no stress.
+// A smooth repulsion (1 - (w / range)^2)^2 for volumes. Bubbles settle into a body-centred cubic
+// lattice. A linear repulsion with the range of touching bubbles prefers close packing, and an
+// attraction damages the lattice. This law leaves no stress.
 struct SmoothPush {
   double k0 = 1;
   double range = 1.2;
@@ -82,7 +83,7 @@ struct SmoothPush {
     const double u = w / range, rest = 1.0 - u * u;
     return rest > 0.0 ? k0 * (rest * rest) : 0.0;
   }
-  // d_ij^(Dim-1) f(w) / distance.
+  // Returns d_ij^(Dim-1) f(w) / distance.
   template <int Dim>
   double per_length(double distance, double desired) const {
     const double reach = range * desired, u = distance / reach;
@@ -97,7 +98,7 @@ struct SmoothPush {
   }
 };
 
-// A law for bubbles that fill a surface in space, as it is in the plane.
+// A law for bubbles on a surface in space, whose force is that of the plane.
 template <class Law>
 struct OnSurface {
   Law law;
@@ -112,6 +113,7 @@ struct OnSurface {
   }
 };
 
+// The law of the option law=push.
 template <int Dim>
 using DefaultLaw = std::conditional_t<Dim == 2, LinearPush, SmoothPush>;
 

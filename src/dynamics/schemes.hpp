@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time steps of the equation of motion (1), m x'' + c x' = f, in scaled units: the variable that
-// moves is x / d with the local d, m = 1, so that fine and coarse bubbles are equally stiff.
-// Each scheme reads positions and velocities and leaves the new positions in `next` and the new
-// velocities in the nodes; nodes that do not move keep theirs.
+// Time steps of the equation of motion (1), m x'' + c x' = f, in scaled units: the variable is x /
+// d with the local d, and m = 1, so that fine and coarse bubbles are equally stiff. Each scheme
+// reads positions and velocities, writes the new positions to `next` and the new velocities to the
+// nodes. Nodes that do not move keep their positions.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,14 @@
 
 namespace pnpbs {
 
+// Parameters of a time step.
 struct Motion {
-  double dt;        // in units of sqrt(m / k0)
-  double damping;   // c
-  double max_move;  // no step moves a node by more than this many d
+  double dt;        // time step in units of sqrt(m / k0)
+  double damping;   // c in units of sqrt(k0 m)
+  double max_move;  // maximum displacement in a step, in d
 };
 
+// Allocates n entries and one for the padding node if the field has fewer.
 template <int Dim>
 void reserve_field(Field<Dim>& field, const char* label, std::int64_t n) {
   for (int k = 0; k < Dim; ++k)
@@ -25,7 +27,7 @@ void reserve_field(Field<Dim>& field, const char* label, std::int64_t n) {
       field[k] = make_view<double>(label, n + 1);
 }
 
-// Shortens a move to at most `max_length`, keeping its direction.
+// Shortens a displacement to at most `max_length`, keeping its direction.
 template <int Dim>
 inline void clamp_move(std::array<double, Dim>& move, double max_length) {
   double square = 0;
@@ -34,8 +36,8 @@ inline void clamp_move(std::array<double, Dim>& move, double max_length) {
   for (int k = 0; k < Dim; ++k) move[k] *= factor;
 }
 
-// The move of n consecutive nodes from `first` on, under these forces of the law: velocities into
-// v, positions into `next`. A lane computes the same bits whatever n is.
+// Moves n consecutive nodes, beginning with `first`, under the given forces: writes velocities to v
+// and positions to `next`. The result of a lane does not depend on n, not even by rounding.
 template <int Dim, class Law>
 inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std::int64_t first,
                         int n, const Positions<Dim>& x, const double* d, const Carrier* carrier,
@@ -57,7 +59,7 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
     const double max = motion.max_move * d[i];
     too_far = std::max(too_far, sum - max * max);
   }
-  // Few blocks have a node that is too fast.
+  // Few blocks have a node whose displacement must be shortened.
   for (int lane = 0; too_far > 0 && lane < n; ++lane) {
     std::array<double, Dim> of_lane;
     for (int k = 0; k < Dim; ++k) of_lane[k] = move[k][lane];
@@ -73,8 +75,9 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
     }
 }
 
-// One force evaluation per step: the damping is taken implicitly, the position follows the new
-// velocity (symplectic Euler for c = 0). First order, stable for dt < 0.816 sqrt(m/k0) or so.
+// Performs a step with one force evaluation. Damping is implicit, and the new position follows from
+// the new velocity (symplectic Euler for c = 0). First order; stable for dt below about 0.816
+// sqrt(m/k0).
 template <int Dim, class Law>
 void damped_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
                  const Motion& motion, Field<Dim>& next) {
@@ -96,7 +99,8 @@ void damped_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& 
   });
 }
 
-// Accelerations of all nodes, scaled force less c v, at positions x and velocities v.
+// Computes the accelerations of all nodes, scaled force minus c v, at positions at_x and velocities
+// at_v.
 template <int Dim, class Law>
 void accelerations(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
                    const Motion& motion, const Field<Dim>& at_x, const Field<Dim>& at_v,
@@ -117,7 +121,7 @@ void accelerations(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, con
   });
 }
 
-// Arrays that the schemes with several evaluations per step need; made on first use.
+// Arrays of the schemes with several force evaluations per step, allocated on first use.
 template <int Dim>
 struct Stages {
   Field<Dim> x, v, a, sum_x, sum_v;
@@ -129,8 +133,8 @@ struct Stages {
   }
 };
 
-// x + h vx and v + h a, the state at which a stage asks for the acceleration. The way there is
-// clamped like the step itself, so that lists and ghosts cover it.
+// Computes the state x + h slope_x, v + h slope_v at which a stage evaluates the acceleration. The
+// displacement is limited like that of the step itself, so that lists and ghosts suffice.
 template <int Dim>
 void stage_state(const Nodes<Dim>& nodes, double h, double max_move, const Field<Dim>& slope_x,
                  const Field<Dim>& slope_v, Field<Dim>& x, Field<Dim>& v) {
@@ -145,7 +149,7 @@ void stage_state(const Nodes<Dim>& nodes, double h, double max_move, const Field
   });
 }
 
-// Adds weight times the slopes of a stage to the sums.
+// Adds the weighted slopes of a stage to the sums. `first` starts new sums.
 template <int Dim>
 void add_slopes(const Nodes<Dim>& nodes, double weight, bool first, const Field<Dim>& slope_x,
                 const Field<Dim>& slope_v, Stages<Dim>& stages) {
@@ -157,7 +161,7 @@ void add_slopes(const Nodes<Dim>& nodes, double weight, bool first, const Field<
   });
 }
 
-// Ends a step whose mean slopes are in the sums.
+// Completes a step with the weighted mean of the slopes in the sums.
 template <int Dim>
 void take_slopes(Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& stages,
                  Field<Dim>& next) {
@@ -173,7 +177,7 @@ void take_slopes(Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& sta
   });
 }
 
-// Euler predictor, trapezoidal corrector (section 2.2 of the paper): second order.
+// Performs an Euler predictor and a trapezoidal corrector (section 2.2 of the paper). Second order.
 template <int Dim, class Law>
 void predictor_corrector_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
                               const Motion& motion, Stages<Dim>& stages, Field<Dim>& next) {
@@ -186,7 +190,7 @@ void predictor_corrector_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists
   take_slopes<Dim>(nodes, motion, stages, next);
 }
 
-// The classical fourth-order Runge-Kutta step, the paper's last iteration.
+// Performs a classical fourth-order Runge-Kutta step, which the paper uses as the last iteration.
 template <int Dim, class Law>
 void runge_kutta_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
                       const Motion& motion, Stages<Dim>& stages, Field<Dim>& next) {

@@ -1,399 +1,433 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The constants of the method in one table. Those that users may change are options, such as the
-// overlap ratios at which bubbles come and go (insert_below, delete_above in settings/options.cpp);
-// bounds of rounding, sizes of buffers and the like stand where they are used.
-// docs/reference/constants.md is written from this file (target pnpbs-reference), so each constant
-// has one comment: its meaning, then [unit], then its source. Pages name a constant behind its
-// number, and the test docs_constants compares the two.
+// The constants of the method in one table. Constants that users may change are options instead,
+// such as the overlap ratios at which bubbles are inserted and deleted (insert_below, delete_above
+// in settings/options.cpp). Rounding bounds, buffer sizes and the like are defined where they are
+// used.
+//
+// The target pnpbs-reference generates docs/reference/constants.md from this file. Each constant
+// therefore has one comment: its meaning, then [unit], then its source. The source "Chosen" means
+// that no measurement is documented. Documentation pages name a constant behind its number, and the
+// test docs_constants compares the two.
 #pragma once
 
 namespace pnpbs::method {
 
 // ---- Force ----
 
-// The cubic law is f(w) = A w^3 - B w^2 + C, with w the distance over the desired one: A.
-// [k0] Paper, equation (2).
+// Coefficient A of the cubic pair law f(w) = A w^3 - B w^2 + C, where w is the distance over the
+// desired distance. [k0] Paper, equation (2).
 inline constexpr double kCubicLawCube = 1.25;
-// B of the cubic law. [k0] Paper, equation (2).
+// Coefficient B of the cubic law. [k0] Paper, equation (2).
 inline constexpr double kCubicLawSquare = 2.375;
-// C of the cubic law. [k0] Paper, equation (2).
+// Coefficient C of the cubic law. [k0] Paper, equation (2).
 inline constexpr double kCubicLawConstant = 1.125;
-// Where the cubic law ends. [d] Paper, equation (2).
+// Range of the cubic law, beyond which the force is 0. [d] Paper, equation (2).
 inline constexpr double kCubicLawRange = 1.5;
 
 // ---- First nodes ----
 
-// How much d may vary within a patch that is filled with one lattice. [factor] Chosen.
+// Ratio of the largest to the smallest d up to which d counts as constant, so that one lattice
+// fills the patch. [factor] Chosen.
 inline constexpr double kPatchVariation = 1.08;
-// How far new nodes of a fill stay away from the boundary. [d] docs/volumes.md, first nodes.
+// Distance that the nodes of a fill keep from the boundary. [d] docs/volumes.md, first nodes.
 inline constexpr double kFillClearance = 0.5;
-// How wide leaves of the background tree are at most. [d] docs/method.md, what d must be.
+// Maximum width of the leaves of the background tree. [d] docs/method.md, what d must be.
 inline constexpr double kLeafSpacings = 4;
-// Growth of d that nodes can follow. [d per d] Measured: docs/method.md, what d must be.
+// Largest growth of d that nodes can follow. [d per d] Measured: docs/method.md, what d must be.
 inline constexpr double kGrowthFollowed = 0.3;
-// Growth above which d is limited unasked: samples are not exact. [kGrowthFollowed] Chosen.
+// Growth above which d is limited even if growth_limit is not set. It is above 1 because samples
+// are not exact. [kGrowthFollowed] Chosen.
 inline constexpr double kTooSteep = 1.05;
-// Where a node meets d below this share of its leaf's samples, the run begins anew: within a leaf,
-// d that nodes can follow is twice that at least. [share] Derived from kGrowthFollowed.
+// A run starts again with a refined tree if d at a node is below this share of the samples of its
+// leaf. A spacing that nodes can follow falls to no less than twice this share within a leaf.
+// [share] Derived from kGrowthFollowed.
 inline constexpr double kFarFiner = 0.25;
 
-// How wide triangles of a surface are at most that a fill weighs: an equilateral one has 0.8 nodes.
-// [d] Chosen.
+// Maximum edge of the triangles into which a fill divides a surface. An equilateral triangle of
+// this size counts as 0.8 nodes. [d] Chosen.
 inline constexpr double kSurfacePieceEdge = 1.25;
-// How many nodes a closed patch of a surface has at least. [nodes] Chosen: a tetrahedron's.
+// Minimum number of nodes on a closed patch of a surface. [nodes] Chosen: a tetrahedron.
 inline constexpr double kMinNodesOfClosedPatch = 4;
-// How far off a side of a box the first full layer of the A15 lattice is. A flat side has 2 /
-// sqrt(3) nodes per d^2, which stand for the first 0.38 d, and the lattice for all behind 0.33 d
-// less than the depth of that layer. [d] Derived.
+// Distance of the first full layer of the A15 lattice from a flat side of a box. The nodes of the
+// side, 2 / sqrt(3) per d^2, account for the first 0.38 d, and the lattice accounts for all beyond
+// the depth of that layer less 0.33 d. [d] Derived.
 inline constexpr double kFirstA15Layer = 0.7;
-// The same of the body-centred lattice, which stands for 0.27 d less. [d] Derived.
+// Distance of the first full layer of the body-centred cubic lattice, which accounts for all beyond
+// that depth less 0.27 d. [d] Derived.
 inline constexpr double kFirstBodyCentredLayer = 0.65;
-// Nodes of the A15 lattice that rest at a mean distance of d. [nodes per d^3] Measured.
+// Density of the A15 lattice whose bubbles rest at a mean distance of d. [nodes per d^3] Measured.
 inline constexpr double kA15Density = 1.52;
-// How large bubbles on a boundary far finer than d are. [edges of the boundary] Chosen:
-// docs/method.md, what d must be.
+// Upper bound of d on a boundary whose own edges are far shorter than d. [edges of the boundary]
+// Chosen: docs/method.md, what d must be.
 inline constexpr double kBubbleOfEdges = 32;
 
 // ---- Refining ----
 
-// An edge is cut into pieces of length d, rounded up from this fraction: in the plane one longer by
-// 1.4 is halved. [pieces] Chosen.
+// Summand in the number of pieces of an edge in the plane, which is length / d plus this, rounded
+// down. An edge is halved from 1.4 d on. [pieces] Chosen.
 inline constexpr double kRoundUpInPlane = 0.6;
-// In a volume, where what is too much is thinned: one longer by 1.25 is halved. [pieces] Chosen.
+// The same summand in space, where surplus nodes are thinned afterwards. An edge is halved from
+// 1.25 d on. [pieces] Chosen.
 inline constexpr double kRoundUpInSpace = 0.75;
-// Edges on surfaces that are longer than the d to come are halved; then they are thinned. [d to
-// come] Chosen: docs/volumes.md.
+// Length above which edges on surfaces are halved when a level is refined. The nodes are thinned
+// afterwards. [d of the next level] Chosen: docs/volumes.md.
 inline constexpr double kHalvedOnSurfaces = 1.25;
-// If a larger share of the new nodes should stay, all do: d may have been another where a node was
-// before. [share] Chosen.
+// Share of the new nodes above which thinning keeps all of them. Such a share means that d was
+// different when the nodes were placed. [share] Chosen.
 inline constexpr double kMostStay = 0.8;
-// Nodes are thinned where d has grown by more. [factor] Chosen.
+// Increase of d at a node above which nodes are thinned. [factor] Chosen.
 inline constexpr double kThinnedAbove = 1.02;
-// And in leaves with more nodes than d asks for. [nodes that d asks for] Chosen.
+// Number of nodes in a leaf above which its nodes are thinned, together with kCrowdedLeafMore.
+// [nodes expected for d] Chosen.
 inline constexpr double kCrowdedLeaf = 1.5;
-// By so many, as leaves have few. [nodes] Chosen.
+// Number of nodes that is added to this bound, because leaves have few nodes. [nodes] Chosen.
 inline constexpr double kCrowdedLeafMore = 4;
 
 // ---- Coarser levels ----
 
-// Fewer nodes than this are not worth a level. [nodes] Chosen: docs/method.md, coarser levels.
+// Minimum number of nodes of the coarsest level. [nodes] Chosen: docs/method.md, coarser levels.
 inline constexpr double kMinNodesOfCoarsest = 500;
-// The same of levels of surfaces alone. [nodes] Chosen.
+// Minimum number of nodes of the coarsest level of surfaces alone. [nodes] Chosen.
 inline constexpr double kMinNodesOfCoarsestSurface = 100;
-// Growth of the coarser spacing beyond which a fill by cells is the better start. [d per d] Chosen
-// below kGrowthFollowed: docs/method.md, coarser levels.
+// Maximum growth of d on the coarsest level. Beyond it, a fill by cells is a better start. [d per
+// d] Chosen below kGrowthFollowed: docs/method.md, coarser levels.
 inline constexpr double kSteepestOnCoarsest = 0.27;
-// How many nodes the boundary may force on a level beyond its share. [share of the level's nodes]
-// Chosen: docs/method.md, coarser levels.
+// Maximum number of boundary nodes of a level that exceed the boundary's share. [share of the
+// level's nodes] Chosen: docs/method.md, coarser levels.
 inline constexpr double kMaxForced = 0.2;
-// When coarser levels rest, in the plane and on surfaces: steps are cheap there. [tolerance_mean]
-// Chosen: docs/method.md, coarser levels.
+// Mean speed at which coarser levels in the plane and on surfaces rest. Steps are cheap on these
+// levels. [tolerance_mean] Chosen: docs/method.md, coarser levels.
 inline constexpr double kCoarserRestInPlane = 0.3;
-// The same in a volume. [tolerance_mean] Chosen: docs/method.md, coarser levels.
+// Mean speed at which coarser levels in a volume rest. [tolerance_mean] Chosen: docs/method.md,
+// coarser levels.
 inline constexpr double kCoarserRestInSpace = 0.08;
-// What coarser levels in space aim at, as refining leaves distances a little too large there.
-// [mean_distance] Chosen: docs/method.md, coarser levels.
+// Target mean distance on coarser levels in space. It is below 1 because refining leaves slightly
+// too large distances there. [mean_distance] Chosen: docs/method.md, coarser levels.
 inline constexpr double kCoarserDistanceInSpace = 0.997;
-// For how long coarser levels adjust their population. [share of their steps] As the paper's preset
-// of population_share.
+// Share of the steps in which coarser levels adjust their population. [share of their steps] Value
+// of population_share under method=paper.
 inline constexpr double kCoarserPopulationShare = 0.75;
 
 // ---- Population ----
 
-// Bubbles nearer than this touch: nearly all that are joined by a Delaunay edge. The next shell of
-// the lattice is at 1.73 in the plane, at 1.53 in a volume. [d] Chosen between these shells.
+// Distance below which bubbles touch. Nearly all pairs with a Delaunay edge are closer. The next
+// shell of the lattice is at 1.73 in the plane and at 1.53 in a volume. [d] Chosen between these
+// shells.
 inline constexpr double kTouch = 1.3;
-// A bubble beside the boundary with a larger overlap ratio is squeezed by nodes that cannot move,
-// and tells nothing of the density. [ideal ratio] Chosen.
+// Overlap ratio above which a bubble beside the boundary is squeezed by nodes that cannot move.
+// Such a bubble does not count for the density. [ideal ratio] Chosen.
 inline constexpr double kSqueezed = 7.0 / 6;
-// By how much the mean distance may be off on coarser levels before bubbles act. [d] Chosen:
-// docs/method.md, how many nodes.
+// Tolerated deviation of the mean distance on coarser levels. [d] Chosen: docs/method.md, how many
+// nodes.
 inline constexpr double kDistanceTolerance = 0.001;
-// The same on the finest level, where each change costs steps. [kDistanceTolerance] Chosen:
-// docs/method.md, how many nodes.
+// Tolerated deviation of the mean distance on the finest level, where each change of the population
+// costs steps. [kDistanceTolerance] Chosen: docs/method.md, how many nodes.
 inline constexpr int kDistanceToleranceOnFinest = 3;
-// The same in a volume for nodes that were taken over, in the first two rounds of an event. [d]
-// Chosen.
+// Tolerated deviation of the mean distance in a volume whose nodes were taken over from an earlier
+// placement, in the first two rounds of an event. [d] Chosen.
 inline constexpr double kDistanceOff = 0.01;
-// The same in later rounds, and where a lattice fills the finest level. [d] Chosen.
+// The same deviation in later rounds, and on a finest level that was filled by a lattice. [d]
+// Chosen.
 inline constexpr double kDistanceFarOff = 0.02;
-// New bubbles for too small a ratio come no nearer to others. A place in the middle of lattice
-// nodes has 0.577 between three, 0.605 between four. [d] Chosen above these.
+// Minimum distance from other nodes of a bubble that is inserted because of a small overlap ratio.
+// The centre of a lattice triangle has a distance of 0.577, that of a tetrahedron 0.605. [d] Chosen
+// above these.
 inline constexpr double kMinGap = 0.75;
-// The same of bubbles that bring the mean distance down. [d] Chosen below these.
+// Minimum distance from other nodes of a bubble that is inserted to reduce the mean distance. [d]
+// Chosen below these.
 inline constexpr double kMinGapToAim = 0.55;
-// How far a contest reaches. Nodes across a hole are two spacings apart, which two steps may not
-// bridge. [neighbours] Derived: docs/architecture.md, contests.
-inline constexpr int kContestHops = 3;
-// In a volume rivals are also no farther apart: else one of 600 would act at a time. [d] Chosen:
+// Distance within which candidates for insertion and deletion are rivals. Nodes on opposite sides
+// of a hole are two spacings apart, which two hops may not bridge. [hops of the lists] Derived:
 // docs/architecture.md, contests.
+inline constexpr int kContestHops = 3;
+// Distance in a volume beyond which candidates are no rivals. Without it only one of 600 nodes acts
+// at a time. [d] Chosen: docs/architecture.md, contests.
 inline constexpr double kContestReachInSpace = 1.5;
-// A bubble this near to another one goes. [d] docs/method.md, near the boundary.
+// Distance below which one of two nodes is deleted. [d] docs/method.md, near the boundary.
 inline constexpr double kNearlyCoincide = 0.2;
-// Rounds of an event at most, while each changes much. [rounds] Chosen.
+// Maximum number of rounds of an event. [rounds] Chosen.
 inline constexpr int kMaxPopulationRounds = 20;
-// What counts as much. [share of the nodes] Chosen.
+// Share of changed nodes above which another round follows. [share of the nodes] Chosen.
 inline constexpr double kMuchChange = 0.002;
-// Quiet events in a row that end the adjustment. [events] docs/method.md, when a run ends.
+// Number of consecutive quiet events that end the adjustment of the population. [events]
+// docs/method.md, when a run ends.
 inline constexpr int kQuietEvents = 2;
-// The same after coarser levels. [events] docs/method.md, when a run ends.
+// The same number after coarser levels. [events] docs/method.md, when a run ends.
 inline constexpr int kQuietEventsRefined = 1;
-// What a quiet event may change after coarser levels. [population_tolerance] docs/method.md, when a
-// run ends.
+// Share of changed nodes up to which an event after coarser levels is quiet. [population_tolerance]
+// docs/method.md, when a run ends.
 inline constexpr double kRefinedTolerance = 5;
-// With fewer of the expected nodes the adjustment goes on beyond population_share. [share] Chosen.
+// Share of the expected nodes below which the adjustment continues beyond population_share. [share]
+// Chosen.
 inline constexpr double kFarTooFew = 0.85;
 
 // ---- Near the boundary ----
 
-// How far nodes keep off the boundary in the plane, and those on surfaces off feature edges. [d]
-// docs/method.md, near the boundary.
+// Distance of inner nodes from the boundary in the plane, and of nodes on surfaces from feature
+// edges. [d] docs/method.md, near the boundary.
 inline constexpr double kBoundaryClearance = 0.4;
-// The same in a volume, where a layer of tetrahedra is 0.82 d thick. [d] Measured: with 0.65 and
-// 0.5 the worst tetrahedra are worse.
+// Distance of inner nodes from the boundary in a volume. A layer of regular tetrahedra is 0.82 d
+// thick. [d] Measured: with 0.65 and 0.5 the worst tetrahedra are worse.
 inline constexpr double kVolumeClearance = 0.75;
-// The same of new nodes in a volume. [d] docs/volumes.md.
+// Distance of new nodes from the boundary in a volume. [d] docs/volumes.md.
 inline constexpr double kNewNodeClearance = 0.5;
-// With less there is no room: a wedge or gap narrower than 0.7 d. [d] docs/method.md, near the
-// boundary.
+// Clearance below which a node has no room and is deleted, as in a wedge or gap narrower than 0.7
+// d. [d] docs/method.md, near the boundary.
 inline constexpr double kMinClearance = 0.35;
 
 // ---- Finish in the plane ----
 
-// Shorter edges of the boundary have no node of the first row. [d] Chosen: docs/method.md, near the
-// boundary.
+// Minimum length of a boundary edge over which the first row has a node. [d] Chosen:
+// docs/method.md, near the boundary.
 inline constexpr double kRegularEdgeMin = 0.75;
-// Longer edges of the boundary have none either. [d] Chosen.
+// Maximum length of a boundary edge over which the first row has a node. [d] Chosen.
 inline constexpr double kRegularEdgeMax = 1.3;
-// Nor have edges at whose ends the boundary turns by more than 30 degrees. [cosine] Chosen.
+// Cosine of the largest turn of the boundary (30 degrees) at the ends of an edge with a node of the
+// first row. [cosine] Chosen.
 inline constexpr double kRegularTurnCosine = 0.87;
-// How far the boundary is from a place over its edge, if a row of nodes fits there: on the way to
-// the first row, in it, and in the second. [height of the place] Chosen.
+// Distance from the rest of the boundary that points over an edge need for a row of nodes: on the
+// way to the first row, in it, and in the second row. [height of the point over the edge] Chosen.
 inline constexpr double kApexRoom = 0.75;
-// Nodes of the first row that were nearer to each other do not come. [edge] Chosen.
+// Minimum distance between two nodes of the first row. [edge] Chosen.
 inline constexpr double kApexesApart = 0.7;
-// There is no first row where d falls faster, inwards or along the boundary. [d per d] Measured:
-// with 0.1 it pays, with 0.2 no more.
+// Largest decrease of d, inwards or along the boundary, with which a first row is made. [d per d]
+// Measured: with 0.1 the first row improves the triangles, with 0.2 it does not.
 inline constexpr double kFirstRowMaxFall = 0.15;
-// Of the nodes this near to a place of the first row one goes there, and no other stays. [edge]
-// Measured with kFirstRowDepth.
+// Distance from an apex within which the nearest node moves to the apex and the other nodes are
+// deleted. [edge] Measured with kFirstRowDepth.
 inline constexpr double kApexTakes = 0.5;
-// Nodes that are nearer to edges with a node of the first row are of it, or go. The first row is at
-// 0.87, the second at 1.73. [edge] Measured: with 1.4 fewer nodes stay than there is room for.
+// Distance from boundary edges with an apex within which nodes are in the first row or deleted. The
+// first row is at 0.87, the second at 1.73. [edge] Measured: with 1.4, fewer nodes remain than
+// there is room for.
 inline constexpr double kFirstRowDepth = 1.2;
-// How far a sweep moves a node at most. [d] Chosen.
+// Maximum displacement of a node in a sweep. [d] Chosen.
 inline constexpr double kSweepMaxMove = 0.1;
-// Triangles below this are not to get worse by a sweep. [quality] Chosen.
+// Quality below which a sweep must not make triangles worse. [quality] Chosen.
 inline constexpr double kSweepGuardsBelow = 0.75;
-// Sweeps during which stars stay as they are. [sweeps] Chosen.
+// Number of sweeps after which the stars are updated. [sweeps] Chosen.
 inline constexpr int kSweepsOnStars = 5;
-// Triangles below this are not to get worse by a sweep to centroids, which flips edges as it needs.
-// [quality] Chosen below all that a Delaunay triangulation of such nodes has.
+// Quality below which a centroidal sweep must not make triangles worse. Edge flips between these
+// sweeps repair the others. [quality] Chosen below the qualities in Delaunay triangulations of such
+// nodes.
 inline constexpr double kCentroidalSweepGuardsBelow = 0.3;
-// Triangles with a larger angle are repaired by obtuse_rounds. [degrees] Chosen below 90.
+// Largest angle above which obtuse_rounds repairs a triangle. [degrees] Chosen below 90.
 inline constexpr double kObtuseRepairAngle = 89.5;
-// A smallest angle that is as bad for that repair as a right one. [degrees] Chosen: the smallest
-// angles are 36 to 41 degrees where d grows by less than 0.1.
+// Smallest angle of a triangle that this repair rates as bad as a right angle. [degrees] Chosen:
+// the smallest angles are 36 to 41 degrees where d grows by less than 0.1.
 inline constexpr double kObtuseRepairMinAngle = 35;
-// Nodes with so few neighbours may be surplus. [neighbours] docs/method.md.
+// Number of neighbours up to which a node may be surplus. [neighbours] docs/method.md.
 inline constexpr int kFewNeighbours = 4;
-// A surplus node goes if the least quality around it rises by this. [quality] docs/method.md.
+// Increase of the minimum quality around a surplus node for which the node is removed. [quality]
+// docs/method.md.
 inline constexpr double kSurplusPays = 0.02;
-// Triangles below this are repaired first. [shape] docs/method.md.
+// Shape below which triangles are repaired first. [shape] docs/method.md.
 inline constexpr double kWorstBelow = 0.82;
-// Weight of the sine of the smallest angle in a triangle's shape: 38.5 degrees count as much as a
-// quality of 0.85. [factor] Derived: 0.85 / sin(38.5 degrees).
+// Weight of the sine of the smallest angle in the shape of a triangle. An angle of 38.5 degrees
+// then counts as a quality of 0.85. [factor] Derived: 0.85 / sin(38.5 degrees).
 inline constexpr double kAngleWeight = 1.365;
-// The first and longest way on which a better place for a node of a bad triangle is sought; each
-// further one is half as long. [d] Chosen.
+// First and largest displacement in the search for a better position of a node of a bad triangle.
+// Each further displacement is half as long. [d] Chosen.
 inline constexpr double kRepairFirstWay = 0.08;
-// The last and shortest. [d] Chosen.
+// Lower bound of these displacements. [d] Chosen.
 inline constexpr double kRepairLastWay = 0.01;
-// Triangles below this are defects of the topology. [quality] docs/method.md.
+// Quality below which a triangle is a topological defect. [quality] docs/method.md.
 inline constexpr double kDefectBelow = 0.84;
-// What a repair must gain: the decrease of the sum of (1 - quality)^2. [quality squared]
+// Decrease of the sum of (1 - quality)^2 for which a topological change is made. [quality squared]
 // docs/method.md.
 inline constexpr double kDefectPays = 0.01;
-// A new node comes no nearer to the nodes there. [d] Chosen.
+// Minimum distance of a node inserted at a defect from other nodes. [d] Chosen.
 inline constexpr double kDefectMinGap = 0.4;
-// Defects no farther apart are one cluster, of which the worst is tried. [rings] Chosen.
+// Distance up to which defects are in the same cluster, of which only the worst is tried. [rings]
+// Chosen.
 inline constexpr int kClusterRings = 2;
-// How far from a defect the node may be that goes for it. [rings] Chosen.
+// Maximum distance from a defect of a node that is removed to repair it. [rings] Chosen.
 inline constexpr int kSurplusRings = 2;
-// How far apart defects are that are repaired at once. [rings] docs/method.md.
+// Distance beyond which defects are repaired in the same round. [rings] docs/method.md.
 inline constexpr int kDefectContestRings = 5;
-// What is copied around a defect; those of the last ring stay. [rings] docs/method.md.
+// Depth of the mesh that is copied around a defect. Nodes of the last ring do not move. [rings]
+// docs/method.md.
 inline constexpr int kPatchRings = 4;
-// Steps in which the copy is relaxed. [steps] Chosen.
+// Number of relaxation steps on the copy. [steps] Chosen.
 inline constexpr int kPatchSteps = 20;
-// After so many of them edges are flipped. [steps] Chosen.
+// Number of relaxation steps between edge flips on the copy. [steps] Chosen.
 inline constexpr int kPatchStepsBetweenFlips = 5;
-// How far each of them moves a node. [share of the way to the mean of its neighbours] Chosen.
+// Displacement of a node in a relaxation step. [share of the distance to the mean of its
+// neighbours] Chosen.
 inline constexpr double kPatchWay = 0.8;
 
 // ---- Finish in space ----
 
-// How far sweeps and repairs keep nodes off the surface: no triangle of it is missing then. [d]
-// Measured.
+// Distance of inner nodes from the surface in sweeps and repairs. With it, all triangles of the
+// surface are faces of elements. [d] Measured.
 inline constexpr double kFinishClearance = 0.6;
-// The same at inner surfaces, with nodes on both sides: triangles in their corners have
-// circumcircles of 0.71 d. [d] Derived.
+// The same distance from inner surfaces, which have nodes on both sides. Triangles in their corners
+// have circumcircles of radius 0.71 d. [d] Derived.
 inline constexpr double kInnerClearance = 0.75;
-// Rounds of sweeps and repairs between which the boundary is refined. [rounds] Chosen.
+// Maximum number of rounds of sweeps and repairs, each followed by a refinement of the boundary.
+// [rounds] Chosen.
 inline constexpr int kMaxFinishRounds = 3;
-// Sweeps between the two repairs of slivers. [sweeps] Chosen.
+// Number of sweeps between the two repairs of slivers. [sweeps] Chosen.
 inline constexpr int kSweepsBetweenRepairs = 2;
-// Tetrahedra with a smaller dihedral angle are repaired before all others. [degrees] Chosen.
+// Dihedral angle below which tetrahedra are repaired first. [degrees] Chosen.
 inline constexpr double kFlatBelow = 10;
-// The same after these. [degrees] Chosen.
+// Dihedral angle below which tetrahedra are repaired next. [degrees] Chosen.
 inline constexpr double kThinBelow = 20;
-// Angles up to this much above sliver_angle must not become worse. [degrees] docs/volumes.md: 38
-// degrees by default.
+// Range above sliver_angle in which dihedral angles must not become smaller. [degrees]
+// docs/volumes.md: 38 degrees by default.
 inline constexpr double kPenaltyAbove = 5;
-// Rounds of a repair at most. [rounds] Chosen.
+// Maximum number of rounds of a repair of slivers. [rounds] Chosen.
 inline constexpr int kSliverRounds = 100;
-// A repair ends where more attempts have been in vain. [share of the nodes] Chosen.
+// Number of failed attempts at which a repair ends. [share of the nodes] Chosen.
 inline constexpr double kMaxInVain = 0.1;
-// An attempt to move a node along a surface counts as so many of these, as all stars around are
-// made anew for each place. [attempts] Chosen.
+// Cost of an attempt to move a node along a surface. For each position all stars around the node
+// are computed. [attempts to move an inner node] Chosen.
 inline constexpr int kWorkOfSurfaceMove = 3;
-// Places that are tried for a node whose turn it is. [trials] Chosen.
+// Number of positions that are tried for a node in an attempt. [trials] Chosen.
 inline constexpr int kSliverTrials = 8;
-// How far these are at least. [d] docs/volumes.md.
+// Minimum distance of these positions from the node. [d] docs/volumes.md.
 inline constexpr double kSliverShortestWay = 0.08;
-// And at most. [d] docs/volumes.md.
+// Maximum distance of these positions from the node. [d] docs/volumes.md.
 inline constexpr double kSliverLongestWay = 0.28;
-// Turns of a sliver's corners for each turn of a neighbour. [turns] Chosen.
+// Number of attempts to move a corner of a sliver for each attempt to move a neighbour of a corner.
+// [attempts] Chosen.
 inline constexpr int kSliverTurnsOfCorners = 5;
-// What a move changes lies within this distance of the node. [d] Chosen.
+// Distance from a moved node within which all changes of stars lie. [d] Chosen.
 inline constexpr double kSliverReach = 1.8;
-// How far a repair moves a node in all. [d] Chosen.
+// Maximum displacement of a node in a whole repair. [d] Chosen.
 inline constexpr double kSliverDrift = 0.6;
-// Half of the longest edge where nodes have come to rest. [d] Measured.
+// Half of the longest edge between nodes at rest. [d] Measured.
 inline constexpr double kSliverEdge = 0.9;
-// How many neighbours away a move looks at stars, and one more since nodes come to be neighbours.
+// Depth of the stars that an attempt reads, including one ring for nodes that become neighbours.
 // [rings] Derived.
 inline constexpr int kSliverRings = 4;
-// Nodes on one sheet of the surface come no nearer to each other in a repair. [d] Chosen.
+// Minimum distance between nodes on the same sheet of the surface in a repair. [d] Chosen.
 inline constexpr double kSliverRoom = 0.7;
-// A repair that moves a node along the surface takes all nodes of the boundary up to this distance
-// into account. [d] Derived: no more than are known to the node's rank.
+// Distance up to which a repair that moves a node along the surface considers boundary nodes. [d]
+// Derived: the rank has all nodes within this distance.
 inline constexpr double kSliverSight = 2.5;
-// Elements with a smaller dihedral angle that the repairs leave may have a node removed or
-// inserted. [degrees] Chosen.
+// Dihedral angle below which nodes are removed or inserted at elements that the repairs leave.
+// [degrees] Chosen.
 inline constexpr double kThinElement = 15;
-// An element with a shorter edge than this between two nodes of the boundary has one of these
-// removed. [d] Derived: with the other edges d, the angle opposite to it is 29 degrees at most.
+// Length of an edge between two boundary nodes below which one of them is removed. [d] Derived: if
+// the other edges have length d, the opposite angle is at most 29 degrees.
 inline constexpr double kShortEdge = 0.5;
-// Two curves that leave the ends of a short edge run beside each other if the angle between their
-// next edges has a larger cosine: 20 degrees. [1] Chosen.
+// Cosine of the angle (20 degrees) up to which two curves that leave the ends of a short edge run
+// beside each other. [1] Chosen.
 inline constexpr double kBesideCosine = 0.94;
-// And if both edges are longer than this. [d] Chosen.
+// Minimum length of the next edges of two such curves. [d] Chosen.
 inline constexpr double kBesideLength = 0.5;
-// An edge shorter than this loses a node even there: so little makes no curve ragged. [d] Chosen.
+// Length of an edge below which it loses a node even between such curves. The curve does not become
+// ragged. [d] Chosen.
 inline constexpr double kRagged = 0.05;
-// Elements with a smaller dihedral angle whose label is open to choice are made none where the
-// boundary stays closed. [degrees] Chosen.
+// Dihedral angle below which a tetrahedron with an undetermined label is excluded from the
+// elements, provided that the boundary remains closed. [degrees] Chosen.
 inline constexpr double kThinLabel = 10;
-// A node that is inserted in a flat element has at least this distance to the nodes of the element.
-// [d] Chosen.
+// Minimum distance of a node inserted in a flat element from the nodes of the element. [d] Chosen.
 inline constexpr double kRoomInSliver = 0.4;
-// The same where three of these are on features, and do not move. [d] Chosen.
+// The same distance if three nodes of the element are on features, which do not move. [d] Chosen.
 inline constexpr double kRoomInHeldSliver = 0.2;
-// And so much of that to the surface. [share] Chosen.
+// Minimum distance of the inserted node from the surface. [share of that distance] Chosen.
 inline constexpr double kSliverClearance = 0.6;
-// Nodes that are inserted in flat elements at the same time are no nearer to each other. [d]
-// Chosen.
+// Minimum distance between nodes that are inserted in flat elements at the same time. [d] Chosen.
 inline constexpr double kSliversApart = 1;
-// Rounds in which nodes are removed and inserted before the next repair, at most. [rounds] Chosen.
+// Maximum number of rounds in which nodes are removed and inserted before the next repair. [rounds]
+// Chosen.
 inline constexpr int kThinRounds = 3;
-// Repairs of the elements that are still thin, at most. [repairs] Chosen.
+// Maximum number of repairs of the remaining thin elements. [repairs] Chosen.
 inline constexpr int kThinRepairs = 2;
-// These are omitted where more elements are thin: walls and steps much smaller than d, where no
-// repair helps. [share of the nodes] Chosen.
+// Number of thin elements above which these repairs are omitted. Walls and steps much smaller than
+// d have so many, and repairs do not help there. [share of the nodes] Chosen.
 inline constexpr double kManyThin = 0.02;
 
 // ---- The surface in space ----
 
-// Places on a surface that are farther from all nodes are vacant: in a lattice none is farther than
-// 0.58, where bubbles rest hardly any farther than 0.75. [d] docs/volumes.md.
+// Distance from all nodes above which a point on a surface is vacant. The distance is at most 0.58
+// in a lattice and hardly above 0.75 between bubbles at rest. [d] docs/volumes.md.
 inline constexpr double kVacant = 0.80;
-// How far the middle of a vacancy's circle may be off the surface. [d] Chosen.
+// Maximum distance of the centre of a vacancy's circumcircle from the surface. [d] Chosen.
 inline constexpr double kVacancyBend = 0.3;
-// Places farther from all nodes that were taken over are filled before bubbles move: in a lattice
-// none is farther than 0.58 on a surface, 0.61 inside. [d] Chosen.
-inline constexpr double kGap = 0.8;
-// Walls thinner than that have the nodes of their two sides opposite each other. [d] Measured: in a
-// plate of 0.2 d, tetrahedra between other nodes fill the body, in one of 0.1 d they do not.
-inline constexpr double kThinWall = 0.25;
-// The same of gaps, whose tetrahedra are no elements and may have any angles. [d] Chosen.
-inline constexpr double kNarrowGap = 0.5;
-// How far such a node is from the place straight through a wall of thickness t. [t^2/d] Measured: a
-// stack of plates of 0.05 d and of gaps of 0.03 d conforms with 0.6, and not with 6.
-inline constexpr double kAsideInThinWall = 0.6;
-// How far it keeps off feature edges. [d] Chosen.
-inline constexpr double kPartnerClearance = 0.3;
-// How far it keeps off other nodes. [d] Chosen.
-inline constexpr double kPartnerGap = 0.5;
-// A node this near to the middle of a ball that is to get one stands for it. [radius of the ball]
+// Distance from all nodes taken over from an earlier placement above which a point gets a node
+// before bubbles move. In a lattice the distance is at most 0.58 on a surface and 0.61 inside. [d]
 // Chosen.
+inline constexpr double kGap = 0.8;
+// Thickness of walls below which their two sides have nodes opposite each other. [d] Measured:
+// tetrahedra between other nodes fill a plate of 0.2 d, but not one of 0.1 d.
+inline constexpr double kThinWall = 0.25;
+// Width of gaps below which their two sides have nodes opposite each other. Tetrahedra in a gap are
+// no elements, so their angles do not matter. [d] Chosen.
+inline constexpr double kNarrowGap = 0.5;
+// Lateral offset of an opposite node through a wall of thickness t. [t^2/d] Measured: a stack of
+// plates of 0.05 d and gaps of 0.03 d conforms with 0.6 and does not with 6.
+inline constexpr double kAsideInThinWall = 0.6;
+// Minimum distance of an opposite node from feature edges. [d] Chosen.
+inline constexpr double kPartnerClearance = 0.3;
+// Minimum distance of an opposite node from other nodes. [d] Chosen.
+inline constexpr double kPartnerGap = 0.5;
+// Distance from the centre of a surface ball within which an existing node replaces the new node of
+// the ball. [radius of the ball] Chosen.
 inline constexpr double kBallTaken = 0.3;
-// Middles of such balls are no nearer to each other. [radius of the larger ball] Chosen.
+// Minimum distance between the centres of surface balls that get nodes in a round. [radius of the
+// larger ball] Chosen.
 inline constexpr double kBallsApart = 0.7;
-// Rounds in which such nodes come, at most. [rounds] Chosen.
+// Maximum number of rounds that insert nodes at surface balls. [rounds] Chosen.
 inline constexpr int kMaxBallRounds = 12;
-// So many of them happen though faces that stray do not become fewer. [rounds] Chosen.
+// Number of these rounds that run even if the number of stray faces does not decrease. [rounds]
+// Chosen.
 inline constexpr int kBallRoundsAnyway = 2;
-// So few faces that stray come by chance, and need not become fewer. [faces] Chosen.
+// Number of stray faces up to which the number need not decrease. [faces] Chosen.
 inline constexpr int kFewStrays = 10;
-// Rounds in which nodes come to the boundary and leave its way, at most. [rounds] Chosen.
+// Maximum number of rounds in which boundary nodes are inserted and blocking nodes are removed.
+// [rounds] Chosen.
 inline constexpr int kMaxBoundaryRounds = 8;
 
 // ---- Holding d down in space ----
 
-// To what d is held where a round does not conform. [d] docs/volumes.md.
+// Factor by which d is reduced where a round does not conform. [d] docs/volumes.md.
 inline constexpr double kHeldTo = 0.5;
-// Rounds that do only this. In later ones d goes by what is narrow there, too. [rounds] Measured:
-// of 32 bodies of about five parts that need rounds, at 400 nodes, 9 are torn in the end without
-// these later ones, and 1 with them.
+// Number of rounds that only apply this factor. In later rounds d also follows the width of narrow
+// parts there. [rounds] Measured: of 32 bodies of about five parts that need rounds, at 400 nodes,
+// 9 do not conform in the end without these later rounds, and 1 with them.
 inline constexpr int kRoundsOfHalves = 1;
-// How many steps such a round may take: d jumps in slope where it is held. [steps of the option]
-// Measured: elephant.off of CGAL, at 3 000 nodes and min_angle 20, rests after 50 to 80 steps.
+// Maximum number of steps of a round with reduced d, whose slope has jumps. [value of the option
+// steps] Measured: elephant.off of CGAL, at 3 000 nodes and min_angle 20, rests after 50 to 80
+// steps.
 inline constexpr int kStepsWhereHeld = 2;
-// Dihedral angles that a user is told of who does not want d reduced for them. [degrees] As the
+// Dihedral angle below which elements cause a warning if min_angle is 0. [degrees] Default of the
 // option min_angle.
 inline constexpr double kSmallAngle = 2;
-// What share of the small angles a round may leave to count. [share] Chosen.
+// Share of the small angles that a round may leave to count as progress. [share] Chosen.
 inline constexpr double kSmallAnglesLeft = 0.5;
-// Rounds that do not count, at most. [rounds] Chosen: each takes as long as a run.
+// Maximum number of rounds without progress once a round has conformed. [rounds] Chosen: each takes
+// as long as a run.
 inline constexpr int kMaxRoundsInVain = 2;
-// The same in a row, of rounds after one whose elements do not conform. [rounds] Chosen.
-inline constexpr int kMaxRoundsInVainToConform = 3;
-// With more nodes than in the first round d is a mistake. [nodes of that round] Chosen.
-inline constexpr double kMaxGrowthOfNodes = 4;
-// The same where the last round does not conform. [nodes of the first round] Chosen.
-inline constexpr double kMaxGrowthToConform = 10;
-// Unless they are so few in all. [nodes] Chosen.
-inline constexpr double kFewNodesToConform = 5000;
-// Layers of nodes that the option resolve wants in a wall: those of its sides count half. [layers]
-// Derived: one in the middle.
-inline constexpr double kLayersInWall = 2;
-// The same in a gap: each side keeps its nodes out of the spheres around triangles of the other,
-// which reach 0.58 d if these are equilateral, and d between two points is larger. [layers]
-// Derived.
-inline constexpr double kLayersInGap = 4.0 / 3;
-// An edge with a smaller angle between its sides is sharp: slivers are repaired up to that angle.
-// [degrees] As the option sliver_angle.
-inline constexpr double kSharpEdge = 33;
-// Nodes of pieces too many that are nearer than this to each other leave. [d] Chosen.
-inline constexpr double kSmallPiece = 0.5;
-// Rounds before tips leave: one more halving of d leaves the same picture there, only smaller.
-// [rounds] Chosen.
-inline constexpr int kRoundsBeforeTips = 2;
-// Nodes on the boundary are beside each other up to this distance. [d] Chosen as kTouch.
-inline constexpr double kBeside = 1.3;
-// Tries with a tree that knows finer places. Each shows its surroundings: two do, mostly. [tries]
+// Maximum number of consecutive rounds without progress while no round has conformed. [rounds]
 // Chosen.
+inline constexpr int kMaxRoundsInVainToConform = 3;
+// Expected number of nodes above which no further round is run. [nodes of the first round] Chosen.
+inline constexpr double kMaxGrowthOfNodes = 4;
+// The same number if the last round does not conform. [nodes of the first round] Chosen.
+inline constexpr double kMaxGrowthToConform = 10;
+// Number of nodes that is allowed in this case in any event. [nodes] Chosen.
+inline constexpr double kFewNodesToConform = 5000;
+// Number of layers of nodes that the option resolve requires in a wall. Layers on its sides count
+// half. [layers] Derived: one layer in the middle.
+inline constexpr double kLayersInWall = 2;
+// The same number for a gap. Nodes of one side must lie outside the spheres around triangles of the
+// other. These spheres reach 0.58 d for equilateral triangles, and d between the two sides is
+// larger. [layers] Derived.
+inline constexpr double kLayersInGap = 4.0 / 3;
+// Dihedral angle of the surface below which an edge is sharp. Slivers are repaired up to the same
+// angle. [degrees] Default of the option sliver_angle.
+inline constexpr double kSharpEdge = 33;
+// Distance between the nodes of a surplus piece within which all of them are removed. [d] Chosen.
+inline constexpr double kSmallPiece = 0.5;
+// Number of rounds before nodes at tips are removed. A further halving of d yields the same
+// arrangement there at a smaller scale. [rounds] Chosen.
+inline constexpr int kRoundsBeforeTips = 2;
+// Distance up to which boundary nodes are beside each other. [d] Equal to kTouch.
+inline constexpr double kBeside = 1.3;
+// Maximum number of tries with a tree refined at undersampled points. Each try adds the
+// surroundings of the points found; two tries mostly suffice. [tries] Chosen.
 inline constexpr int kMaxTreeTries = 4;
 
 }  // namespace pnpbs::method

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The adjacency list (section 2.3 of the paper): for every node all others within
-// radius * (d_i + d_j) / 2, in the order of their ids, so that sums over it do not depend on ranks,
-// threads or the order in memory. Laid out for SIMD: blocks of kLanes nodes, the k-th neighbours
-// of a block side by side; shorter lists are padded with a far-away node, whose force is exactly 0.
+// The adjacency lists (section 2.3 of the paper). The list of a node has all other nodes within
+// radius * (d_i + d_j) / 2, sorted by id, so that sums over it do not depend on ranks, threads or
+// the order in memory. The layout suits SIMD: nodes form blocks of kLanes, and the k-th neighbours
+// of a block are stored side by side. Shorter lists are padded with a far-away node, whose force is
+// exactly 0.
 #pragma once
 
 #include <algorithm>
@@ -17,34 +18,38 @@
 
 namespace pnpbs {
 
+// Number of nodes in a block, which are processed side by side.
 inline constexpr int kLanes = 8;
 
+// The lists of the nodes of a block.
 struct ListBlock {
   const std::int32_t* entries;  // [length][kLanes]
   std::int32_t length;
 };
 
-// Nodes that are not owned may have empty lists.
+// Selects the nodes that get lists. With owned_nodes, the lists of ghosts are empty.
 enum class ListsOf { all_nodes, owned_nodes };
 
+// The adjacency lists of all nodes of a rank.
 template <int Dim>
 class AdjacencyList {
  public:
-  // Lists the pairs within the radius that see each other; nodes must be sorted by bucket.
-  // Visibility has may_occlude(i), does anything near i hide others from it, and visible(i, j),
-  // which must be symmetric and is asked for pairs within the radius of whose nodes one
-  // may_occlude. Several threads ask at a time.
+  // Lists all pairs within the radius that are visible from each other. Nodes must be sorted by
+  // bucket. visibility.may_occlude(i) returns true if anything near node i may hide other nodes
+  // from it. visibility.visible(i, j) must be symmetric; it is called only for pairs within the
+  // radius of which at least one node may_occlude. Both are called from several threads.
   template <class Visibility>
   void build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
              Visibility&& visibility, ListsOf listed = ListsOf::all_nodes);
 
-  // The lists of these nodes, too. All is as it was when lists were built.
+  // Adds the lists of the nodes `more` to lists of owned nodes. Nodes, buckets and visibility must
+  // not have changed since build().
   template <class Visibility>
   void add(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, Visibility&& visibility,
            const std::vector<std::int32_t>& more);
 
   double radius() const { return radius_; }
-  // Was the list of node i made? Else it is empty.
+  // Returns true if the list of node i has been built. Otherwise it is empty.
   bool has(std::int64_t i) const { return has_.empty() || has_[static_cast<std::size_t>(i)] != 0; }
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
 
@@ -65,7 +70,8 @@ class AdjacencyList {
   }
 
  private:
-  // Writes the lists of the nodes of one block after the other.
+  // Writes the lists of the nodes of a block. Each thread has one and reuses the candidates of the
+  // last bucket.
   template <class Visibility>
   struct BlockWriter {
     const Nodes<Dim>& nodes;
@@ -91,7 +97,7 @@ class AdjacencyList {
 
   std::int64_t count_ = 0;
   double radius_ = 0;
-  std::vector<char> has_;  // by node; empty: each has its list
+  std::vector<char> has_;  // by node: its list is built; empty if all are
   ChunkedRows<std::int32_t, 64> blocks_;
 };
 

@@ -7,7 +7,7 @@ namespace pnpbs {
 
 namespace {
 
-// The boundary nodes at the ends of the edges near x, by number.
+// Returns the boundary nodes at the ends of the edges near x, sorted.
 std::vector<std::int32_t> boundary_nodes_near(const SizedTree<2>& map, const Point<2>& x,
                                               double reach) {
   std::vector<std::int32_t> near;
@@ -19,7 +19,8 @@ std::vector<std::int32_t> boundary_nodes_near(const SizedTree<2>& map, const Poi
   return near;
 }
 
-// Is it in the sorted row? Where a boundary is fine these are mostly consecutive numbers.
+// Returns true if the sorted row contains the number. On a fine boundary the numbers are mostly
+// consecutive, which the first test exploits.
 bool holds(const std::vector<std::int32_t>& row, std::int32_t number) {
   const std::int64_t place = std::int64_t{number} - row.front();
   if (0 <= place && place < std::ssize(row) && row[static_cast<std::size_t>(place)] == number)
@@ -57,7 +58,7 @@ void BoundaryVisibility::look_from(const Nodes<2>& nodes, std::int64_t i,
   std::vector<std::int32_t> seen = boundary_nodes_near(map, x, kRounding * reach);
   std::erase_if(seen, [&](std::int32_t c) {
     const Point<2>& y = map.boundary().nodes[static_cast<std::size_t>(c)].position;
-    if (c == b) return false;  // nobody asks, and the numbers stay consecutive
+    if (c == b) return false;  // never queried, and keeps the numbers consecutive
     return distance<2>(x, y) > kRounding * reach ||
            !visible_between(map, sectors, x, b, y, c, near_edges.edges_of(i));
   });
@@ -69,17 +70,17 @@ bool BoundaryVisibility::sees(std::int32_t b, std::int32_t c) const {
   constexpr std::size_t kFew = 32;
   const std::vector<std::int32_t>& row = seen_[static_cast<std::size_t>(b)];
   if (row.size() > kFew) return holds(row, c);
-  // Some ten, compared side by side.
+  // Short rows, of about ten numbers, are compared with SIMD.
   bool seen = false;
   for (const std::int32_t other : row) seen = seen | (other == c);
   return seen;
 }
 
-// In the chart the last bubbles beside the point of a whole sphere are so large that all others are
-// within their radius. Which of them their leaves are linked with changes as nodes move from leaf
-// to leaf, and what is listed must not depend on when that is found out: none of them is. The next
-// shells of nodes are within twice the radius, and such bubbles are several times as far away from
-// all that move.
+// In the chart of a whole sphere, the last bubbles beside the projection point are so large that
+// all others are within their radius. The links of their leaves change when nodes move to other
+// leaves, and the lists must not depend on the moment of their construction. Pairs that are far
+// apart along the sphere are therefore never listed. The next shells of nodes are within twice the
+// radius, and such bubbles are several times as far away from all nodes that move.
 bool VisibilityPastEdges::far_along_sphere(std::int64_t i, std::int64_t j) const {
   const Embedding<2>& embedding = map.boundary().embedding;
   const Point<2> x = near_edges.place_of(i), y = near_edges.place_of(j);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which boundary nodes see which. Neither they nor the edges move, so it is found once per level.
-// Where the boundary is fine for d these are most of the pairs that edges may separate.
+// Visibility between boundary nodes, which is computed once per level because neither they nor the
+// edges move. Where the boundary is fine for d, these are most of the pairs that edges may
+// separate.
 #pragma once
 
 #include <cstdint>
@@ -13,28 +14,30 @@
 
 namespace pnpbs {
 
+// The boundary nodes that are visible from each boundary node.
 class BoundaryVisibility {
  public:
-  // A new boundary of so many nodes.
+  // Clears the results for a new boundary with this number of nodes.
   void reset(std::size_t boundary_nodes);
 
-  // Finds what the boundary nodes among these see within the radius of near_edges, times their d,
-  // unless that is known.
+  // Computes what the boundary nodes among `nodes` see within near_edges.radius() * d, unless it is
+  // known already.
   void look(const Nodes<2>& nodes, const NearEdges& near_edges, const SizedTree<2>& map,
             const IncidentSectors& sectors);
 
-  // Does boundary node b, one of those, see the boundary node c that near?
+  // Returns true if boundary node c is visible from boundary node b. look() must have processed b,
+  // and c must be within its radius.
   bool sees(std::int32_t b, std::int32_t c) const;
 
  private:
   void look_from(const Nodes<2>& nodes, std::int64_t i, const NearEdges& near_edges,
                  const SizedTree<2>& map, const IncidentSectors& sectors);
 
-  std::vector<std::vector<std::int32_t>> seen_;  // from each boundary node, sorted
-  std::vector<double> reach_;                    // how far; 0: nothing is known
+  std::vector<std::vector<std::int32_t>> seen_;  // by boundary node: visible ones, sorted
+  std::vector<double> reach_;  // by boundary node: search radius; 0 if not computed
 };
 
-// Who sees whom among the nodes, as lists ask.
+// The visibility of all nodes of a plane domain, as AdjacencyList::build requires it.
 struct VisibilityPastEdges {
   const Nodes<2>& nodes;
   const NearEdges& near_edges;
@@ -44,15 +47,17 @@ struct VisibilityPastEdges {
 
   bool may_occlude(std::int64_t i) const { return near_edges.any(i); }
 
-  // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2. Nor
-  // may they be far apart along a sphere.
+  // Returns true if no boundary edge separates nodes i and j and they are not far apart along a
+  // sphere. The pair must be within radius * (d_i + d_j) / 2.
   bool visible(std::int64_t i, std::int64_t j) const {
     if (map.boundary().embedding.is_sphere() && far_along_sphere(i, j)) return false;
-    // Whatever lies between the two is within their distance of either, and that is at most
-    // radius times the larger spacing.
+    // Whatever lies between the two nodes is within their distance of either, and this distance is
+    // at most radius times the larger spacing. The edges near the node with the larger spacing
+    // therefore suffice.
     const bool i_wide = nodes.d(i) >= nodes.d(j);
     const std::int64_t wide = i_wide ? i : j;
-    // Which of the first two holds cannot be guessed, that one does can: both are tested.
+    // The operator | evaluates both tests: it is unpredictable which of them is true, but mostly
+    // one is.
     const bool surely = !near_edges.any(wide) | near_edges.surely_visible(i, j);
     return surely || sees_past_edges(wide, i_wide ? j : i);
   }

@@ -17,8 +17,7 @@ bool Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, doub
   return reordered;
 }
 
-// Most nodes are where they were when they were sorted last: each asks for its bucket of then
-// first.
+// Most nodes are still in their bucket of the last sort, which is tested first.
 template <int Dim>
 void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes) {
   constexpr std::int64_t kChunk = 256;
@@ -26,7 +25,7 @@ void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim
   const View<std::int32_t> bucket = bucket_of_;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
   for_each("pnpbs::Buckets::find", chunks, [&, bucket](std::int64_t chunk) {
-    std::int32_t leaf = -1;  // of the box
+    std::int32_t leaf = -1;  // the leaf of `box`
     Box<Dim> box{};
     for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes.count); ++i) {
       const Point<Dim> x = nodes.position(i);
@@ -64,7 +63,7 @@ void Buckets<Dim>::keep(const View<std::int32_t>& places, std::int64_t kept) {
   known_ = still_known;
 }
 
-// Stable, so that nodes which stay keep their order.
+// The sort is stable, so nodes that stay in their bucket keep their order.
 template <int Dim>
 bool Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
   const View<std::int32_t> bucket = bucket_of_;
@@ -85,7 +84,7 @@ bool Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
   return true;
 }
 
-// The links are made anew if a bubble became larger than they allow.
+// Builds new links if a bubble has become larger than the present ones allow.
 template <int Dim>
 void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes,
                                    double radius) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Multilayer buckets: the leaves of the background tree, each layer of the tree for bubbles of
-// its size, and for each bucket the buckets whose bubbles may meet its own (section 2.3).
+// Multilayer buckets (section 2.3 of the paper): the leaves of the background tree, whose layers
+// suit bubbles of different sizes, and for each bucket the buckets whose bubbles may interact with
+// its own.
 #pragma once
 
 #include <cstdint>
@@ -14,41 +15,45 @@
 
 namespace pnpbs {
 
+// The nodes of a rank sorted by leaf of the background tree.
 template <int Dim>
 class Buckets {
  public:
-  // Sorts the nodes in memory by bucket, and sees to it that the neighbour buckets of each reach
-  // all bubbles within radius * (d_i + d_j) / 2. Returns whether nodes changed their places.
+  // Sorts the nodes in memory by bucket and extends the links of buckets, if necessary, to all
+  // pairs of bubbles within radius * (d_i + d_j) / 2. Returns true if nodes have changed their
+  // indices.
   bool sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius);
 
-  // If they did: what is at i now was at order()(i).
+  // Returns the permutation of the last sort that returned true: the node at i was at order()(i)
+  // before.
   const View<std::int32_t>& order() const { return from_; }
 
-  // The tree has changed; its leaves are linked like that.
+  // Must be called after the tree has changed. `links` are the links of its leaves.
   void reset(std::shared_ptr<const LeafLinks<Dim>> links) {
     links_ = std::move(links);
     known_ = 0;
   }
 
-  // These have come in place of those that were sorted: room for the bucket of each, to be written.
+  // Returns an array for the buckets of nodes that replace the sorted ones. The caller must write
+  // the bucket of each node.
   View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes);
-  // The first `kept` nodes named have been kept, as by Nodes::keep.
+  // Keeps the same nodes as Nodes::keep; must be called with the same arguments.
   void keep(const View<std::int32_t>& places, std::int64_t kept);
-  // Has node i a bucket, from when the nodes were stored or sorted? Those appended since then have
-  // none.
+  // Returns true if the bucket of node i is stored. Nodes appended after the last sort have none.
   bool knows(std::int64_t i) const { return i < known_; }
 
   std::int32_t bucket_of(std::int64_t node) const { return bucket_of_(node); }
   std::int32_t begin(std::int32_t bucket) const { return start_[index(bucket)]; }
   std::int32_t end(std::int32_t bucket) const { return start_[index(bucket) + 1]; }
 
-  // Calls visit(other) for the bucket itself and all that may interact with it, in Morton order.
+  // Calls visit(other) for the bucket itself and all buckets that may interact with it, in Morton
+  // order.
   template <class Visit>
   void for_neighbours(std::int32_t bucket, const Visit& visit) const {
     links_->graph.for_neighbours(bucket, visit);
   }
 
-  // Least spacing of the nodes in a bucket (infinity if empty).
+  // Returns the smallest spacing of the nodes in a bucket, or infinity if it is empty.
   double min_spacing(std::int32_t bucket) const { return min_[index(bucket)]; }
 
  private:
@@ -58,10 +63,10 @@ class Buckets {
   bool order_nodes(std::int32_t buckets, Nodes<Dim>& nodes);
   void gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes, double radius);
 
-  View<std::int32_t> bucket_of_;     // where a node was when they were sorted last
-  std::int64_t known_ = 0;           // nodes of which that is known, the first ones
-  std::vector<std::int32_t> start_;  // first node of each bucket
-  std::vector<double> min_;          // least d of the nodes in it
+  View<std::int32_t> bucket_of_;     // as of the last sort
+  std::int64_t known_ = 0;           // number of leading nodes with an entry in bucket_of_
+  std::vector<std::int32_t> start_;  // index of the first node of each bucket
+  std::vector<double> min_;          // smallest d in each bucket
   std::shared_ptr<const LeafLinks<Dim>> links_;
   View<std::int32_t> from_;
 };

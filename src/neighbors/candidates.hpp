@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes of one bucket and the candidates for their lists: all nodes that are near the box of
-// those in the bucket, by increasing id and copied together. The distance tests then run over plain
-// arrays, and whatever they find is in the order of the lists.
+// Search for the neighbours of the nodes of one bucket. Candidates are all nodes near the bounding
+// box of these nodes. They are copied to plain arrays in the order of their ids, so that the
+// distance tests run with SIMD and find neighbours in the order of the lists.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 namespace pnpbs {
 
 inline constexpr std::int32_t kTestGroup = 8;  // tests done side by side
-inline constexpr std::int32_t kTestWord = 64;  // tests whose results are kept in one number
+inline constexpr std::int32_t kTestWord = 64;  // tests whose results fill one integer
 
-// A bit for each of some groups of bubbles: is it less than half_radius * (d + d_c) away from the
-// point with the coordinates nearest(k, x_c[k])?
+// Returns a bit for each bubble c of some groups: 1 if its distance to the point with the
+// coordinates nearest(k, x_c[k]) is less than half_radius * (d + d_c).
 template <int Dim, class Nearest>
 inline std::uint64_t near_bits(const std::array<const double*, Dim>& xs, const double* ds,
                                std::int32_t groups, double half_radius, double d,
@@ -39,10 +39,12 @@ inline std::uint64_t near_bits(const std::array<const double*, Dim>& xs, const d
   return bits;
 }
 
+// The candidates of one bucket. An object can be used for one bucket after the other.
 template <int Dim>
 class Candidates {
  public:
-  // Looks at this bucket, which must not be empty, for lists of this radius.
+  // Gathers and tests the candidates of this bucket, which must not be empty, for lists with this
+  // radius.
   void gather(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
               std::int32_t bucket);
 
@@ -50,7 +52,7 @@ class Candidates {
   std::int32_t count() const { return count_; }
   std::int32_t node(std::int32_t c) const { return found_[index(c)].node; }
 
-  // How many neighbours node i of the bucket has among them.
+  // Returns the number of neighbours of node i, which must be in the bucket.
   std::int32_t neighbour_count(std::int64_t i) const {
     std::int32_t n = 0;
     const std::uint64_t* const bits = bits_of(i);
@@ -58,7 +60,7 @@ class Candidates {
     return n;
   }
 
-  // Calls visit(j) for them.
+  // Calls visit(j) for these neighbours, by increasing id.
   template <class Visit>
   void for_neighbours(std::int64_t i, const Visit& visit) const {
     const std::uint64_t* const bits = bits_of(i);
@@ -67,8 +69,8 @@ class Candidates {
         visit(found_[index(w * kTestWord + std::countr_zero(left))].node);
   }
 
-  // Drops the pairs for which keep(i, j), which must be symmetric, does not hold; asked for once if
-  // both nodes are of the bucket, and only where may_occlude(i) or may_occlude(j).
+  // Removes the pairs for which keep(i, j) is false. `keep` must be symmetric. It is called only if
+  // may_occlude is true for i or j, and only once for a pair within the bucket.
   template <class MayOcclude, class Keep>
   void keep_pairs(const MayOcclude& may_occlude, const Keep& keep) {
     hiding_.assign(index(words_), 0);
@@ -78,7 +80,7 @@ class Candidates {
       hiding_[index(c / kTestWord)] |= hides << (c % kTestWord);
       any |= hides;
     }
-    if (any == 0) return;  // nearly always
+    if (any == 0) return;  // almost always
     for (std::int32_t o = 0; o < last_ - first_; ++o) {
       const std::uint64_t all = may_occlude(first_ + o) ? ~std::uint64_t{0} : 0;
       for (std::int32_t w = 0; w < words_; ++w)
@@ -98,10 +100,10 @@ class Candidates {
     std::int64_t id;
     std::int32_t node;
   };
-  // What holds all nodes of the bucket.
+  // Bounds of the nodes of the bucket.
   struct Surroundings {
     Box<Dim> box;
-    double max;  // spacing
+    double max;  // largest spacing
   };
 
   static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -122,16 +124,16 @@ class Candidates {
   void test();
 
   std::int32_t bucket_ = -1;
-  std::int32_t first_ = 0, last_ = 0;  // the bucket's own nodes
+  std::int32_t first_ = 0, last_ = 0;  // range of the bucket's own nodes
   double half_radius_ = 0;
   std::int32_t count_ = 0;
-  std::int32_t words_ = 0;                  // of bits for each node
-  std::vector<Found> found_;                // and room for more
-  std::array<std::vector<double>, Dim> x_;  // whole groups, filled up with what is near nothing
+  std::int32_t words_ = 0;                  // number of bit words per own node
+  std::vector<Found> found_;                // the first count_ entries; the rest is spare room
+  std::array<std::vector<double>, Dim> x_;  // whole groups, padded with far-away points
   std::vector<double> d_;
-  std::vector<std::int32_t> own_;      // places of the bucket's own nodes among the candidates
-  std::vector<std::uint64_t> bits_;    // for each own node: which are its neighbours?
-  std::vector<std::uint64_t> hiding_;  // which of them all may hide others?
+  std::vector<std::int32_t> own_;      // indices of the bucket's own nodes among the candidates
+  std::vector<std::uint64_t> bits_;    // neighbours of each own node, a bit per candidate
+  std::vector<std::uint64_t> hiding_;  // candidates that may occlude, a bit for each
 };
 
 template <int Dim>
@@ -143,7 +145,7 @@ void Candidates<Dim>::gather(const Nodes<Dim>& nodes, const Buckets<Dim>& bucket
   half_radius_ = 0.5 * radius;
   count_ = 0;
   const Surroundings around = surroundings(nodes);
-  // Buckets that follow each other do so in memory.
+  // Consecutive buckets are contiguous in memory and are processed as one range.
   std::int32_t first = 0, last = 0;
   buckets.for_neighbours(bucket, [&](std::int32_t other) {
     if (buckets.begin(other) != last) {
@@ -172,12 +174,12 @@ typename Candidates<Dim>::Surroundings Candidates<Dim>::surroundings(
   return around;
 }
 
-// The arithmetic is that of the tests of pairs: rounding keeps the order of numbers, so that no
-// node is left out here that is near one of the bucket.
+// Uses the same arithmetic as the tests of pairs. As rounding is monotonic, no node near one of the
+// bucket is rejected here.
 template <int Dim>
 void Candidates<Dim>::add_near(const Nodes<Dim>& nodes, const Surroundings& around,
                                std::int32_t first, std::int32_t last) {
-  const auto room = index(count_ + last - first + 1);  // what is left out is written, too
+  const auto room = index(count_ + last - first + 1);  // rejected nodes are written, too
   if (found_.size() < room) found_.resize(room + kTestWord);
   const std::int64_t* const ids = nodes.id.data();
   Found* next = found_.data() + count_;
@@ -190,18 +192,19 @@ void Candidates<Dim>::add_near(const Nodes<Dim>& nodes, const Surroundings& arou
                                           return std::min(std::max(x, box.low[k]), box.high[k]);
                                         });
     bits &= (std::uint64_t{1} << std::min(kTestGroup, last - start)) - 1;
-    // One in three is near: branches would be guessed wrong too often.
+    // About one node in three is near, so branches are mispredicted too often.
     for (std::int32_t lane = 0; lane < kTestGroup; ++lane) {
       *next = {ids[start + lane], start + lane};
       next += bits >> lane & 1;
     }
   }
-  // The last nodes of all, fewer than a group, without a test.
+  // The last nodes of the array, fewer than a group, are accepted without a test.
   for (; start < last; ++start) *next++ = {ids[start], start};
   count_ = static_cast<std::int32_t>(next - found_.data());
 }
 
-// Ids follow the order of the buckets but for nodes that have changed theirs or came later.
+// Sorts the candidates by id. They are nearly sorted already because ids follow the order of the
+// buckets, except for nodes that moved or were inserted later.
 template <int Dim>
 void Candidates<Dim>::sort_by_id() {
   constexpr std::int32_t kMany = 256;
@@ -232,7 +235,8 @@ void Candidates<Dim>::copy(const Nodes<Dim>& nodes) {
     const std::int32_t j = node(c);
     for (int k = 0; k < Dim; ++k) x_[k][index(c)] = nodes.x[k](j);
     d_[index(c)] = nodes.d(j);
-    // Behind the own ones is one place for all others.
+    // All other nodes write to the spare entry behind those of the own nodes, which avoids a
+    // branch.
     own_[std::min(static_cast<std::uint32_t>(j - first_), own)] = c;
   }
   for (std::int32_t c = count_; c < padded; ++c) {
@@ -241,7 +245,7 @@ void Candidates<Dim>::copy(const Nodes<Dim>& nodes) {
   }
 }
 
-// Each node of the bucket against all candidates but itself.
+// Tests each node of the bucket against all candidates but itself.
 template <int Dim>
 void Candidates<Dim>::test() {
   const std::int32_t groups = groups_of(count_), groups_per_word = kTestWord / kTestGroup;

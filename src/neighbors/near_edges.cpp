@@ -31,7 +31,7 @@ void NearEdges::prepare(const SizedTree<2>& map, const LeafLinks<2>& links, doub
   }
 }
 
-// All edges within its reach of a leaf, and some more, by number.
+// Returns all edges within the search radius of a leaf, and possibly more, sorted by number.
 void NearEdges::gather_near(const SizedTree<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
                             std::vector<std::int32_t>& near) const {
   near.clear();
@@ -50,9 +50,9 @@ void NearEdges::gather_near(const SizedTree<2>& map, const LeafLinks<2>& links, 
   near.erase(std::unique(near.begin(), near.end()), near.end());
 }
 
-// Larger than the edge's own by what rounding can do to a distance from it.
+// Stores the box of an edge, enlarged by the rounding error of a distance from the edge.
 void NearEdges::add_box(const Point<2>& a, const Point<2>& b, double reach) {
-  constexpr double kRounding = 1e-12;  // thousands of times that of one operation
+  constexpr double kRounding = 1e-12;  // thousands of times the error of one operation
   for (int k = 0; k < 2; ++k) {
     const double room = kRounding * (std::fabs(a[k]) + std::fabs(b[k]) + reach);
     low_[k].push_back(std::min(a[k], b[k]) - room);
@@ -60,7 +60,7 @@ void NearEdges::add_box(const Point<2>& a, const Point<2>& b, double reach) {
   }
 }
 
-// Writes the edges near the nodes at consecutive places, one after the other.
+// Writes the edges near consecutive nodes.
 class NearEdges::Finder {
  public:
   Finder(NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets,
@@ -80,7 +80,8 @@ class NearEdges::Finder {
   }
 
  private:
-  // Most buckets have no edge near them, and all of their nodes were in their leaf.
+  // Detects buckets without near edges, which are the majority. All their nodes must have been in
+  // the leaf in `at_`.
   void look_at_bucket(std::int32_t bucket) {
     bucket_ = bucket;
     box_ = map_.tree().fine_box(bucket);
@@ -91,6 +92,7 @@ class NearEdges::Finder {
           map_.tree().fine_box_holds(box_, of_.place_of(i)) && of_.radius_ * nodes_.d(i) <= reach;
   }
 
+  // Returns the stored result for boundary nodes, which are searched once for each d.
   double find_once(std::int64_t i, std::vector<std::int32_t>& out) {
     const std::int32_t b = nodes_.boundary_node(i);
     Found& found = of_.at_boundary_nodes_[static_cast<std::size_t>(b)];
@@ -108,17 +110,19 @@ class NearEdges::Finder {
     return found.nearest;
   }
 
-  // From boundary node b, at x, to an edge; to the far end of its own.
+  // Returns the distance of boundary node b at x from an edge, or from the far end of an edge of
+  // its own.
   double distance_beyond(std::int32_t b, std::int32_t e, const Point<2>& x) const {
     const BoundaryEdge& edge = map_.facet(e);
     const bool begins = edge.begin == b, ends = edge.end == b;
-    if (begins && ends) return kFarAway;  // a fixed node
+    if (begins && ends) return kFarAway;  // the edge of a fixed node
     if (begins) return distance<2>(x, map_.corners(e)[1]);
     if (ends) return distance<2>(x, map_.corners(e)[0]);
     return distance_to_segment(map_.corners(e)[0], map_.corners(e)[1], x);
   }
 
-  // Returns the distance from the nearest, or how far was looked.
+  // Appends the edges within reach of node i. Returns the distance to the nearest one, or the reach
+  // if there is none.
   double find(std::int64_t i, std::vector<std::int32_t>& out) {
     const double reach = of_.radius_ * nodes_.d(i);
     const Point<2> x = of_.place_of(i);
@@ -138,7 +142,7 @@ class NearEdges::Finder {
     return nearest;
   }
 
-  // Calls visit(edge) for those edges of the leaf whose boxes are within reach of x.
+  // Calls visit(edge) for the edges of the leaf whose boxes are within reach of x.
   template <class Visit>
   void for_boxes_near(std::int32_t leaf, const Point<2>& x, double reach,
                       const Visit& visit) const {
@@ -150,10 +154,10 @@ class NearEdges::Finder {
         visit(of_.leaf_edges_[static_cast<std::size_t>(e + std::countr_zero(bits))]);
   }
 
-  // A bit for each of n boxes.
+  // Returns a bit for each of n boxes: 1 if it is within reach of x.
   std::uint64_t boxes_near(std::int32_t first, std::int32_t n, const Point<2>& x,
                            double reach) const {
-    constexpr double kRoom = 1 + 1e-12;  // rounding again
+    constexpr double kRoom = 1 + 1e-12;  // bounds the rounding error
     const double limit = kRoom * reach * reach;
     const double *const low_x = of_.low_[0].data() + first,
                         *const low_y = of_.low_[1].data() + first,
@@ -174,8 +178,8 @@ class NearEdges::Finder {
   const Buckets<2>& buckets_;
   const SizedTree<2>& map_;
   std::int32_t bucket_ = -1;
-  Box<2> box_{};               // of the bucket
-  bool nothing_near_ = false;  // to any node of it
+  Box<2> box_{};               // fine box of the bucket
+  bool nothing_near_ = false;  // true if no node of the bucket has edges near it
 };
 
 void NearEdges::build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary edges near each node: they separate pairs, and inner nodes keep off them.
+// The boundary edges near each node of a plane domain. Edges separate pairs of nodes, and inner
+// nodes keep a distance from them.
 #pragma once
 
 #include <algorithm>
@@ -16,31 +17,34 @@
 
 namespace pnpbs {
 
+// For each node: the boundary edges within radius * d_i, and the distance to the nearest one.
 class NearEdges {
  public:
-  // Once per level: which edges come near which leaf. The links tell which leaves are near it.
+  // Finds the edges near each leaf. Called once per level. `links` are the links of the leaves.
   void prepare(const SizedTree<2>& map, const LeafLinks<2>& links, double radius);
 
-  // At every rebuild of the lists: the edges within radius * d_i of each node, the nodes being at
-  // `at`. During the run that is where they were at the last event, so that it does not matter
-  // when the lists are made. Those of boundary nodes, which do not move, are found once.
+  // Finds the edges within radius * d_i of each node at its position in `at`. Called at every
+  // rebuild of the lists. During a run, `at` has the positions of the last event, so that the
+  // result does not depend on the time of the rebuild. Edges of boundary nodes, which do not move,
+  // are found only once.
   void build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,
              const SizedTree<2>& map);
 
-  // Is no edge near any place in this leaf?
+  // Returns true if no edge is near any point of this leaf.
   bool leaf_is_clear(std::int32_t leaf) const {
     const auto l = static_cast<std::size_t>(leaf);
     return leaf_offset_[l] == leaf_offset_[l + 1];
   }
 
+  // Returns true if an edge is within radius * d_i of node i.
   bool any(std::int64_t i) const { return any_(i) != 0; }
 
-  // Does an edge come nearer to node i than this, if that is no more than radius * d_i?
+  // Returns true if an edge is within `reach` of node i, which must be at most radius * d_i.
   bool edge_within(std::int64_t i, double reach) const { return any(i) && gap_(i) <= reach; }
 
-  // Does node i, which has edges near it, stay clear of all of them by more than `clearance` and by
-  // more than the way itself when it goes from one point to another? As far as its gap and how far
-  // it has come since tell: true is sure, false is not.
+  // Returns true if node i surely keeps more than `clearance` from all edges and crosses none when
+  // it moves from `from` to `to`. Node i must have edges near it. The test uses only the stored
+  // distance and the displacement since then, so false is inconclusive.
   bool stays_clear(std::int64_t i, const Point<2>& from, const Point<2>& to,
                    double clearance) const {
     constexpr double kRounding = 1 + 1e-8;
@@ -50,7 +54,7 @@ class NearEdges {
 
   std::span<const std::int32_t> edges_of(std::int64_t i) const { return edges_.row(i); }
 
-  // Are the nodes where they were for build()?
+  // Returns true if all nodes are at the positions that build() used.
   bool built_where_nodes_are(const Nodes<2>& nodes) const {
     return sum_of("pnpbs::NearEdges::built_where_nodes_are", nodes.count, [&](std::int64_t i) {
              return at_[0](i) != nodes.x[0](i) || at_[1](i) != nodes.x[1](i);
@@ -59,39 +63,40 @@ class NearEdges {
 
   double radius() const { return radius_; }
 
-  // Where node i was for build().
+  // Returns the position of node i that build() used.
   Point<2> place_of(std::int64_t i) const { return point_at<2>(at_, i); }
 
-  // Is no edge near enough to the two nodes to meet the way between them? Whatever meets it has
-  // distances from the two that add up to no more than its length.
+  // Returns true if no edge is near enough to nodes i and j to intersect the segment between them.
+  // The distances of the two nodes from an intersecting edge add up to at most its length.
   bool surely_visible(std::int64_t i, std::int64_t j) const {
     return shorter_than(i, j, gap_(i) + gap_(j));
   }
 
-  // Does the way from boundary node b, the number of node i, to inner node j meet nothing of the
-  // boundary but perhaps b's own edges?
+  // Returns true if the segment from node i, which is boundary node b, to inner node j surely meets
+  // no part of the boundary except edges of b.
   bool leaves_boundary_behind(std::int64_t i, std::int32_t b, std::int64_t j) const {
     return shorter_than(i, j, at_boundary_nodes_[static_cast<std::size_t>(b)].beyond + gap_(j));
   }
 
-  // Does none of the edges near node `wide` separate nodes i and j?
+  // Returns true if none of the edges near node `wide`, which is i or j, separates nodes i and j.
   bool visible_past_edges(const Nodes<2>& nodes, const SizedTree<2>& map,
                           const IncidentSectors& sectors, std::int64_t i, std::int64_t j,
                           std::int64_t wide) const;
 
  private:
-  // Is the way between two nodes surely shorter than that?
+  // Returns true if the distance between two nodes is surely less than `length`.
   bool shorter_than(std::int64_t i, std::int64_t j, double length) const {
     constexpr double kRounding = 1 - 1e-9;
     const double x = at_[0](i) - at_[0](j), y = at_[1](i) - at_[1](j);
     return x * x + y * y < (kRounding * length) * (kRounding * length);
   }
 
-  class Finder;  // of the edges near nodes
+  class Finder;  // finds the edges near nodes
+  // The edges near a boundary node.
   struct Found {
-    double reach = 0;  // how far was looked; 0: not yet
+    double reach = 0;  // search radius; 0 if not searched yet
     double nearest = 0;
-    double beyond = 0;  // to the nearest edge or node of the boundary that is not its own
+    double beyond = 0;  // distance of the nearest edge or node of the boundary but its own
     std::vector<std::int32_t> edges;
   };
   void gather_near(const SizedTree<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
@@ -100,18 +105,19 @@ class NearEdges {
 
   double radius_ = 0;
   Field<2> at_;
-  std::vector<double> leaf_reach_;         // how far from the leaf its edges were gathered
-  std::vector<std::int32_t> leaf_offset_;  // edges near each leaf
+  std::vector<double> leaf_reach_;         // search radius of each leaf
+  std::vector<std::int32_t> leaf_offset_;  // compressed rows: edges near each leaf
   std::vector<std::int32_t> leaf_edges_;
-  std::array<std::vector<double>, 2> low_, high_;  // boxes of leaf_edges_, a little too large
-  std::vector<Found> at_boundary_nodes_;           // by number
+  std::array<std::vector<double>, 2> low_, high_;  // boxes of leaf_edges_, slightly enlarged
+  std::vector<Found> at_boundary_nodes_;           // by boundary node
   ChunkedRows<std::int32_t> edges_;
   View<char> any_;
-  View<double> gap_;  // to the nearest edge, radius * d if none is nearer
+  View<double> gap_;  // distance to the nearest edge, at most radius * d
 };
 
-// Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
-// lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
+// Returns true if the straight segment from x to y stays inside the domain. `edges` must have all
+// edges that can lie between the points. boundary_x and boundary_y are the indices of boundary
+// nodes, or -1 for inner nodes.
 template <class Edges>
 bool visible_between(const SizedTree<2>& map, const IncidentSectors& sectors, const Point<2>& x,
                      std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
@@ -130,7 +136,8 @@ bool visible_between(const SizedTree<2>& map, const IncidentSectors& sectors, co
   if (boundary_x >= 0 && boundary_y >= 0 && sectors.joined(boundary_x, boundary_y)) return true;
   if (boundary_x >= 0 && !sectors.leads_inside(map.boundary(), boundary_x, y)) return false;
   if (boundary_y >= 0 && !sectors.leads_inside(map.boundary(), boundary_y, x)) return false;
-  // Past a boundary node that lies exactly on the way it goes only within one sector.
+  // A segment that passes exactly through a boundary node continues only within one sector of the
+  // node.
   const auto stops = [&](const Point<2>& node, std::int32_t boundary_node) {
     const int k = x[0] != y[0] ? 0 : 1;
     if (!(std::min(x[k], y[k]) < node[k] && node[k] < std::max(x[k], y[k]))) return false;
@@ -143,10 +150,11 @@ bool visible_between(const SizedTree<2>& map, const IncidentSectors& sectors, co
       continue;
     }
     const std::int32_t e = row[k];
-    if (boxes_are_apart(x, y, map.corners(e))) continue;  // most are
+    if (boxes_are_apart(x, y, map.corners(e))) continue;  // true for most edges
     const auto& [a, b] = map.corners(e);
     const std::int32_t begin = map.facet(e).begin, end = map.facet(e).end;
-    // Of ends that are x or y themselves this much is known, and exact arithmetic is slow.
+    // The orientation of an end that is x or y itself is known to be 0, and exact predicates are
+    // slow.
     const int side_a = begin == boundary_x || begin == boundary_y ? 0 : orientation(x, y, a);
     const int side_b = end == boundary_x || end == boundary_y ? 0 : orientation(x, y, b);
     if (side_a * side_b < 0 && orientation(a, b, x) * orientation(a, b, y) < 0) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rings of neighbours around a node: of its adjacency list or of its star. Contests look
-// through them: whoever is not outdone by a node within some rings may act.
+// Rings of neighbours around a node, in its adjacency list or its star. Contests use them: a
+// candidate acts only if no better one exists within a number of rings.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace pnpbs {
 
-// Calls visit(j, ring) for each node within so many rings around node i, but itself, ring by ring
-// from 1 on, until it returns false. Returns whether it never did.
+// Calls visit(j, ring) for each node within `rings` rings around node i, except i itself, ring by
+// ring from 1 on. Ends at the first call that returns false. Returns true if no call did.
 template <class Graph, class Visit>
 bool for_rings(const Graph& graph, std::int64_t i, int rings, const Visit& visit) {
   std::vector<std::int64_t> reached{i};
@@ -29,7 +29,7 @@ bool for_rings(const Graph& graph, std::int64_t i, int rings, const Visit& visit
   return all;
 }
 
-// The neighbours of these nodes that are not reached yet, which they are then.
+// Returns the neighbours of the nodes in `front` that are not marked in `reached`, and marks them.
 template <class Graph, class Index>
 std::vector<Index> next_ring(const Graph& graph, const std::vector<Index>& front,
                              std::vector<char>& reached) {

@@ -10,7 +10,7 @@ std::string nearest_name(std::string_view key, const std::vector<std::string>& n
   std::string nearest;
   std::size_t fewest = static_cast<std::size_t>(-1);
   for (const std::string& name : names) {
-    // Levenshtein distance, one row at a time.
+    // Computes the Levenshtein distance with a single row of the table.
     std::vector<std::size_t> row(name.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < key.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of tables, by the names that users give.
+// Lookup of table rows by the names that users give.
 #pragma once
 
 #include <string>
@@ -10,10 +10,11 @@
 
 namespace pnpbs {
 
-// The name in `names` that is nearest to `key` (fewest letters changed), for messages.
+// Returns the entry of `names` with the smallest edit distance to `key`, for error messages.
 std::string nearest_name(std::string_view key, const std::vector<std::string>& names);
 
-// Throws Error(ErrorKind::key) with the nearest known name; `what` it is a name of: "option".
+// Returns the row with this name. Throws Error(ErrorKind::key) with the nearest known name if there
+// is none. `what` is the kind of name in the message, such as "option".
 template <class Row>
 const Row& row_named(const std::string& key, const std::vector<Row>& table,
                      const std::string& what) {

@@ -12,14 +12,16 @@ namespace pnpbs {
 
 namespace {
 
-// On all ranks together: what sums and ids are laid out for (base/fixed_point.hpp).
+// Maximum number of nodes on all ranks together, which sums and ids are designed for
+// (base/fixed_point.hpp).
 constexpr double kMaxNodesInAll = 0x1p40;
 
-// What volumes need instead (docs/volumes.md), whatever the paper's preset is.
+// Defaults for bubbles in space (docs/volumes.md). They replace the other defaults, also under
+// method=paper.
 struct VolumeDefault {
   const char* name;
   const char* value;
-  const char* best_value = nullptr;  // with effort=best, if it is another one
+  const char* best_value = nullptr;  // under effort=best; NULL if it is the same
 };
 constexpr VolumeDefault kVolumeDefaults[] = {
     {"rest_length", "1.2"},
@@ -29,7 +31,8 @@ constexpr VolumeDefault kVolumeDefaults[] = {
     {"coarsest_steps", "400", "1000"},
     {"refined_steps", "100", "300"},
     {"delete_above", "19"},
-    // A vacancy leaves its neighbours near 13: only the aim of a mean distance fills it.
+    // A vacancy leaves the overlap ratios of its neighbours near 13. Only the target mean distance
+    // fills it.
     {"insert_below", "9"},
     {"sweeps", "3"},
     {"sweep_weight", "1"},
@@ -45,9 +48,9 @@ const VolumeDefault* default_in_space(std::string_view name) {
   return nullptr;
 }
 
-// Those with another default in space name it in their help, too.
+// Appends the default in space to the help of each option that has one.
 std::vector<OptionRow> naming_both_defaults(std::vector<OptionRow> rows) {
-  static std::vector<std::string> texts;  // helps point into it
+  static std::vector<std::string> texts;  // the help pointers refer to these texts
   texts.reserve(rows.size());
   for (OptionRow& row : rows)
     if (const VolumeDefault* in_space = default_in_space(row.name)) {
@@ -184,7 +187,8 @@ const std::vector<OptionRow>& option_table() {
 
 namespace {
 
-// Presets, whose values are those of other options, and what no node depends on.
+// Options that the nodes do not depend on. The presets are among them because they only set the
+// defaults of other options.
 constexpr std::string_view kNotDeciding[] = {
     "method",     "effort",    "adjacency_radius", "exchange_interval", "rebalance_above",
     "metis_seed", "max_nodes", "max_memory",       "restart_options",   "threads"};
@@ -306,7 +310,7 @@ std::vector<std::pair<std::string, std::string>> Options::deciding() const {
     std::string value = row.type == OptionType::choice    ? choice(row.name)
                         : row.type == OptionType::integer ? std::to_string(integer(row.name))
                                                           : number_text(real(row.name));
-    // Another meaning than the same value set.
+    // An unset limit has another meaning than a set limit of the same value.
     if (std::string_view(row.name) == "growth_limit" && !is_set("growth_limit"))
       value += " (not set)";
     rows.emplace_back(row.name, std::move(value));

@@ -49,7 +49,7 @@ Settings::Settings(const Options& o)
   repair.rounds = o.integer("smoothing_rounds");
   defects.rounds = o.integer("topology_repairs");
   repair.bad_below = o.real("smooth_below");
-  // The lists must reach beyond the force, or they could never be kept for a step.
+  // The lists must reach beyond the range of the force, or no list could be kept for even one step.
   const double min_radius = force_range() + 0.1;
   if (list_radius < min_radius) list_radius = min_radius;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of a placement as the numbers the method works with.
+// The options of a placement as the numbers that the method computes with.
 #pragma once
 
 #include <cstdint>
@@ -16,27 +16,29 @@
 
 namespace pnpbs {
 
+// The values of all options for one dimension.
 struct Settings {
-  // The defaults of some depend on the dimension.
+  // Reads the options with the defaults for this dimension of bubbles.
   Settings(const Options& options, int dimension);
+  // Reads the options with the dimension that they have.
   explicit Settings(const Options& options);
 
-  int bubble_dimension = 2;  // of what the bubbles fill: 3 inside a volume, 2 on a surface
+  int bubble_dimension = 2;  // 3 inside a volume, 2 in the plane and on surfaces
   bool cubic_law;            // equation (2) of the paper; otherwise DefaultLaw
-  bool predictor_corrector;  // otherwise one force evaluation per step
+  bool predictor_corrector;  // two force evaluations per step, otherwise one
   bool runge_kutta_finish;
   double rest_length;
   Motion motion;
   std::int64_t steps;
-  int levels;                   // coarser ones
+  int levels;                   // number of coarser levels
   std::int64_t coarsest_steps;  // on the coarsest of several levels
-  std::int64_t refined_steps;   // on those between it and the finest
+  std::int64_t refined_steps;   // on levels between the coarsest and the finest
   std::int64_t event_interval;
-  double population_share;      // of the steps
+  double population_share;      // share of the steps
   double population_tolerance;  // share of the nodes
   PopulationRule population;
-  double tolerance_mean, tolerance_max;  // scaled speeds
-  bool first_row;  // of one node over each regular edge of the boundary, in the plane
+  double tolerance_mean, tolerance_max;  // scaled speeds, in spacings per unit of time
+  bool first_row;                        // plane: a node over each regular edge of the boundary
   std::int64_t sweeps;
   SweepRule sweep;
   RepairRule repair;
@@ -46,18 +48,18 @@ struct Settings {
   DefectRule defects;
   double list_radius, adjacency_radius;
   double growth_limit;
-  bool growth_limit_set;  // by the user: otherwise it counts where nodes could not follow d
-  bool resolve;           // hold d down where it does not resolve the shape, in space
+  bool growth_limit_set;  // otherwise it applies only where nodes cannot follow d
+  bool resolve;           // space: reduce d where it does not resolve the shape
   std::int64_t conforming_rounds;
   double min_angle;  // degrees
   std::int64_t max_nodes;
-  double max_memory;                                           // share of what there is; 0: any
-  double max_bytes = std::numeric_limits<double>::infinity();  // the placement's business
+  double max_memory;  // share of the available memory; 0: no limit
+  double max_bytes = std::numeric_limits<double>::infinity();  // set by the placement
   std::int64_t exchange_interval;                              // steps
   std::int64_t metis_seed;
   double rebalance_above;  // largest over mean owned work
 
-  bool lays_first_row() const { return first_row && sweeps > 0; }  // which sweeps must relax
+  bool lays_first_row() const { return first_row && sweeps > 0; }  // sweeps must relax the row
   bool user_limits_growth() const { return growth_limit_set && growth_limit > 0; }
   NodeLimit node_limit() const {
     NodeLimit limit(max_nodes, max_bytes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The background tree: a quadtree (octree) over the domain's bounding box. It is anchored to the
-// box and refined by d and the boundary alone, so it is the same on every rank. Its leaves are the
-// buckets in which nodes are found; d is sampled on it; the partition cuts it.
+// The background tree: a quadtree (octree) over the bounding box of the domain. It depends only on
+// the box, d and the boundary, so it is the same on every rank. Its leaves are the buckets of the
+// nodes, d is sampled in its cells, and the partition distributes its cells.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 
 namespace pnpbs {
 
+// A quadtree or octree whose leaves are numbered in Morton order.
 template <int Dim>
 class BackgroundTree {
  public:
@@ -23,23 +24,25 @@ class BackgroundTree {
   static constexpr int kMaxDepth = 30;
 
   struct Cell {
-    std::array<std::uint32_t, Dim> index;  // position among the cells of its depth
+    std::array<std::uint32_t, Dim> index;  // integer coordinates among the cells of its depth
     std::int32_t depth;
-    std::int32_t first_child;  // the children are consecutive, in Morton order; -1 for a leaf
-    std::int32_t leaf;         // place among the leaves in Morton order; -1 for others
+    std::int32_t first_child;  // first of 2^Dim children, in Morton order; -1 for a leaf
+    std::int32_t leaf;         // index among the leaves in Morton order; -1 for other cells
   };
 
-  // Is asked for all cells of one depth at once; sets split[c - first] for cells first .. last-1.
+  // Decides which cells are split. Called once for all cells of a depth; sets split[c - first] to 1
+  // for each cell c in first .. last-1 that is to be split.
   using Splitter = std::function<void(const BackgroundTree& tree, std::int32_t first,
                                       std::int32_t last, std::vector<char>& split)>;
-  // Whether to go on to the next depth, asked with whether there is one. Where each rank refines
-  // its own part of the tree, all go on as long as one does, so that they sample d in step.
+  // Decides whether the tree grows to the next depth; `more` is true if the tree has cells there.
+  // If each rank refines its own part of the tree, this function is collective: all ranks continue
+  // while one of them has cells, so that they sample d in step.
   using GoOn = std::function<bool(bool more)>;
 
   BackgroundTree() = default;
 
-  // The root is a square (cube) a little larger than the box, so that every point of the box lies
-  // strictly inside.
+  // Builds the tree. The root is a square (cube) slightly larger than the box, so that every point
+  // of the box lies strictly inside.
   void build(
       const Box<Dim>& box, const Splitter& splitter,
       const GoOn& go_on = [](bool more) { return more; }) {
@@ -76,6 +79,7 @@ class BackgroundTree {
   double side() const { return side_; }
   double cell_side(std::int32_t c) const { return sides_[static_cast<std::size_t>(cell(c).depth)]; }
 
+  // Returns the box of a cell.
   Box<Dim> cell_box(std::int32_t c) const {
     const double s = cell_side(c);
     Box<Dim> box;
@@ -86,8 +90,9 @@ class BackgroundTree {
     return box;
   }
 
-  // The same, with room for rounding: the arithmetic of leaf_at may put points into a cell that lie
-  // that far beyond its box. Of a small domain far from the origin this is no longer small.
+  // Returns the box of a cell, enlarged by the rounding error of leaf_at, which may assign points
+  // to a cell that lie just outside its box. The enlargement is not negligible for a small domain
+  // far from the origin.
   Box<Dim> cell_box_with_room(std::int32_t c) const {
     Box<Dim> box = cell_box(c);
     for (int k = 0; k < Dim; ++k) {
@@ -104,15 +109,15 @@ class BackgroundTree {
     return centre;
   }
 
-  // The leaf that holds x; points beyond the root belong to the leaf at its border.
+  // Returns the leaf that contains x, or the nearest leaf at the border if x is outside the root.
   std::int32_t leaf_at(const Point<Dim>& x) const { return cell(cell_at(x, kMaxDepth)).leaf; }
 
-  // The same, quickly if it is the leaf guessed (-1: none).
+  // Returns the same. Faster if `guess` is this leaf; -1 means no guess.
   std::int32_t leaf_at(const Point<Dim>& x, std::int32_t guess) const {
     return guess >= 0 && leaf_holds(guess, x) ? guess : leaf_at(x);
   }
 
-  // The cell that holds x, at this depth or, where the tree ends before, a leaf.
+  // Returns the cell at this depth that contains x, or the leaf that contains x if it is less deep.
   std::int32_t cell_at(const Point<Dim>& x, int depth) const {
     const std::array<std::uint32_t, Dim> fine = fine_index(x);
     std::int32_t c = 0;
@@ -125,7 +130,8 @@ class BackgroundTree {
     return c;
   }
 
-  // Position among the cells of the largest depth; of what is no number, the first.
+  // Returns the integer coordinates of x among the cells of the largest depth. A coordinate that is
+  // NaN gives 0.
   std::array<std::uint32_t, Dim> fine_index(const Point<Dim>& x) const {
     std::array<std::uint32_t, Dim> fine;
     for (int k = 0; k < Dim; ++k) {
@@ -135,7 +141,8 @@ class BackgroundTree {
     return fine;
   }
 
-  // The half-open box of a leaf in cells of the largest depth, for many questions about it.
+  // Returns the half-open box of a leaf in units of the cells of the largest depth. Used for many
+  // tests on the same leaf.
   Box<Dim> fine_box(std::int32_t leaf) const {
     const Cell& c = cell(leaf_cell(leaf));
     const double cells = static_cast<double>(1u << (kMaxDepth - c.depth));
@@ -147,7 +154,7 @@ class BackgroundTree {
     return box;
   }
 
-  // Is x in the leaf with this box? Decided with the arithmetic of leaf_at.
+  // Returns true if x lies in the leaf with this box. The test uses the same arithmetic as leaf_at.
   bool fine_box_holds(const Box<Dim>& box, const Point<Dim>& x) const {
     bool holds = true;
     for (int k = 0; k < Dim; ++k) {
@@ -161,20 +168,22 @@ class BackgroundTree {
     return fine_box_holds(fine_box(leaf), x);
   }
 
-  // Calls visit(leaf) for all leaves whose closed box meets the closed box given, in Morton order.
+  // Calls visit(leaf) for all leaves whose closed box intersects the closed box `box`, in Morton
+  // order.
   template <class Visit>
   void for_leaves_in(const Box<Dim>& box, const Visit& visit) const {
     for_leaves_in(
         box, [](std::int32_t) { return true; }, visit);
   }
-  // The same, but leaves out cells for which enter(cell) is false, with all that is in them.
+  // The same, but skips each cell for which enter(cell) is false and all leaves in it.
   template <class Enter, class Visit>
   void for_leaves_in(const Box<Dim>& box, const Enter& enter, const Visit& visit) const {
     visit_cell(cell_around(box), box, enter, visit);
   }
 
  private:
-  // The smallest cell with the box well inside: no other cell outside it meets the box.
+  // Returns the smallest cell that contains the box with a margin. No cell outside it intersects
+  // the box.
   std::int32_t cell_around(const Box<Dim>& box) const {
     const std::array<std::uint32_t, Dim> low = fine_index(box.low), high = fine_index(box.high);
     std::uint32_t differing = 0;
@@ -227,13 +236,13 @@ class BackgroundTree {
   }
 
   Point<Dim> origin_{};
-  Point<Dim> rounding_{};                            // of coordinates in cells
-  static constexpr double kCells = 1u << kMaxDepth;  // of the largest depth, in a row
+  Point<Dim> rounding_{};                            // rounding error of leaf_at, by coordinate
+  static constexpr double kCells = 1u << kMaxDepth;  // cells of the largest depth along a side
   static constexpr std::uint32_t kLastIndex = (1u << kMaxDepth) - 1u;
 
   double side_ = 1;
   double scale_ = kCells;                      // cells of the largest depth per unit of length
-  std::array<double, kMaxDepth + 1> sides_{};  // of the cells of each depth
+  std::array<double, kMaxDepth + 1> sides_{};  // side of the cells, by depth
   std::vector<Cell> cells_;
   std::vector<std::int32_t> leaves_;
 };

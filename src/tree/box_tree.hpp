@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes sorted into nested boxes, to find those that hold a point, lie near it or meet a box. What
-// is visited depends on the boxes only; in which order does not matter to who asks.
+// A binary tree of boxes, which finds the boxes that contain a point, lie near it or intersect a
+// box. The set of visited boxes depends only on the boxes. Callers must not depend on the order of
+// the visits.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 namespace pnpbs {
 
-// 0 inside.
+// Returns the squared distance of x from the box, which is 0 inside.
 template <int Dim>
 double squared_gap_to(const Box<Dim>& box, const std::type_identity_t<Point<Dim>>& x) {
   double sum = 0;
@@ -26,7 +27,7 @@ double squared_gap_to(const Box<Dim>& box, const std::type_identity_t<Point<Dim>
   return sum;
 }
 
-// 0 where they meet.
+// Returns the squared distance between two boxes, which is 0 if they intersect.
 template <int Dim>
 double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
   double sum = 0;
@@ -37,13 +38,15 @@ double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
   return sum;
 }
 
+// Returns true if x lies in the box or on its border.
 template <int Dim>
 bool in_closed_box(const Box<Dim>& box, const std::type_identity_t<Point<Dim>>& x) {
   for (int k = 0; k < Dim; ++k)
-    if (!(x[k] >= box.low[k] && x[k] <= box.high[k])) return false;  // nor is NaN
+    if (!(x[k] >= box.low[k] && x[k] <= box.high[k])) return false;  // also if x is NaN
   return true;
 }
 
+// Returns true if the closed boxes intersect.
 template <int Dim>
 bool boxes_meet(const Box<Dim>& a, const std::type_identity_t<Box<Dim>>& b) {
   for (int k = 0; k < Dim; ++k)
@@ -51,6 +54,7 @@ bool boxes_meet(const Box<Dim>& a, const std::type_identity_t<Box<Dim>>& b) {
   return true;
 }
 
+// Returns the smallest box that contains both boxes.
 template <int Dim>
 Box<Dim> joined(const Box<Dim>& a, const std::type_identity_t<Box<Dim>>& b) {
   Box<Dim> box;
@@ -61,6 +65,7 @@ Box<Dim> joined(const Box<Dim>& a, const std::type_identity_t<Box<Dim>>& b) {
   return box;
 }
 
+// A bounding volume hierarchy over given boxes, which are identified by their indices.
 template <int Dim>
 class BoxTree {
  public:
@@ -72,33 +77,34 @@ class BoxTree {
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) split(cell);
   }
 
-  // Calls visit(box) for every box that holds x, its border included.
+  // Calls visit(box) for every box that contains x. Boxes are closed.
   template <class Visit>
   void for_holding(const Point<Dim>& x, const Visit& visit) const {
     walk([&](const Box<Dim>& box) { return in_closed_box(box, x); }, visit);
   }
 
-  // Calls visit(box) for every box that has a point in common with this one, borders included.
+  // Calls visit(box) for every box that intersects `other`. Boxes are closed.
   template <class Visit>
   void for_meeting(const Box<Dim>& other, const Visit& visit) const {
     walk([&](const Box<Dim>& box) { return boxes_meet(box, other); }, visit);
   }
 
-  // Calls visit(box) for every box that enter(box) lets in; what it does not let in of the boxes
-  // that hold several is passed over with all that it holds.
+  // Calls visit(box) for every box for which enter(box) is true. `enter` is also called for the
+  // bounding boxes of the cells of the tree, and a cell for which it is false is skipped. It must
+  // therefore be true for a box that contains an entered one.
   template <class Enter, class Visit>
   void for_entered(const Enter& enter, const Visit& visit) const {
     walk(enter, visit);
   }
 
-  // Calls visit(box) for every box with a squared distance to x of at most limit(), which may
-  // shrink on the way; nearer ones mostly come first.
+  // Calls visit(box) for every box whose squared distance from x is at most limit(). The limit may
+  // shrink during the visits. Nearer boxes are mostly visited first.
   template <class Limit, class Visit>
   void for_near(const Point<Dim>& x, const Limit& limit, const Visit& visit) const {
     for_near(
         x, limit, [](std::size_t) { return true; }, visit);
   }
-  // Likewise, but passes over the cells, by their numbers, for which may_be_near(cell) is false.
+  // The same, but skips the cells of the tree for which may_be_near(cell) is false.
   template <class Limit, class MayBeNear, class Visit>
   void for_near(const Point<Dim>& x, const Limit& limit, const MayBeNear& may_be_near,
                 const Visit& visit) const {
@@ -107,19 +113,20 @@ class BoxTree {
   }
 
   std::size_t cell_count() const { return cells_.size(); }
-  // Returns the boxes in a cell.
+  // Returns the indices of the boxes in a cell of the tree.
   std::span<const std::int32_t> in_cell(std::size_t c) const {
     return {order_.data() + cells_[c].begin, order_.data() + cells_[c].end};
   }
 
-  // About this many boxes that hold all.
+  // Returns about `many` boxes that together cover all boxes.
   std::vector<Box<Dim>> cover(std::size_t many) const {
     std::vector<Box<Dim>> cover;
     std::vector<std::int32_t> open;
     if (!cells_.empty()) open.push_back(0);
     for (std::size_t next = 0; next < open.size(); ++next) {
       const Cell& cell = cells_[index(open[next])];
-      // `open` in all holds twice as many cells as remain whole.
+      // `open` ends up with about twice as many cells as are returned, since it also contains their
+      // ancestors.
       if (cell.child < 0 || open.size() >= 2 * many) {
         cover.push_back(cell.box);
         continue;
@@ -131,10 +138,11 @@ class BoxTree {
   }
 
  private:
+  // A cell of the tree.
   struct Cell {
     Box<Dim> box;
-    std::int32_t begin, end;  // in order_
-    std::int32_t child;       // the first of two, or -1
+    std::int32_t begin, end;  // range of its boxes in order_
+    std::int32_t child;       // index of the first of two children, or -1
   };
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -146,7 +154,7 @@ class BoxTree {
     for (std::int32_t i = begin; i < end; ++i) box = joined(box, boxes_[index(order_[index(i)])]);
     cells_[c].box = box;
     if (end - begin <= kLeafSize) return;
-    int k = 0;  // across the longest side
+    int k = 0;  // the axis of the longest side
     for (int other = 1; other < Dim; ++other)
       if (box.high[k] - box.low[k] < box.high[other] - box.low[other]) k = other;
     const auto twice_middle = [&](std::int32_t b) {

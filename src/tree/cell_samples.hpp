@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places in a cell of the background tree.
+// The points at which d is sampled in a cell of the background tree.
 #pragma once
 
 #include "base/types.hpp"
 
 namespace pnpbs {
 
-// Where d is sampled in a cell, in units of its side: in its middle, and in those of the cells it
-// may be split into.
+// Returns the sample points of a cell in units of its side: its centre and the centres of its
+// children.
 template <int Dim>
 constexpr std::array<Point<Dim>, 1 + (1 << Dim)> cell_samples() {
   std::array<Point<Dim>, 1 + (1 << Dim)> samples{};
@@ -19,6 +19,7 @@ constexpr std::array<Point<Dim>, 1 + (1 << Dim)> cell_samples() {
   return samples;
 }
 
+// Returns the point at the given fractions of the sides of a box.
 template <int Dim>
 Point<Dim> point_in(const Box<Dim>& box, const Point<Dim>& fraction) {
   Point<Dim> x;
@@ -27,22 +28,23 @@ Point<Dim> point_in(const Box<Dim>& box, const Point<Dim>& fraction) {
   return x;
 }
 
+// Returns the centre of a box.
 template <int Dim>
 Point<Dim> middle_of(const Box<Dim>& box) {
   return point_in<Dim>(box, cell_samples<Dim>()[0]);
 }
 
-// Do so many of a cell's samples, those inside the domain, tell what d is in it? A side of the
-// domain that lies in faces of cells, or a thin wall, leaves large cells without any. (In the
-// plane, boundary nodes lie densely enough.)
+// Returns true if the number of a cell's samples inside the domain suffices to sample d in the
+// cell. In space, a side of the domain that lies in cell faces, or a thin wall, leaves large cells
+// with few or no samples inside. In the plane, boundary nodes are dense enough.
 template <int Dim>
 constexpr bool samples_suffice(std::size_t inside) {
   return Dim == 2 || inside >= 4;
 }
 
-// What stands for the samples of a cell that are outside: the points of the boundary nearest to
-// them, as far as they are in the cell; if that is none, and no sample is inside, the one nearest
-// to its middle.
+// Appends the points that replace those samples of a cell that are outside the domain: the boundary
+// points nearest to them, if they lie in the cell. If there is none, and no sample is inside the
+// domain either, appends the boundary point nearest to the centre of the cell.
 template <int Dim, class Inside, class Nearest>
 void add_samples_of_boundary(const Box<Dim>& box, const Inside& inside, const Nearest& nearest,
                              std::vector<Point<Dim>>& points) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The leaves of a background tree too large for one rank: each rank has a stretch of them in
-// Morton order, and all ranks know where the stretches begin.
+// The leaves of a background tree that is too large for one rank. Each rank has a contiguous range
+// of the leaves in Morton order, and all ranks know where the ranges begin.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@
 
 namespace pnpbs {
 
-// A place in units of the smallest cells there can be.
+// Integer coordinates in units of the smallest possible cells.
 template <int Dim>
 using FineIndex = std::array<std::uint32_t, Dim>;
 
-// Does a come before b in Morton order? The highest bit in which they differ decides, and of the
-// directions that differ in it the last one.
+// Returns true if a precedes b in Morton order. The coordinates that differ in the highest bit
+// decide, and among these the last one.
 template <std::size_t Dim>
 bool morton_before(const std::array<std::uint32_t, Dim>& a,
                    const std::array<std::uint32_t, Dim>& b) {
@@ -36,17 +36,20 @@ bool morton_before(const std::array<std::uint32_t, Dim>& a,
   return a[decides] < b[decides];
 }
 
+// A leaf, independent of any tree object.
 template <int Dim>
 struct LeafCell {
-  std::array<std::uint32_t, Dim> index{};  // position among the cells of its depth
+  std::array<std::uint32_t, Dim> index{};  // integer coordinates among the cells of its depth
   std::int32_t depth = 0;
 
   std::uint32_t fine_side() const { return 1u << (BackgroundTree<Dim>::kMaxDepth - depth); }
+  // Returns the first fine cell of the leaf in Morton order.
   FineIndex<Dim> first() const {
     FineIndex<Dim> corner = index;
     for (std::uint32_t& i : corner) i *= fine_side();
     return corner;
   }
+  // Returns the last fine cell of the leaf in Morton order.
   FineIndex<Dim> last() const {
     FineIndex<Dim> corner = first();
     for (std::uint32_t& i : corner) i += fine_side() - 1;
@@ -64,7 +67,7 @@ struct LeafCell {
   }
 };
 
-// Do they share a point?
+// Returns true if the two closed cells have a common point.
 template <int Dim>
 bool touching(const LeafCell<Dim>& a, const LeafCell<Dim>& b) {
   const FineIndex<Dim> first_a = a.first(), first_b = b.first();
@@ -74,12 +77,13 @@ bool touching(const LeafCell<Dim>& a, const LeafCell<Dim>& b) {
   return true;
 }
 
-// Who has what.
+// Maps each cell to the ranks that have its leaves.
 template <int Dim>
 class Stretches {
  public:
   Stretches() = default;
-  // own: this rank's leaves, in Morton order. Collective.
+  // Collects the ranges of all ranks. `own` has the leaves of this rank in Morton order and may be
+  // empty. Collective.
   Stretches(const Communicator& comm, const std::vector<LeafCell<Dim>>& own) {
     Bytes mine;
     if (!own.empty()) pack(mine, Begin{own.front().first(), comm.rank()});
@@ -87,11 +91,13 @@ class Stretches {
                        [this](const Begin& begin) { begins_.push_back(begin); });
   }
 
+  // Returns the rank that has the leaf with this fine cell.
   std::int32_t rank_with(const FineIndex<Dim>& fine) const {
     return begins_[static_cast<std::size_t>(stretch_with(fine))].rank;
   }
 
-  // Calls visit(rank) for all ranks with leaves in a cell, or with the leaf that the cell is in.
+  // Calls visit(rank) for all ranks that have leaves in the cell, or for the rank with the leaf
+  // that contains the cell.
   template <class Visit>
   void for_ranks_in(const LeafCell<Dim>& cell, const Visit& visit) const {
     const std::int64_t last = stretch_with(cell.last());
@@ -112,11 +118,11 @@ class Stretches {
     return next - begins_.begin() - 1;
   }
 
-  std::vector<Begin> begins_;  // of the ranks that have leaves
+  std::vector<Begin> begins_;  // of the ranks with leaves, in Morton order
 };
 
-// Gives all ranks equal numbers of the records, which stay in the order of ranks and places.
-// Collective.
+// Redistributes the records so that all ranks have equal numbers of them. The global order of the
+// records, by rank and index, is preserved. Collective.
 template <class Record>
 void spread_evenly(const Communicator& comm, std::vector<Record>& records) {
   if (comm.size() == 1) return;

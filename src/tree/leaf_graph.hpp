@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which leaves of the background tree interact: those of which one reaches the other. Compressed
-// rows; each leaf is among its own neighbours.
+// Graph of the interacting leaves of the background tree: two leaves are neighbours if one of them
+// reaches the other. The rows are compressed, and each leaf is its own neighbour.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,14 @@
 
 namespace pnpbs {
 
+// The neighbours of each leaf.
 template <int Dim>
 class LeafGraph {
  public:
-  // reach[leaf]: 0 for a leaf that interacts with nothing. In the chart of a sphere stretch[leaf]
-  // is the chart's largest in it. There bubbles grow towards the point projected from, and the last
-  // ones would reach all others: what counts is how far either reaches along the sphere.
+  // Builds the graph. reach[leaf] is the length up to which a leaf interacts, or 0 if it does not
+  // interact. On a sphere, stretch[leaf] is the maximum stretch of the chart in the leaf. Bubbles
+  // near the projection point are so large in the chart that they reach all others, so pairs must
+  // also be within reach along the sphere.
   void build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
              const std::vector<double>& stretch = {});
 
@@ -27,7 +29,7 @@ class LeafGraph {
   std::int32_t end(std::int32_t leaf) const { return offset_[index(leaf) + 1]; }
   std::int32_t neighbour(std::int32_t k) const { return neighbours_[index(k)]; }
 
-  // In Morton order.
+  // Calls visit(neighbour) in Morton order.
   template <class Visit>
   void for_neighbours(std::int32_t leaf, const Visit& visit) const {
     for (std::int32_t k = begin(leaf); k < end(leaf); ++k) visit(neighbour(k));
@@ -40,10 +42,10 @@ class LeafGraph {
   std::vector<std::int32_t> neighbours_;
 };
 
-// d may grow in a leaf by this factor above what is known of it before a link could be missing.
+// Factor by which d may grow in a leaf above its known maximum before links could be missing.
 inline constexpr double kRoomForGrowth = 1.25;
 
-// The graph for bubbles that reach so far from each leaf.
+// A leaf graph together with the reaches that it was built for.
 template <int Dim>
 struct LeafLinks {
   LeafLinks(const BackgroundTree<Dim>& tree, std::vector<double> reaches,
@@ -55,13 +57,14 @@ struct LeafLinks {
   LeafGraph<Dim> graph;
 };
 
-// Every leaf looks as far as it reaches itself; a pair is linked if either sees the other. (Pairs
-// of bubbles reach half as far each, but the stars must know of every bubble that near.)
+// Every leaf searches as far as it reaches itself, and a pair is linked if either leaf finds the
+// other. Lists contain only pairs within the mean of both reaches, but stars require all nodes
+// within the larger one.
 template <int Dim>
 void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
                            const std::vector<double>& stretch) {
   const std::int32_t leaves = tree.leaf_count();
-  ChunkedRows<std::int32_t> seen;  // of each pair, only in the row of the one that reaches farther
+  ChunkedRows<std::int32_t> seen;  // has each pair in the row of the leaf with the larger reach
   seen.build("pnpbs::LeafGraph::look", leaves, [&] {
     return [&](std::int64_t row, std::vector<std::int32_t>& out) {
       const auto a = static_cast<std::int32_t>(row);

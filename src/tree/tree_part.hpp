@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One rank's part of a background tree that is spread over ranks (leaf_cells.hpp): its own leaves,
-// copies of those of other ranks that touch them, and which of all these touch.
+// One rank's part of a background tree that is distributed over ranks (leaf_cells.hpp): its own
+// leaves, copies of the leaves of other ranks that touch them, and the adjacency of all these
+// leaves.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +17,13 @@
 
 namespace pnpbs {
 
+// Own leaves and copied leaves of a rank, numbered in this order.
 template <int Dim>
 class TreePart {
  public:
   TreePart() = default;
-  // own: this rank's leaves in Morton order; those that are not `live` touch nothing. Collective.
+  // Builds the part. `own` has the leaves of this rank in Morton order. Leaves whose `live` is 0
+  // are adjacent to no other leaf. Collective.
   TreePart(const Communicator& comm, const Box<Dim>& bounds, std::vector<LeafCell<Dim>> own,
            std::vector<char> live)
       : stretches_(comm, own), own_(std::ssize(own)), cells_(std::move(own)) {
@@ -30,11 +33,11 @@ class TreePart {
     link(live);
   }
 
-  // Own leaves come first, then the copies.
+  // Own leaves have the indices 0 .. own_count()-1, and copies the following ones.
   std::int64_t own_count() const { return own_; }
   std::int64_t count() const { return std::ssize(cells_); }
 
-  // The leaf that holds x, -1 if that is not here.
+  // Returns the leaf that contains x, or -1 if this rank has neither the leaf nor a copy.
   std::int64_t leaf_at(const Point<Dim>& x) const {
     return number_[static_cast<std::size_t>(tree_.leaf_at(x))];
   }
@@ -43,12 +46,12 @@ class TreePart {
     return stretches_.rank_with(tree_.fine_index(x));
   }
 
-  // Those that touch a leaf: of an own one all, of a copy own ones.
+  // Returns the adjacent leaves: all of them for an own leaf, only own leaves for a copy.
   std::span<const std::int32_t> touching_leaves(std::int64_t leaf) const {
     return touching_.row(leaf);
   }
 
-  // How values of leaves reach their copies: fill_ghosts.
+  // Returns the exchange plan that copies values of own leaves to their copies, for fill_ghosts.
   const ExchangePattern& border() const { return border_; }
 
  private:
@@ -56,7 +59,8 @@ class TreePart {
     std::int64_t begin, end;
   };
 
-  // An own leaf goes to all ranks that have something in one of the cells of its size around it.
+  // Sends a copy of each own leaf to all ranks that have leaves in the cells of the same size
+  // around it. Collective.
   void exchange_borders(const Communicator& comm, const std::vector<char>& live) {
     if (comm.size() == 1) return;
     std::map<std::int32_t, std::vector<std::int64_t>> sent;  // by rank
@@ -84,7 +88,7 @@ class TreePart {
 
   void keep_pattern(std::map<std::int32_t, std::vector<std::int64_t>> sent,
                     std::map<std::int32_t, std::int64_t> received) {
-    for (const auto& [rank, count] : received) sent[rank];  // of some there are copies only
+    for (const auto& [rank, count] : received) sent[rank];  // some ranks only send copies
     border_.send_offsets.assign(1, 0);
     border_.receive_offsets.assign(1, 0);
     std::int64_t next = own_;
@@ -97,6 +101,8 @@ class TreePart {
     }
   }
 
+  // Calls visit(rank) for all ranks with leaves in the cell and in the cells of the same size
+  // around it.
   template <class Visit>
   void for_ranks_around(const LeafCell<Dim>& cell, const Visit& visit) const {
     constexpr int kAround = Dim == 2 ? 9 : 27;
@@ -105,15 +111,15 @@ class TreePart {
       LeafCell<Dim> other = cell;
       bool there = true;
       for (int k = 0, code = around; k < Dim; ++k, code /= 3) {
-        other.index[k] += static_cast<std::uint32_t>(code % 3) - 1u;  // none is below 0: wraps
+        other.index[k] += static_cast<std::uint32_t>(code % 3) - 1u;  // wraps below 0
         there = there && other.index[k] < cells;
       }
       if (there) stretches_.for_ranks_in(other, visit);
     }
   }
 
-  // The place of a leaf among all that are here, in Morton order: copies come by rank, and ranks
-  // have stretches.
+  // Returns the leaf with this index in Morton order. Copies are sorted by rank and each rank has
+  // one range, so the copies from lower ranks precede the own leaves.
   std::int64_t leaf_in_order(std::int64_t place) const {
     if (place < before_) return own_ + place;
     return place < before_ + own_ ? place - before_ : place;
@@ -122,10 +128,10 @@ class TreePart {
     return cells_[static_cast<std::size_t>(leaf_in_order(place))];
   }
 
-  // Whatever is not here is left coarse.
+  // Builds a local tree with the leaves of this part. Its other cells are left coarse.
   void grow_tree(const Box<Dim>& bounds) {
-    std::vector<Range> ranges{{0, count()}};  // of the cells: what is in them
-    std::int32_t parents = 0;                 // first cell of the depth above
+    std::vector<Range> ranges{{0, count()}};  // leaves of this part in each cell
+    std::int32_t parents = 0;                 // index of the first cell of the depth above
     tree_.build(bounds, [&](const BackgroundTree<Dim>& tree, std::int32_t first, std::int32_t last,
                             std::vector<char>& split) {
       add_ranges(tree, parents, first, ranges);
@@ -146,7 +152,7 @@ class TreePart {
     }
   }
 
-  // Of the children of the cells first .. last-1.
+  // Appends the ranges of the children of the cells first .. last-1.
   void add_ranges(const BackgroundTree<Dim>& tree, std::int32_t first, std::int32_t last,
                   std::vector<Range>& ranges) const {
     for (std::int32_t c = first; c < last; ++c) {
@@ -189,12 +195,12 @@ class TreePart {
   }
 
   Stretches<Dim> stretches_;
-  std::int64_t own_ = 0, before_ = 0;  // copies from ranks before this one
+  std::int64_t own_ = 0, before_ = 0;  // before_: number of copies from lower ranks
   std::vector<LeafCell<Dim>> cells_;
   ExchangePattern border_;
   BackgroundTree<Dim> tree_;
-  std::vector<std::int32_t> number_;  // of the leaves of tree_, here; -1 for none
-  std::vector<std::int32_t> leaf_;    // in tree_, of those here
+  std::vector<std::int32_t> number_;  // by leaf of tree_: leaf of this part, or -1
+  std::vector<std::int32_t> leaf_;    // by leaf of this part: leaf of tree_
   ChunkedRows<std::int32_t> touching_;
 };
 
