@@ -34,7 +34,8 @@ class StereographicChart {
   // Returns the ratio of a length in the chart to the same length on the sphere. It is 1 opposite
   // the projection centre and larger everywhere else.
   double stretch(const Point<2>& u) const;
-  // Largest stretch at which the coordinates of the chart are precise enough to evaluate d.
+  // Values of d that are known at points with this stretch or more are not converted to the chart,
+  // because these points are too close to the projection centre.
   static constexpr double kMostStretch = 1e12;
   double least_stretch_in(const Box<2>& box) const;
   double most_stretch_in(const Box<2>& box) const;
