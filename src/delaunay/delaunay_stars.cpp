@@ -18,8 +18,8 @@ class StarWriter {
   using Entry = DelaunayStars::Entry;
 
  public:
-  // `visibility_is_fresh`: whether the lists and the edges near nodes were built for the present
-  // positions.
+  // `visibility_is_fresh` says whether the lists and the edges near nodes were built for the
+  // present positions.
   StarWriter(const StarInput& input, bool visibility_is_fresh, std::vector<double>& needs)
       : in_(input),
         visibility_is_fresh_(visibility_is_fresh),

@@ -88,6 +88,7 @@ class DelaunayStars {
   }
 
   // --- only in the plane: cyclic order ---
+
   // Calls visit(j, triangle) for the neighbours of node i in counter-clockwise order. `triangle`
   // says whether (i, j, next neighbour) is a triangle of the domain. The first neighbour follows
   // the last.

@@ -15,8 +15,8 @@
 
 namespace pnpbs {
 
-// Computes the distance for one node after the other. It is fast for nodes that are consecutive in
-// memory, because it caches data of the last bucket.
+// A calculator of this distance for one node after the other. It is fast for nodes that are
+// consecutive in memory, because it caches data of the last bucket.
 template <int Dim>
 class ListedReach {
  public:

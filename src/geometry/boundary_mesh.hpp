@@ -38,7 +38,9 @@ struct BoundaryEdge {
 struct BoundaryTriangle {
   std::array<std::int32_t, 3> nodes;  // Indices into BoundaryMesh::nodes.
   std::int32_t tag;
-  bool front_inside;  // The side of the normal, from which the corners are counter-clockwise.
+  // Whether the domain lies on the side of the normal, from which the corners are
+  // counter-clockwise.
+  bool front_inside;
   bool back_inside;
 
   const std::array<std::int32_t, 3>& corners() const { return nodes; }

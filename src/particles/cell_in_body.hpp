@@ -16,7 +16,7 @@ namespace pnpbs {
 template <int Dim>
 class CellInBody {
  public:
-  // The body must outlive this object.
+  // Prepares the directions. The body must outlive this object.
   explicit CellInBody(const SignedDistance<Dim>& body);
 
   // Returns the volume of the cell of a node strictly inside the body. The cell extends at most to

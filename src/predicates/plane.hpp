@@ -16,7 +16,8 @@ namespace pnpbs {
 
 namespace predicates {
 
-// Slow exact versions of turn, in_circle and the tie-break, for every finite input.
+// Compute the signs of turn, of in_circle and of the tie-break exactly for every finite input. They
+// are slow.
 int turn_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
 int in_circle_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
 int break_tie(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d,

@@ -14,7 +14,8 @@ namespace pnpbs {
 
 namespace predicates {
 
-// Slower exact versions of orientation, in_sphere and the tie-break, for every finite input.
+// Compute the signs of orientation, of in_sphere and of the tie-break exactly for every finite
+// input. They are slow.
 int orientation_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d);
 int in_sphere_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d,
                     const Point<3>& e);

@@ -9,8 +9,8 @@ namespace pnpbs {
 
 class SphereCap {
  public:
-  // `length` is a straight distance through space. More than nine tenths of the diameter of the
-  // sphere select the whole sphere.
+  // Constructs a cap from its centre and `length`, a straight distance through space. More than
+  // nine tenths of the diameter of the sphere select the whole sphere.
   SphereCap(const StereographicChart& chart, const Point<2>& centre, double length);
 
   bool is_whole_sphere() const { return whole_; }

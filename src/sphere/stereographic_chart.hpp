@@ -16,7 +16,8 @@ namespace pnpbs {
 
 class StereographicChart {
  public:
-  // The sphere is about the origin. The projection centre is in the direction `from`, which must
+  // Constructs the chart of the sphere about the origin whose projection centre is in the direction
+  // `from`, which must
   // not be 0.
   StereographicChart(double radius, const Point<3>& from);
 

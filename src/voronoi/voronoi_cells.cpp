@@ -25,7 +25,8 @@ namespace {
 template <int Dim, std::size_t Corners>
 class ElementParts {
  public:
-  // `own` contains the rows of the first `owned` elements, which were computed with their sites.
+  // Computes the rows of the other elements. `own` contains the rows of the first `owned` elements,
+  // which were computed with their sites.
   ElementParts(const ElementSites<Dim>& all, ChunkedRows<double> own, std::int64_t owned)
       : owned_(owned), own_(std::move(own)) {
     arrived_.build("pnpbs::voronoi::parts", std::ssize(all.elements) - owned,

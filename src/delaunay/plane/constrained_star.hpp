@@ -16,7 +16,8 @@ namespace pnpbs {
 // would have to extend beyond the nodes that this rank knows, nothing is appended and the necessary
 // distance is returned (see DelaunayStars::needs).
 // The list of the node must contain all nodes visible from it within `listed_reach`, and is tried
-// first. `listed_reach` is 0 if that is not certain. The search continues within `first_reach`.
+// first. `listed_reach` is 0 if that is not certain. Without success, all
+// nodes within `first_reach` are searched, then those within larger distances.
 double constrained_star(const StarInput& input, std::int64_t i, double listed_reach,
                         double first_reach, std::vector<DelaunayStars::Entry>& star);
 

@@ -126,7 +126,8 @@ class BlockCheck {
   Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];  // Of each neighbour and the next.
 };
 
-// `x` and `y` are the positions of all nodes and of the far point that follows them.
+// Checks the stars of a block. `x` and `y` are the positions of all nodes and of the far point
+// that follows them.
 void check_block_stars(const DelaunayStars::Block& stars, const double* x, const double* y,
                        const std::int64_t (&self)[kLanes], BlockStarCheck& check) {
   if (stars.length < 3 || stars.length > kMaxListed) {
@@ -147,7 +148,7 @@ constexpr std::int64_t kFewFlips = 16;
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Cyclic successor and predecessor of an index in a star.
+// Return the index that follows or precedes k cyclically in a star.
 std::size_t after(const Star& star, std::size_t k) { return k + 1 < star.size() ? k + 1 : 0; }
 std::size_t before(const Star& star, std::size_t k) { return k > 0 ? k - 1 : star.size() - 1; }
 

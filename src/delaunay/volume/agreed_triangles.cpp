@@ -7,7 +7,8 @@
 
 namespace pnpbs {
 
-// A node whose ring has not been found yet counts as agreeing.
+// Returns whether `node` finds the triangle (node, a, b). A node whose ring has not been found yet
+// counts as finding it.
 bool AgreedTriangles::found_by(std::int32_t node, std::int64_t a, std::int64_t b) const {
   if (rings_.needs(node) > 0) return true;
   const std::size_t n = rings_.size(node);

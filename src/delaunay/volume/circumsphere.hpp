@@ -26,7 +26,8 @@ struct Circumsphere {
   bool flat;  // Volume not distinguishable from rounding: centre and radius are invalid.
 };
 
-// Returns bitwise equal results for the same order of the corners, whatever their orientation.
+// Returns the circumsphere. The result is bitwise equal for the same order of the corners, whatever
+// their orientation.
 inline Circumsphere circumsphere(const TetrahedronCorners& x) {
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
   const Point<3> vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
@@ -44,7 +45,7 @@ inline Circumsphere circumsphere(const TetrahedronCorners& x) {
           flat};
 }
 
-// Returns bitwise equal results for the same order of the corners.
+// Returns the circumcentre. The result is bitwise equal for the same order of the corners.
 inline Point<3> circle_centre(const std::array<Point<3>, 3>& x) {
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), normal = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v), twice = 2 * dot(normal, normal);

@@ -49,8 +49,8 @@ ElementLabels::ElementLabels(std::vector<LabelledTetrahedron> tetrahedra,
   first_pieces_ = pieces_inside();
 }
 
-// Tetrahedra that are certainly inside or outside keep their label, and so do those with a node
-// around which not all tetrahedra are given.
+// Returns whether the label may change. Tetrahedra that are certainly inside or outside keep their
+// label, and so do those with a node around which not all tetrahedra are given.
 bool ElementLabels::may_change(std::size_t t, double max_depth) const {
   return tetrahedra_[t].may_change && tetrahedra_[t].depth < max_depth && corners_[t].size() == 4;
 }

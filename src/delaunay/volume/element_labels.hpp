@@ -4,6 +4,7 @@
 // tetrahedra along it are inside or outside by chance. If they meet only in an edge or a node, or a
 // node is in no element, the boundary is not a closed surface.
 // Labels are changed one after the other until the boundary faces around every node form one disk.
+// Defects measure how far they are from it.
 // At first a change of one or two labels at once is tried (settle), then a search. The result is a
 // function of the given tetrahedra and does not depend on their order.
 #pragma once
@@ -90,6 +91,7 @@ class ElementLabels {
   int euler_times_six(std::size_t t) const;
 
   // --- the search ---
+
   // Remaining faults; less is better.
   struct Faults {
     std::size_t without_disks;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rule which tetrahedra of a Delaunay triangulation are elements. It is a pure function of the
-// corners, so that all corners and all ranks decide equally.
+// The rule that decides which tetrahedra of a Delaunay triangulation are elements. It is a pure
+// function of the corners, so that all corners and all ranks decide equally.
 #pragma once
 
 #include <array>

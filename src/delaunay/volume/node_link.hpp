@@ -35,7 +35,7 @@ struct LabelledNode {
 
 class NodeLink {
  public:
-  // `around` are the indices of the tetrahedra around the node.
+  // Builds the link. `around` are the indices of the tetrahedra around the node.
   NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedron>& tetrahedra,
            const std::vector<std::size_t>& around);
 
@@ -51,17 +51,17 @@ class NodeLink {
   bool is_torn() const { return defects() >= kTorn; }
   // Returns whether the number of disks is wrong.
   bool lacks_disks() const { return defects_.disks > 0; }
-  // The same as defects() and gain() with priority for the disks. Gains are cached until a label
-  // changes, because a search evaluates the same node many times.
+  // Return the same as defects() and gain() with priority for the disks. Gains are cached until a
+  // label changes, because a search evaluates the same node many times.
   int defects_of_disks() const { return disks_first(defects_); }
   int gain_of_disks(std::size_t place);
   // Returns the contribution of the node, and of its edges and faces in this tetrahedron, to six
   // times Euler's characteristic of the boundary. The other ends of an edge and the other corners
   // of a face contribute the rest.
   int euler_times_six(std::size_t place) const;
-  // ids() returns the nodes that share a tetrahedron with this one, in ascending order. for_faces()
-  // calls visit(k, l) for the boundary faces, with the indices of their other corners in ids().
+  // Returns the ids of the nodes that share a tetrahedron with this one, in ascending order.
   const std::vector<std::int64_t>& ids() const { return ids_; }
+  // Calls visit(k, l) for the boundary faces, with the indices of their other corners in ids().
   template <class Visit>
   void for_faces(const Visit& visit) const {
     for (const Edge& edge : edges_)

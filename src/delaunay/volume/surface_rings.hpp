@@ -39,8 +39,8 @@ class SurfaceRings {
 
   void build(const SurfaceStarInput& input);
 
-  // Size and entries of the star of node i, counter-clockwise. Where sheets end or meet, one sheet
-  // follows the other.
+  // Return the size and the entries of the star of node i, counter-clockwise. Where sheets end or
+  // meet, one sheet follows the other.
   std::size_t size(std::int64_t i) const { return rows_.row(i).size(); }
   Entry at(std::int64_t i, std::size_t k) const {
     const std::int32_t packed = rows_.row(i)[k];

@@ -84,6 +84,7 @@ class VolumeStar {
   }
 
   // --- results of finish ---
+
   // Candidates that are corners of taken elements, in the order of their ids.
   const std::vector<std::int32_t>& neighbours() const { return neighbours_; }
   // Three indices into neighbours() for each taken element. They have positive orientation with the

@@ -54,9 +54,9 @@ class VolumeStars {
   using Corners = std::array<std::int32_t, 3>;
 
   void build(const VolumeStarInput& input);
-  // build_none() makes all stars empty. add() finds those of the nodes for which `wanted` is set
-  // and leaves the others.
+  // Makes all stars empty, so that add can find some of them.
   void build_none(const VolumeStarInput& input);
+  // Finds the stars of the nodes for which `wanted` is set and leaves the others unchanged.
   void add(const VolumeStarInput& input, const std::vector<char>& wanted);
   void build(const SurfaceStarInput& input);
 
@@ -151,6 +151,7 @@ class VolumeStars {
   static constexpr int kChunk = 512;
 
   // --- format of a star: a header, the neighbours, the triangles ---
+
   // Three indices among at most kMaxPlaces neighbours are packed into one number. For larger stars,
   // each triangle is stored as three nodes.
   static constexpr int kPlaceBits = 10;

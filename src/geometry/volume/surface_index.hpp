@@ -15,7 +15,7 @@ namespace pnpbs {
 class SurfaceIndex {
  public:
   SurfaceIndex() = default;
-  // The mesh must outlive this object.
+  // Indexes the facets of a mesh, which must outlive this object.
   SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds);
 
   // Returns whether x is strictly inside the domain, so not on a facet. The result is exact.

@@ -124,8 +124,8 @@ bool may_touch(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& tria
   return true;
 }
 
-// x must lie in the plane of the triangle and in its projection along each axis. A projection to a
-// segment excludes no more than its bounding box.
+// Requires x to lie in the plane of the triangle and in its projection along each axis. A
+// projection to a segment excludes no more than its bounding box.
 bool on_facet(const FacetCorners<3>& triangle, const Point<3>& x) {
   if (boxes_are_apart(x, x, triangle)) return false;  // Excludes most points.
   const auto& [a, b, c] = triangle;
