@@ -18,7 +18,8 @@ class StarWriter {
   using Entry = DelaunayStars::Entry;
 
  public:
-  // visibility_is_fresh: were the lists, and the edges near nodes, made for where the nodes are?
+  // `visibility_is_fresh` says whether the lists and the edges near nodes were built for the
+  // present positions.
   StarWriter(const StarInput& input, bool visibility_is_fresh, std::vector<double>& needs)
       : in_(input),
         visibility_is_fresh_(visibility_is_fresh),
@@ -73,7 +74,7 @@ class StarWriter {
     return true;
   }
 
-  // The rows of the block: sizes, then `longest` rows of entries.
+  // Appends the rows of the block: the sizes, then `longest` rows of entries.
   void write(const std::int64_t (&self)[kLanes], std::size_t longest, std::vector<Entry>& out) {
     const std::size_t begin = out.size();
     out.resize(begin + (longest + 1) * kLanes);
@@ -99,7 +100,7 @@ class StarWriter {
   ListedReach<2> reach_;
   std::vector<StarPoint> around_;
   BlockHullStars hulls_;
-  std::vector<Entry> others_;  // stars of the block that are not among the hulls
+  std::vector<Entry> others_;  // Stars of the block that are not in hulls_.
   std::array<std::size_t, kLanes> first_other_{}, size_{};
 };
 
@@ -154,7 +155,7 @@ void DelaunayStars::rewrite(const std::vector<char>& changed,
                   [&] { return write; });
 }
 
-// The rows of a block: sizes, then as many rows of entries as the longest star has.
+// Appends the rows of a block: the sizes, then as many rows of entries as the longest star has.
 void DelaunayStars::append_block(std::int64_t b,
                                  const std::array<std::vector<Entry>, kLanes>& stars,
                                  std::vector<Entry>& out) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every node's star in the Delaunay triangulation constrained to the boundary, from its adjacency
-// list alone, so that each rank finds its own: ties are broken by id, and all agree.
+// The star of every node of the plane in the Delaunay triangulation constrained to the boundary. A
+// star is found from the adjacency list of its node, so that each rank finds those of its nodes.
+// Ties are broken by id, so that the stars of all ranks form one triangulation.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@
 
 namespace pnpbs {
 
-// What the stars are found from; all for the same positions.
+// The data from which the stars are found, all for the same positions.
 struct StarInput {
   const Nodes<2>& nodes;
   const SizedTree<2>& map;
@@ -29,13 +30,15 @@ struct StarInput {
   const AdjacencyList<2>& lists;
   const NearEdges& near_edges;
   const KnownRegion<2>& known;
-  const PlaneDomain& domain;  // tells where the patch of a whole sphere is
+  const PlaneDomain& domain;  // Locates the patch of a whole sphere.
 };
 
-// Laid out like the lists: in blocks of kLanes nodes, the k-th neighbours of a block side by side.
+// The stars of all nodes of this rank, stored in blocks of kLanes nodes like adjacency lists: the
+// k-th neighbours of a block are contiguous.
 class DelaunayStars {
  public:
-  // A number and a flag. Of a neighbour j: is (i, j, next neighbour) a triangle of the domain?
+  // A number and a flag in one word. For a neighbour j, the flag says whether (i, j, next
+  // neighbour) is a triangle of the domain.
   struct Entry {
     std::uint32_t bits;
 
@@ -47,15 +50,16 @@ class DelaunayStars {
   };
 
   struct Block {
-    const Entry* sizes;    // [kLanes]; flagged if the star is all triangles
-    const Entry* entries;  // [length][kLanes]; shorter stars are filled up with their first entry
+    const Entry* sizes;    // [kLanes]; the flag says whether the star consists of triangles only.
+    const Entry* entries;  // [length][kLanes]; shorter stars are padded with their first entry.
     std::int32_t length;
   };
 
   using Corners = std::array<std::int64_t, 2>;
 
   void build(const StarInput& input);
-  // Were they found for these nodes, in this order in memory? They may have moved since.
+  // Returns whether the stars are of these nodes in their present order in memory. The nodes may
+  // have moved since the stars were found.
   bool are_of(const Nodes<2>& nodes) const { return arrangement_ == nodes.arrangement(); }
 
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
@@ -71,8 +75,8 @@ class DelaunayStars {
     for_neighbours_in_order(i, [&](std::int64_t j, bool) { visit(j); });
   }
 
-  // Calls visit(corners) for the triangles of the domain around node i: their other corners, so
-  // that node i and these follow each other counter-clockwise.
+  // Calls visit(corners) for the triangles of the domain around node i. `corners` are the two other
+  // corners, which follow node i counter-clockwise.
   template <class Visit>
   void for_simplices(std::int64_t i, const Visit& visit) const {
     const Row star = row(i);
@@ -83,10 +87,11 @@ class DelaunayStars {
     }
   }
 
-  // --- what only the plane has: a cyclic order ---
-  // Calls visit(j, triangle) for the neighbours of node i, counter-clockwise; `triangle` tells
-  // whether (i, j, next neighbour) is a triangle of the domain. The neighbour after the last is
-  // the first.
+  // --- only in the plane: cyclic order ---
+
+  // Calls visit(j, triangle) for the neighbours of node i in counter-clockwise order. `triangle`
+  // says whether (i, j, next neighbour) is a triangle of the domain. The first neighbour follows
+  // the last.
   template <class Visit>
   void for_neighbours_in_order(std::int64_t i, const Visit& visit) const {
     const Row star = row(i);
@@ -94,29 +99,30 @@ class DelaunayStars {
       visit(static_cast<std::int64_t>(star.at(k).value()), star.at(k).flag());
   }
 
-  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known; in
-  // the patch of a whole sphere, all that a SphereCap of this length around it holds.
+  // Returns 0 if the star of node i has been found. Otherwise returns the distance up to which all
+  // nodes around it must be known. In the patch of a whole sphere, it is the length of a SphereCap
+  // around it.
   double needs(std::int64_t i) const {
     return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
   }
 
   std::int32_t size(std::int64_t i) const { return block(i / kLanes).sizes[i % kLanes].value(); }
-  // Is the star all triangles?
+  // Returns whether the star consists of triangles only.
   bool closed(std::int64_t i) const { return block(i / kLanes).sizes[i % kLanes].flag(); }
 
-  // The star of node i begins with the neighbour that is at this place in it.
+  // Rotates the star of node i so that it begins with the neighbour at index `place`.
   void begin_with(std::int64_t i, std::int32_t place);
-  // The stars of those nodes for which changed is set become star_of(i).
+  // Replaces the stars of the nodes for which `changed` is set by star_of(i).
   void rewrite(const std::vector<char>& changed,
                const std::function<std::vector<Entry>(std::int64_t)>& star_of);
 
-  // --- changes by hand, until the next build; the triangles left are the caller's business ---
+  // --- changes that last until the next build; the caller keeps the triangles consistent ---
   void replace(std::int64_t i, std::int64_t neighbour, std::int64_t by);
   void remove(std::int64_t i, std::int64_t neighbour);
   void clear(std::int64_t i);
 
  private:
-  // The star of a node as it lies in its block, to read.
+  // Read access to the star of a node in its block.
   struct Row {
     const Entry* first;
     std::int32_t size;
@@ -128,11 +134,11 @@ class DelaunayStars {
     const std::int64_t lane = i % kLanes;
     return {stars.entries + lane, stars.sizes[lane].value()};
   }
-  // The same, to change.
+  // Write access to the star of a node in its block.
   struct Column {
     Entry* size;
     Entry* first;
-    std::int32_t length;  // of the block
+    std::int32_t length;  // Length of the block.
 
     Entry& at(std::int32_t k) const { return first[k * kLanes]; }
   };
@@ -142,8 +148,8 @@ class DelaunayStars {
                     std::vector<Entry>& out) const;
 
   std::int64_t count_ = 0, arrangement_ = -1;
-  ChunkedRows<Entry, 64> blocks_;  // the sizes, then the entries
-  std::vector<double> needs_;      // of the nodes; empty where everything is known
+  ChunkedRows<Entry, 64> blocks_;  // Sizes, then entries of each block.
+  std::vector<double> needs_;      // One per node; empty if all nodes are known everywhere.
 };
 
 }  // namespace pnpbs

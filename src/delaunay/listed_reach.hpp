@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far around a node its adjacency list holds all nodes.
+// The distance around a node within which its adjacency list contains all nodes.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 
 namespace pnpbs {
 
-// Quick for nodes that follow each other in memory.
+// A calculator of this distance for one node after the other. It is fast for nodes that are
+// consecutive in memory, because it caches data of the last bucket.
 template <int Dim>
 class ListedReach {
  public:
@@ -23,15 +24,15 @@ class ListedReach {
               const AdjacencyList<Dim>& lists, const KnownRegion<Dim>& known)
       : nodes_(nodes), tree_(tree), buckets_(buckets), lists_(lists), known_(known) {}
 
-  // The list of node i holds all nodes that it sees and that are nearer than this; 0 if not all are
-  // known there.
+  // Returns the distance within which the list of node i contains all nodes visible from it.
+  // Returns 0 if this rank does not know all nodes there.
   double of(std::int64_t i) {
     const double reach = whatever_is_known(i);
     const bool known = !border_ || known_.covers(tree_, box_around<Dim>(nodes_.position(i), reach));
     return known ? reach : 0;
   }
 
-  // The same if all nodes were known.
+  // Returns of(i) under the assumption that all nodes are known.
   double whatever_is_known(std::int64_t i) {
     if (buckets_.bucket_of(i) != bucket_) look_at_bucket(buckets_.bucket_of(i));
     constexpr double kSteep = 0.9;
@@ -52,8 +53,8 @@ class ListedReach {
     border_ = !known_.covers(tree_, widened(cell, lists_.radius() * max));
   }
 
-  // Up to the nearest node that the list does not hold, or as far as stars mostly need. The
-  // neighbour buckets hold all nodes within radius * d.
+  // Returns the distance to the nearest node that the list does not contain, limited to what stars
+  // usually require. The neighbour buckets contain all nodes within radius * d.
   double reach_to_unlisted(std::int64_t i) const {
     constexpr double kNeeded = 1.5, kRounding = 1 - 1e-9;
     const Point<Dim> at = nodes_.position(i);
@@ -86,8 +87,8 @@ class ListedReach {
   const AdjacencyList<Dim>& lists_;
   const KnownRegion<Dim>& known_;
   std::int32_t bucket_ = -1;
-  double min_ = 0;       // spacing in the buckets around
-  bool border_ = false;  // do the lists of some nodes in the bucket reach into the unknown?
+  double min_ = 0;       // Smallest spacing in the bucket and its neighbours.
+  bool border_ = false;  // Whether lists of the bucket extend into unknown regions.
 };
 
 }  // namespace pnpbs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Delaunay stars of all nodes, in the plane and in space.
+// The type of the Delaunay stars of all nodes, for the plane and for space.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace pnpbs {
 template <int Dim>
 using Stars = std::conditional_t<Dim == 2, DelaunayStars, VolumeStars>;
 
-// In the plane stars are found so fast that none are kept.
+// An empty replacement of StarsBefore. In the plane, finding stars is so fast that none are kept.
 struct NoStarsBefore {
   void take(const Nodes<2>&, const DelaunayStars&, std::uint64_t) {}
   void forget() {}

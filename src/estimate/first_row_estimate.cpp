@@ -12,8 +12,9 @@ namespace pnpbs {
 
 namespace {
 
-// Bubbles' own first row is farther from the boundary, where d is larger still. Fitted to runs in a
-// ring, a lake and around an airfoil, with d growing by 0.15 to 0.3.
+// Ratio of the excess to that of d at the apexes. Without a fitted row, the first row of bubbles is
+// farther from the boundary, where d is larger still. Fitted to runs in a ring, in a lake and
+// around an airfoil with d growing by 0.15 to 0.3.
 constexpr double kOverGrowth = 1.5;
 
 std::vector<double> values_at(const std::vector<Point<2>>& points,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the first row of inner nodes changes in the number of nodes.
+// Estimates the change of the number of nodes by the first row of inner nodes.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,9 @@
 
 namespace pnpbs {
 
-// How many nodes more than d asks for it has: as many as the boundary has edges there, though d has
-// grown from these to the row. Looks at so many edges.
+// Returns how many nodes the first row has in excess of d. The row has as many nodes as the
+// boundary has edges there, although d has grown between the boundary and the row. About
+// `max_edges` edges are examined.
 double more_by_first_row(const SizedTree<2>& map, const SpacingEvaluator<2>& spacing,
                          std::int64_t max_edges);
 inline double more_by_first_row(const SizedTree<3>&, const SpacingEvaluator<3>&, std::int64_t) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run would come to, before it makes any inner node.
+// Estimates the number of nodes of a run before any inner node exists.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 namespace pnpbs {
 
 struct Estimate {
-  std::int64_t nodes = 0;  // of all ranks
-  std::int64_t bytes = 0;  // memory of each process
-  double seconds = 0;      // roughly
+  std::int64_t nodes = 0;  // On all ranks.
+  std::int64_t bytes = 0;  // Memory of each process.
+  double seconds = 0;      // Rough estimate.
 };
 
 template <int Dim>
@@ -24,16 +24,18 @@ struct NodeEstimate {
   SteepestGrowth<Dim> steepest;
 };
 
-// Near the boundary, where most of an estimate's time goes: few are enough for some per cent.
+// Number of samples near the boundary, where an estimate spends most of its time. With few samples,
+// the error is some per cent.
 enum class Samples { few, many };
 
-// What it depends on besides.
+// Properties of the run that affect the number of nodes.
 struct EstimatedRun {
-  bool stretched;  // the lattice that fills a body with even d
-  bool first_row;  // is fitted to the boundary, in the plane
+  bool stretched;  // Whether the lattice that fills a body with constant d is stretched.
+  bool first_row;  // Whether a first row is fitted to the boundary, in the plane.
 };
 
-// By samples of d in some thousand cells, more of them where there would be more nodes. Collective.
+// Estimates the number of nodes from samples of d in some thousand cells, which are denser where
+// there are more nodes. It also returns the steepest growth of d. Collective.
 template <int Dim>
 NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& domain,
                                  const Spacing<Dim>& spacing, std::int64_t max_boundary_nodes,

@@ -12,7 +12,8 @@ namespace pnpbs {
 
 namespace {
 
-constexpr std::size_t kSamples = 4;  // of d in a triangle: its middle and those of its halves
+// Samples of d in a triangle: its centroid and three points around it.
+constexpr std::size_t kSamples = 4;
 
 std::array<Point<3>, kSamples> samples_in(const FacetCorners<3>& x) {
   const Point<3> middle = shifted(x[0], 2.0 / 3, difference(halfway(x[1], x[2]), x[0]));
@@ -29,8 +30,8 @@ void append_quarters(const FacetCorners<3>& x, std::vector<FacetCorners<3>>& tri
 }
 
 struct Sampled {
-  double nodes;      // by the mean of the samples
-  double variation;  // largest over least d of the samples
+  double nodes;      // Number of nodes from the mean density of the samples.
+  double variation;  // Ratio of the largest to the smallest d of the samples.
 };
 
 std::vector<Sampled> sampled(const std::vector<FacetCorners<3>>& triangles,
@@ -57,9 +58,9 @@ std::vector<Sampled> sampled(const std::vector<FacetCorners<3>>& triangles,
 double nodes_on_triangles(std::vector<FacetCorners<3>> triangles,
                           const SpacingEvaluator<3>& spacing) {
   constexpr int kMaxRounds = 10;
-  constexpr double kEven = 1.1;       // variation that the mean does justice
-  constexpr double kFewNodes = 5e-4;  // share of all: what a triangle that is not divided may hold
-  double kept = 0;                    // nodes in those that are not looked at any more
+  constexpr double kEven = 1.1;       // Largest variation for which the mean is accurate.
+  constexpr double kFewNodes = 5e-4;  // Largest share of a triangle that is not subdivided.
+  double kept = 0;                    // Nodes in triangles that need no further subdivision.
   for (int round = 0;; ++round) {
     const std::vector<Sampled> samples = sampled(triangles, spacing);
     double all = kept;

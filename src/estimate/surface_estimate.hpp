@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many nodes d asks for on surfaces.
+// Estimates the number of nodes on surfaces.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace pnpbs {
 
-// The integral of 1/d^2 over the triangles. Those that hold many of the nodes, and over which d
-// varies, are divided; dips of d between the corners and the middle of a large one are not seen.
+// Returns the integral of the node density over the triangles. Triangles with many nodes and
+// varying d are subdivided. Minima of d between the samples of a large triangle are not detected.
 double nodes_on_triangles(std::vector<FacetCorners<3>> triangles,
                           const SpacingEvaluator<3>& spacing);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary as a level sees it: nodes, and the straight facets between them, which are edges in
-// the plane and triangles in space. Facets meet in common nodes only.
+// The discretized boundary of a level: nodes and straight facets between them, which are edges in
+// the plane and triangles in space. Facets intersect in common nodes only.
 #pragma once
 
 #include <array>
@@ -19,25 +19,28 @@ struct BoundaryNode {
   std::int32_t tag;
 };
 
-// With the same node at both ends it is a fixed node that bounds nothing.
+// An edge of the boundary in the plane. If both ends are the same node, it is a fixed node and does
+// not bound the domain.
 struct BoundaryEdge {
-  std::int32_t begin;  // index into BoundaryMesh::nodes
+  std::int32_t begin;  // Index into BoundaryMesh::nodes.
   std::int32_t end;
   std::int32_t tag;
   bool left_inside;
   bool right_inside;
 
   std::array<std::int32_t, 2> corners() const { return {begin, end}; }
-  // Does the domain lie on one side only?
+  // Returns whether the domain lies on exactly one side.
   bool bounds() const { return left_inside != right_inside; }
 };
 
-// Where corners are the same node it is a part of a curve inside, or a fixed node. Of surfaces
-// alone, neither side is inside.
+// A triangle of the boundary in space. If two corners are the same node, it is a segment of an
+// inner curve; if all three are, it is a fixed node. Neither side of a surface alone is inside.
 struct BoundaryTriangle {
-  std::array<std::int32_t, 3> nodes;  // indices into BoundaryMesh::nodes
+  std::array<std::int32_t, 3> nodes;  // Indices into BoundaryMesh::nodes.
   std::int32_t tag;
-  bool front_inside;  // the side to which the normal points: from there they turn left
+  // Whether the domain lies on the side of the normal, from which the corners are
+  // counter-clockwise.
+  bool front_inside;
   bool back_inside;
 
   const std::array<std::int32_t, 3>& corners() const { return nodes; }
@@ -52,13 +55,14 @@ template <int Dim>
 struct BoundaryMesh {
   std::vector<BoundaryNode<Dim>> nodes;
   std::vector<BoundaryFacet<Dim>> facets;
-  // Nodes placed on the facets are no farther from them than this: those of a level set are where
-  // it is 0, which may be in a cell of a background tree that no facet meets.
+  // Largest distance of nodes on facets from these facets. It is positive for level sets, whose
+  // nodes lie on the zero set. Such a node can be in a cell of a background tree that no facet
+  // meets.
   double node_distance = 0;
-  Embedding<Dim> embedding{};  // of all points
+  Embedding<Dim> embedding{};  // Applies to all points.
 };
 
-// Where the corners of a facet are.
+// Positions of the corners of a facet.
 template <int Dim>
 using FacetCorners = std::array<Point<Dim>, Dim>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The quick test before a way and a facet are compared exactly.
+// A fast test that excludes most pairs of a segment and a facet before they are compared exactly.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace pnpbs {
 
-// Have the boxes of segment pq and the facet no point in common?
+// Returns whether the bounding boxes of segment pq and of the facet are disjoint.
 template <std::size_t Dim>
 bool boxes_are_apart(const std::array<double, Dim>& p, const std::array<double, Dim>& q,
                      const std::array<std::array<double, Dim>, Dim>& facet) {

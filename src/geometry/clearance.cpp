@@ -34,7 +34,8 @@ bool may_touch_any(const FacetIndex<Dim>& index, std::span<const std::int32_t> f
                      [&](std::int32_t f) { return may_touch(from, to, index.corners(f)); });
 }
 
-// Is every facet farther from `to` than `wanted`, and too far to be met on the way there?
+// Returns whether every facet is farther from `to` than `wanted` and than the length of the move,
+// so that the move cannot meet it.
 template <int Dim>
 bool clear_of_all(const FacetIndex<Dim>& index, std::span<const std::int32_t> facets,
                   const Point<Dim>& from, const Point<Dim>& to, double wanted) {
@@ -53,11 +54,12 @@ ClearPosition<Dim> clear_position(const FacetIndex<Dim>& index,
                                   const std::type_identity_t<Point<Dim>>& from,
                                   const std::type_identity_t<Point<Dim>>& to, double d) {
   const double wanted = method::kBoundaryClearance * d;
-  if (clear_of_all<Dim>(index, facets, from, to, wanted)) return {to, true};  // nearly always
+  if (clear_of_all<Dim>(index, facets, from, to, wanted)) return {to, true};  // Nearly always.
   Point<Dim> x = may_touch_any<Dim>(index, facets, from, to) ? from : to;
   Point<Dim> wall{};
   double gap = nearest_facet<Dim>(index, facets, x, wall);
-  // Off each of the facets in a corner, and once more as one may push it back towards another.
+  // A corner has up to Dim facets, each of which takes one push. One more push is needed because
+  // one facet can push the node back towards another.
   for (int round = 0; round < Dim + 1 && gap < wanted && gap > 0; ++round) {
     const double stretch = wanted / gap;
     Point<Dim> away;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inner nodes keep off the boundary.
+// Keeps inner nodes at a distance from the boundary.
 #pragma once
 
 #include <span>
@@ -12,11 +12,12 @@ namespace pnpbs {
 template <int Dim>
 struct ClearPosition {
   Point<Dim> position;
-  bool clear;  // false: the node should go at the next population event
+  bool clear;  // If false, the next population event deletes the node.
 };
 
-// Where a node that wants to move from `from` to `to` may go: pushed off the facets (all that can
-// be met on the way, in the order of their indices) to the clearance, never across one.
+// Returns the position of a node that moves from `from` towards `to`. The node is pushed off the
+// facets to the clearance and never crosses one. `facets` must contain all facets that the move can
+// meet, in ascending order.
 template <int Dim>
 ClearPosition<Dim> clear_position(const FacetIndex<Dim>& index,
                                   std::span<const std::int32_t> facets,

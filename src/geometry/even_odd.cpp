@@ -16,7 +16,7 @@ std::vector<char> inside_by_parity(std::size_t regions,
     ways[index(a)].push_back({b, crosses});
     ways[index(b)].push_back({a, crosses});
   }
-  std::vector<char> inside(regions, 2);  // not known yet
+  std::vector<char> inside(regions, 2);  // The value 2 marks regions that are not reached yet.
   inside[0] = 0;
   std::vector<std::int32_t> reached{0};
   while (!reached.empty()) {

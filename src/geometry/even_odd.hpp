@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which regions are inside, where each piece of the boundary leads from outside in or from inside
-// out.
+// The even-odd rule: each piece of the boundary separates the inside of the domain from its
+// outside.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,14 @@
 
 namespace pnpbs {
 
-// Two regions that touch; across the boundary or not.
+// Two adjacent regions, and whether the boundary separates them.
 struct RegionContact {
   std::int32_t a, b;
   bool by_boundary;
 };
 
-// Of each region: 1 inside, 0 not. Region 0 is outside, and contacts lead from there to all.
+// Returns 1 for each region inside the domain and 0 for each outside. Region 0 is outside. All
+// regions must be connected to it by contacts.
 std::vector<char> inside_by_parity(std::size_t regions, const std::vector<RegionContact>& contacts);
 
 }  // namespace pnpbs

@@ -16,7 +16,8 @@
 namespace pnpbs {
 namespace {
 
-// In units of the cell's side; and the steps to others, should a facet hold the first.
+// Relative position of the first candidate for a reference point in its cell, and the steps to
+// further candidates if the first lies on a facet. [side of the cell]
 constexpr double kFirstReference[3] = {0.41421356, 0.57721566, 0.69314718};
 constexpr double kReferenceSteps[3] = {0.6180339887, 0.7548776662, 0.8191725134};
 
@@ -31,7 +32,8 @@ FacetCells<Dim>::FacetCells(const BoundaryMesh<Dim>& mesh) : mesh_(mesh) {
 
 template <int Dim>
 void FacetCells<Dim>::add_root(const BackgroundTree<Dim>& tree) {
-  references_.push_back({tree.origin(), false});  // strictly outside the domain's bounding box
+  // Strictly outside the bounding box of the domain.
+  references_.push_back({tree.origin(), false});
   facets_.resize(corners_.size());
   std::iota(facets_.begin(), facets_.end(), 0);
   offset_.push_back(facets_.size());
@@ -127,7 +129,7 @@ template class FacetCells<3>;
 
 namespace {
 
-constexpr double kRoom = 1e-12;  // of coordinates, for rounding
+constexpr double kRoom = 1e-12;  // Rounding error. [largest coordinate]
 
 }  // namespace
 
@@ -163,7 +165,7 @@ bool FacetIndex<Dim>::inside_in_leaf(std::int32_t leaf, const Point<Dim>& x) con
   const ReferencePoint<Dim>& from = reference_[index(leaf)];
   bool inside = from.inside;
   for (const std::int32_t f : facets_of_leaf(leaf)) {
-    if (boxes_are_apart(from.x, x, corners(f))) continue;  // most are
+    if (boxes_are_apart(from.x, x, corners(f))) continue;  // Excludes most facets.
     if (on_facet(corners(f), x)) return false;
     if (facet(f).bounds() && crosses(from.x, x, corners(f))) inside = !inside;
   }
@@ -189,8 +191,8 @@ bool FacetIndex<Dim>::facet_between(std::int32_t leaf, const Point<Dim>& a,
                      [&](std::int32_t f) { return crosses(a, b, corners(f)); });
 }
 
-// Most cells and facets are told by their boxes to be farther than what has been found; a cell may
-// hold thousands of facets that meet in a node.
+// Boxes exclude most cells and facets. This matters because a cell can contain thousands of facets
+// that meet in a node.
 template <int Dim>
 NearestPoint<Dim> FacetIndex<Dim>::nearest(const Point<Dim>& x, double reach) const {
   NearestPoint<Dim> best{reach};
@@ -223,9 +225,9 @@ template class FacetIndex<3>;
 template <int Dim>
 FacetIndex<Dim> index_facets(const BoundaryMesh<Dim>& mesh, const Box<Dim>& bounds) {
   constexpr std::size_t kMaxFacets = 32;
-  constexpr int kMaxDepth = 16;  // where more meet in a node, no cell holds fewer
+  constexpr int kMaxDepth = 16;  // Limits the depth where more than kMaxFacets meet in a node.
   FacetCells<Dim> facets(mesh);
-  std::int32_t parents = 0;  // first cell of the depth above
+  std::int32_t parents = 0;  // First cell of the previous depth.
   const auto add_children_before = [&](const BackgroundTree<Dim>& tree, std::int32_t last) {
     for (std::int32_t parent = parents; parent < last; ++parent)
       if (tree.cell(parent).first_child >= 0) facets.add_children(tree, parent);

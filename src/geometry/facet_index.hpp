@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The facets of the boundary by the leaves of a background tree, and on which side of them the
-// leaves lie. Answers "is x inside?" and "which facets are near x?".
+// The facets of the boundary sorted into the leaves of a background tree, and the side of the
+// boundary on which each leaf lies. It determines whether a point is inside and which facets are
+// near it.
 #pragma once
 
 #include <array>
@@ -17,9 +18,9 @@
 
 namespace pnpbs {
 
-// Boxes around blocks of consecutive facets. Where a boundary is far finer than d a node has
-// thousands of facets near it, and few of them lie on the way to another node: the others are
-// passed over block by block.
+// Bounding boxes of blocks of consecutive facets. If the boundary is much finer than d, thousands
+// of facets are near a node and few of them intersect the segment to another node. The boxes allow
+// whole blocks of the others to be skipped.
 template <int Dim>
 class FacetBlocks {
  public:
@@ -31,8 +32,8 @@ class FacetBlocks {
     }
   }
 
-  // Of a row of facets from place k on: how many make up a block that surely does not meet the way
-  // from x to y? Usually none.
+  // Returns the number of facets from row[k] on that form a block which cannot meet segment xy. It
+  // is 0 if there is no such block, which is the usual case.
   std::size_t facets_off_segment(std::span<const std::int32_t> row, std::size_t k,
                                  const Point<Dim>& x, const Point<Dim>& y) const {
     for (std::size_t l = 0; l < kSizes.size(); ++l) {
@@ -44,8 +45,8 @@ class FacetBlocks {
     return 0;
   }
 
-  // Calls visit(facet) for the facets of an ascending row, except for those in blocks for whose
-  // boxes is_off(box) is true.
+  // Calls visit(facet) for the facets of an ascending row, except for blocks for whose box
+  // is_off(box) returns true.
   template <class IsOff, class Visit>
   void for_facets(std::span<const std::int32_t> row, const IsOff& is_off,
                   const Visit& visit) const {
@@ -67,7 +68,7 @@ class FacetBlocks {
       const std::size_t last = k + kSizes[l] - 1;
       if (first % kSizes[l] != 0 || last >= row.size()) continue;
       if (static_cast<std::size_t>(row[last]) - first != kSizes[l] - 1)
-        continue;  // some are missing
+        continue;  // The row lacks some facets of the block.
       if (is_off(boxes_[l][first / kSizes[l]])) return kSizes[l];
     }
     return 0;
@@ -87,7 +88,7 @@ class FacetBlocks {
     return box;
   }
 
-  // For the rounding of its middle.
+  // Extends a box by the rounding error of the computation of its middle.
   static Box<Dim> with_room(Box<Dim> box) {
     constexpr double kRounding = 8 * 0x1p-52;
     for (std::size_t k = 0; k < Dim; ++k) {
@@ -101,23 +102,23 @@ class FacetBlocks {
   std::array<std::vector<Box<Dim>>, kSizes.size()> boxes_;
 };
 
-// A point, and whether it is inside the domain: of others near it that follows from the facets on
-// the way to them.
+// A point, and whether it is inside the domain. For other points near it, this follows from the
+// facets that the segment between the two crosses.
 template <int Dim>
 struct ReferencePoint {
   Point<Dim> x{};
   bool inside = false;
 };
 
-// Which facets meet the cells of a background tree, and on which side of them the cells lie, while
-// the tree grows.
+// The facets that meet each cell of a growing background tree, and the side of the boundary on
+// which each cell lies.
 template <int Dim>
 class FacetCells {
  public:
   explicit FacetCells(const BoundaryMesh<Dim>& mesh);
 
-  // Cells are added in their order, the root first. A child inherits the facets of its parent that
-  // meet it.
+  // Cells must be added in their order, the root first. A child inherits those facets of its parent
+  // that meet it.
   void add_root(const BackgroundTree<Dim>& tree);
   void add_children(const BackgroundTree<Dim>& tree, std::int32_t parent);
 
@@ -127,14 +128,15 @@ class FacetCells {
   }
   bool crossed(std::int32_t c) const { return offset_[index(c)] < offset_[index(c) + 1]; }
   bool outside(std::int32_t c) const { return !crossed(c) && !reference(c).inside; }
-  // May nodes of facets be in it that do not meet it?
+  // Returns whether nodes of facets that do not meet the cell can lie in it.
   bool has_facets_beside(std::int32_t c) const {
     return mesh_.node_distance > 0 && beside_offset_[index(c)] < beside_offset_[index(c) + 1];
   }
-  // Never on a facet.
+  // Returns a point of the cell that is not on a facet.
   const ReferencePoint<Dim>& reference(std::int32_t c) const { return references_[index(c)]; }
 
-  // Is x, in cell c, inside the domain? (On a facet: it may be.)
+  // Returns whether x, in cell c, is inside the domain. Either result is possible if x is on a
+  // facet.
   bool inside(std::int32_t c, const Point<Dim>& x) const;
 
   const BoundaryMesh<Dim>& mesh() const { return mesh_; }
@@ -151,10 +153,11 @@ class FacetCells {
   const BoundaryMesh<Dim>& mesh_;
   std::vector<FacetCorners<Dim>> corners_;
   FacetBlocks<Dim> blocks_;
-  std::vector<ReferencePoint<Dim>> references_;  // of the cells
+  std::vector<ReferencePoint<Dim>> references_;  // One per cell.
   std::vector<std::size_t> offset_{0};
-  std::vector<std::int32_t> facets_;  // of cell after cell
-  // The same with those that have nodes in a cell, where these may be off their facets.
+  std::vector<std::int32_t> facets_;  // Facets of all cells, ordered by cell.
+  // The same for the facets whose nodes can lie in a cell, which are more if nodes can be off their
+  // facets.
   std::vector<std::size_t> beside_offset_{0};
   std::vector<std::int32_t> beside_;
 };
@@ -164,8 +167,8 @@ extern template class FacetCells<3>;
 
 template <int Dim>
 struct NearestPoint {
-  double gap;               // distance to it
-  std::int32_t facet = -1;  // that it lies on; -1: none was near enough
+  double gap;               // Distance to the point.
+  std::int32_t facet = -1;  // Facet that contains the point; -1 if none is within reach.
   Point<Dim> x{};
 };
 
@@ -173,36 +176,38 @@ template <int Dim>
 class FacetIndex {
  public:
   FacetIndex() = default;
-  // Of all cells of the tree. The mesh must outlive it.
+  // Builds the index of all leaves of the tree. The mesh must outlive this object.
   FacetIndex(BackgroundTree<Dim> tree, const FacetCells<Dim>& cells);
 
   const BackgroundTree<Dim>& tree() const { return tree_; }
-  // How far rounding may put a place off, generously.
+  // Returns a generous bound of the rounding errors of positions.
   double room() const { return room_; }
   const BoundaryMesh<Dim>& boundary() const { return *boundary_; }
 
   bool leaf_outside(std::int32_t leaf) const {
     return side(leaf) == Side::outside || side(leaf) == Side::beside;
   }
-  // Can no nodes be in it? Those of level sets may be in leaves outside, beside a facet.
+  // Returns whether no node can be in the leaf. Nodes of level sets can be in leaves outside the
+  // domain, beside a facet.
   bool leaf_empty(std::int32_t leaf) const { return side(leaf) == Side::outside; }
   bool leaf_has_facets(std::int32_t leaf) const {
     return offset_[index(leaf)] < offset_[index(leaf) + 1];
   }
-  // Those that meet the leaf, in the order of their indices.
+  // Returns the facets that meet the leaf in ascending order.
   std::span<const std::int32_t> facets_of_leaf(std::int32_t leaf) const {
     const std::int32_t* const all = leaf_facets_.data();
     return {all + offset_[index(leaf)], all + offset_[index(leaf) + 1]};
   }
 
-  // Is x strictly inside the domain? (On a facet: no.)
+  // Returns whether x is strictly inside the domain, so not on a facet.
   bool inside(const Point<Dim>& x) const { return inside_in_leaf(tree_.leaf_at(x), x); }
   bool inside_in_leaf(std::int32_t leaf, const Point<Dim>& x) const;
-  // Does x lie exactly on a facet that has the domain on both sides, and on none that bounds it?
+  // Returns whether x lies exactly on a facet that has the domain on both sides, and on none that
+  // bounds it.
   bool on_inner_facet(const Point<Dim>& x) const;
 
-  // Calls visit(facet index) for every facet that may come within `reach` of x; a facet can come
-  // more than once.
+  // Calls visit(facet index) for every facet that can be within `reach` of x. A facet can be
+  // visited more than once.
   template <class Visit>
   void for_facets_near(const Point<Dim>& x, double reach, const Visit& visit) const {
     const auto has_facets = [this](std::int32_t cell) {
@@ -213,17 +218,19 @@ class FacetIndex {
     });
   }
 
-  // Does the straight way from a to b cross a facet of the leaf? Not where it ends on one.
+  // Returns whether segment ab crosses a facet of the leaf. A segment that ends on a facet does not
+  // cross it.
   bool facet_between(std::int32_t leaf, const Point<Dim>& a, const Point<Dim>& b) const;
 
   const FacetCorners<Dim>& corners(std::int32_t f) const { return corners_[index(f)]; }
   const BoundaryFacet<Dim>& facet(std::int32_t f) const { return boundary_->facets[index(f)]; }
   const FacetBlocks<Dim>& facet_blocks() const { return blocks_; }
 
-  // The nearest point of the facets, if it is nearer to x than `reach`; else its gap is `reach`. Of
-  // facets equally near, that of the least index.
+  // Returns the nearest point of the facets if it is closer to x than `reach`. Otherwise the gap is
+  // `reach` and the facet -1. Of facets at the same distance, the one with the smallest index is
+  // returned.
   NearestPoint<Dim> nearest(const Point<Dim>& x, double reach) const;
-  // Its gap alone.
+  // Returns the gap of nearest().
   double clearance(const Point<Dim>& x, double reach) const;
 
  private:
@@ -235,20 +242,21 @@ class FacetIndex {
   BackgroundTree<Dim> tree_;
   double room_ = 0;
   const BoundaryMesh<Dim>* boundary_ = nullptr;
-  std::vector<FacetCorners<Dim>> corners_;  // asked far more often than anything else of facets
+  // A copy, because corners are read far more often than other facet data.
+  std::vector<FacetCorners<Dim>> corners_;
   FacetBlocks<Dim> blocks_;
-  std::vector<Side> side_;  // of the leaves
+  std::vector<Side> side_;  // One per leaf.
   std::vector<ReferencePoint<Dim>> reference_;
-  std::vector<char> cell_has_facets_;  // of all cells: can a facet be in it?
-  std::vector<std::int32_t> offset_;   // facets of each leaf
+  std::vector<char> cell_has_facets_;  // One per cell of the tree: whether it can contain a facet.
+  std::vector<std::int32_t> offset_;   // Offsets of the leaves in leaf_facets_.
   std::vector<std::int32_t> leaf_facets_;
 };
 
 extern template class FacetIndex<2>;
 extern template class FacetIndex<3>;
 
-// Builds an index with a background tree for the facets alone: its cells hold few of them each,
-// whatever d is. The mesh must outlive the index.
+// Builds an index with a background tree of its own, whose cells contain few facets each whatever d
+// is. The mesh must outlive the index.
 template <int Dim>
 FacetIndex<Dim> index_facets(const BoundaryMesh<Dim>& mesh, const Box<Dim>& bounds);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A polyline by its arc length. A station is the length of the way from its begin.
+// A polyline parametrized by arc length. A station is the arc length from its beginning.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class PolylineTrack {
  public:
   static constexpr int kDim = Dim;
 
-  // Keeps a reference to the points.
+  // Stores a reference to `points`, which must outlive this object.
   PolylineTrack(const std::vector<Point<Dim>>& points, bool closed)
       : points_(&points), closed_(closed) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
@@ -26,14 +26,15 @@ class PolylineTrack {
   double length() const { return vertex_stations_.back(); }
   const std::vector<double>& vertex_stations() const { return vertex_stations_; }
 
-  // The last segment that begins at or before the station.
+  // Returns the last segment that begins at or before the station.
   std::size_t segment_at(double station) const {
     const auto after =
         std::upper_bound(vertex_stations_.begin() + 1, vertex_stations_.end() - 1, station);
     return static_cast<std::size_t>(after - vertex_stations_.begin()) - 1;
   }
 
-  // Calls visit(i, segment, fraction) for rising stations: station i is that far on a segment.
+  // Calls visit(i, segment, fraction) for each station in ascending order. Station i lies at
+  // `fraction` of the segment.
   template <class Visit>
   void for_places(const std::vector<double>& stations, const Visit& visit) const {
     std::size_t segment = stations.empty() ? 0 : segment_at(stations.front());

@@ -13,8 +13,10 @@ namespace pnpbs {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Numbers of directions.
 constexpr int kDirectionsInPlane = 720, kDirectionsInSpace = 1024;
-constexpr double kBeside = 1e-9;  // of a facet: a direction that meets it there does not slip by
+// Tolerance at the edges of a facet, so that no direction slips between facets. [facet]
+constexpr double kBeside = 1e-9;
 
 Point<2> way(const Point<2>& from, const Point<2>& to) {
   return {to[0] - from[0], to[1] - from[1]};
@@ -23,7 +25,7 @@ Point<3> way(const Point<3>& from, const Point<3>& to) { return difference(to, f
 
 double area(const Point<2>& a, const Point<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-// How far it is to the facet; infinity where the direction does not meet it.
+// Returns the distance to the facet, or infinity if the direction does not meet it.
 double distance_along(const Point<2>& direction, const Point<2>& x, const FacetCorners<2>& facet) {
   const Point<2> to = way(x, facet[0]), along = way(facet[0], facet[1]);
   const double turn = area(direction, along);
@@ -33,7 +35,7 @@ double distance_along(const Point<2>& direction, const Point<2>& x, const FacetC
   return meets ? distance : kInfinity;
 }
 
-// By Moeller and Trumbore (1997).
+// Uses the method of Moeller and Trumbore (1997).
 double distance_along(const Point<3>& direction, const Point<3>& x, const FacetCorners<3>& facet) {
   const Point<3> first = way(facet[0], facet[1]), second = way(facet[0], facet[2]);
   const Point<3> across = cross(direction, second);
@@ -46,7 +48,7 @@ double distance_along(const Point<3>& direction, const Point<3>& x, const FacetC
   return meets ? distance : kInfinity;
 }
 
-// Directions that share the circle evenly.
+// Appends directions that are evenly distributed over the circle.
 void append_directions(std::vector<Point<2>>& directions) {
   for (int k = 0; k < kDirectionsInPlane; ++k) {
     const double angle = 2 * std::numbers::pi * (k + 0.5) / kDirectionsInPlane;
@@ -54,7 +56,8 @@ void append_directions(std::vector<Point<2>>& directions) {
   }
 }
 
-// The same of the sphere: on a spiral, by the golden angle.
+// Appends directions that are evenly distributed over the sphere, on a spiral with the golden
+// angle.
 void append_directions(std::vector<Point<3>>& directions) {
   for (int k = 0; k < kDirectionsInSpace; ++k) {
     const double z = 1 - (2 * k + 1.0) / kDirectionsInSpace, r = std::sqrt(1 - z * z);
@@ -76,7 +79,7 @@ template <int Dim>
 double CellInBody<Dim>::volume(const Point<Dim>& x, double reach,
                                std::span<const Point<Dim>> neighbours) const {
   std::vector<double> ends = ends_at_bisectors(x, reach, neighbours);
-  // Mostly the wall is much nearer.
+  // The wall is usually much nearer than `reach`.
   double near = reach / 8;
   do {
     near *= 2;
@@ -88,7 +91,7 @@ double CellInBody<Dim>::volume(const Point<Dim>& x, double reach,
   return kWhole / static_cast<double>(ends.size()) * sum;
 }
 
-// facets: of the wall near x.
+// Returns whether no facet separates the neighbour from x. `facets` are those of the wall near x.
 template <int Dim>
 bool CellInBody<Dim>::sees(const Point<Dim>& x, const Point<Dim>& neighbour,
                            std::span<const std::int32_t> facets) const {
@@ -113,8 +116,8 @@ void CellInBody<Dim>::products_with_directions(const Point<Dim>& vector,
   }
 }
 
-// A bisector is 1 / t away in a direction, where t is linear in it. Most of them are behind others,
-// and whether these are seen does not matter.
+// The distance of a bisector is 1 / t, where t is linear in the direction. Most bisectors are
+// behind others, so that the visibility of their neighbours need not be tested.
 template <int Dim>
 std::vector<double> CellInBody<Dim>::ends_at_bisectors(
     const Point<Dim>& x, double reach, std::span<const Point<Dim>> neighbours) const {
@@ -144,7 +147,7 @@ Point<3> normal_of(const FacetCorners<3>& facet) {
   return cross(way(facet[0], facet[1]), way(facet[0], facet[2]));
 }
 
-// A facet can end only those ways that come to its plane sooner than they end.
+// A facet can only shorten rays that reach its plane before they end.
 template <int Dim>
 void CellInBody<Dim>::end_at_wall(const Point<Dim>& x, double reach,
                                   std::vector<double>& ends) const {

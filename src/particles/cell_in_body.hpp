@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A node's Voronoi cell within a body whose wall may be anywhere around: the place between the node
-// and what is seen from it, up to its neighbours' bisectors and the wall. Integrated over
-// directions.
+// The Voronoi cell of a node within a body whose wall can be anywhere around it. It extends over
+// everything visible from the node up to the bisectors to its neighbours and the wall, and is
+// integrated over directions.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ namespace pnpbs {
 template <int Dim>
 class CellInBody {
  public:
-  // The body must outlive it.
+  // Prepares the directions. The body must outlive this object.
   explicit CellInBody(const SignedDistance<Dim>& body);
 
-  // Of a node strictly inside the body, as far as `reach`, lest it looks through a narrow place at
-  // what others are closer to. Neighbours may come in any order; those behind a wall take nothing
-  // from the node. In the plane exact to some 1e-5 of the volume, in space to 1e-3. Any thread may
-  // ask.
+  // Returns the volume of the cell of a node strictly inside the body. The cell extends at most to
+  // `reach`, so that the node does not look through a gap at regions to which others are closer.
+  // Neighbours can be in any order; those behind a wall do not limit the cell. The relative error
+  // is about 1e-5 in the plane and 1e-3 in space. Several threads may call it at the same time.
   double volume(const Point<Dim>& x, double reach, std::span<const Point<Dim>> neighbours) const;
 
  private:
@@ -35,7 +35,7 @@ class CellInBody {
 
   const SignedDistance<Dim>& body_;
   std::vector<Point<Dim>> directions_;
-  std::array<std::vector<double>, Dim> along_;  // the same, by coordinates
+  std::array<std::vector<double>, Dim> along_;  // Coordinates of directions_.
 };
 
 extern template class CellInBody<2>;

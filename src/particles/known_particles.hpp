@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The particles that a rank knows while they find their places: its own in the order of their ids,
-// then its ghosts, in the order of theirs.
+// The particles of a rank while they are separated: the owned ones in the order of their ids, then
+// the ghosts in the order of theirs.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct KnownParticles {
   std::vector<Point<Dim>> x;
   std::vector<double> d;
   std::vector<std::int64_t> ids;
-  std::vector<char> kept;  // 0: there is one too many here
+  std::vector<char> kept;  // 0 if the particle is left out.
   std::shared_ptr<const ExchangePattern> pattern;
 
   std::int64_t count() const { return static_cast<std::int64_t>(x.size()); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which nodes are near each other by their places alone: elements do not matter, nor does a wall
-// between them.
+// Finds nodes that are near each other by their positions alone. Elements and walls between nodes
+// do not matter.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,17 @@
 
 namespace pnpbs {
 
-// Some of the nodes that a rank knows: those it owns come first, then its ghosts.
+// A search structure for some of the nodes of a rank, owned ones first, then ghosts.
 template <int Dim>
 class NearNodes {
  public:
-  // Nodes i and j are near if they are less than radius * (d_i + d_j) / 2 apart. x and d must
-  // outlive it; those with kept[i] == 0 do not count.
+  // Nodes i and j are near if their distance is less than radius * (d_i + d_j) / 2. `x` and `d`
+  // must outlive this object. Nodes with kept[i] == 0 are excluded.
   NearNodes(std::span<const Point<Dim>> x, std::span<const double> d, std::span<const char> kept,
             double radius);
 
-  // Calls visit(j) for those near node i, whether i itself counts or not. In any order.
+  // Calls visit(j) for the nodes near node i in any order. Node i itself may be excluded from the
+  // set.
   template <class Visit>
   void for_near(std::int64_t i, const Visit& visit) const {
     const std::size_t n = static_cast<std::size_t>(i);
@@ -35,17 +36,17 @@ class NearNodes {
   }
 
  private:
-  // Those of two nodes meet if they are near.
+  // Returns a box around node i. The boxes of two near nodes intersect.
   Box<Dim> ball_box(std::size_t i) const;
 
   std::span<const Point<Dim>> x_;
   std::span<const double> d_;
   double half_radius_;
-  std::vector<std::int32_t> nodes_;  // of the tree's boxes
+  std::vector<std::int32_t> nodes_;  // Node of each box of the tree.
   BoxTree<Dim> tree_;
 };
 
-// Those near each of the first `owned` nodes, in the order of their ids.
+// Returns for each of the first `owned` nodes the nodes near it, in the order of their ids.
 template <int Dim>
 ChunkedRows<std::int32_t> near_rows(const NearNodes<Dim>& near, std::int64_t owned,
                                     std::span<const std::int64_t> ids);

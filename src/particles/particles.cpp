@@ -18,14 +18,15 @@ namespace pnpbs {
 
 namespace {
 
-// In units of d. Closer ones cannot be pushed apart far enough, and one of them goes at once.
+// Distance below which one of a pair is left out at once, as pushing cannot separate it enough.
+// [mean d]
 constexpr double kTooClose = 0.5;
-// What pushing tries to reach.
+// Distance that pushing aims at. [mean d]
 template <int Dim>
 constexpr double kPushed = Dim == 2 ? 0.9 : 0.85;
 
-// Particles are looked at within 2.5 of the mean of their d, and may come nearer by two pushes; d
-// there may be half as large again.
+// Distance up to which particles must be known. [d] Particles are examined within 2.5 of the mean
+// of their d and may approach by two pushes. The mean d of a pair can be half as large again as d.
 constexpr double kKnown = 1.5 * (2.5 + 2 * kFarthestPush);
 
 template <int Dim>
@@ -49,7 +50,7 @@ KnownParticles<Dim> known_particles(Results<Dim>& results) {
   return known;
 }
 
-// Over the mean of their d, of all ranks.
+// Returns the smallest distance of a pair over the mean of their d. Collective.
 template <int Dim>
 double closest_pair(const Communicator& comm, const KnownParticles<Dim>& particles) {
   double closest = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles of matter that fill a body: made of nodes that were placed somewhat inside it. In rough
-// and thin places these are too close to each other; there some are left out and others move.
+// Particles that fill a body, made of nodes that were placed half a spacing inside it. In rough and
+// thin parts they are too close to each other, where some are left out and others are moved.
 #pragma once
 
 #include <cstdint>
@@ -12,28 +12,32 @@
 
 namespace pnpbs {
 
-// Those that a rank owns, in the order of their ids.
+// The particles that a rank owns, in the order of their ids.
 struct Particles {
   int dimension = 0;
   std::vector<double> x;           // [particles][dimension]
-  std::vector<std::int64_t> ids;   // of the nodes that they were
-  std::vector<std::int32_t> tags;  // of these, too
-  std::vector<double> spacing;     // d of the bubbles
-  std::vector<double> volumes;     // areas in the plane
+  std::vector<std::int64_t> ids;   // Ids of the nodes they were made of.
+  std::vector<std::int32_t> tags;  // Tags of these nodes.
+  std::vector<double> spacing;     // d of the bubbles.
+  std::vector<double> volumes;     // Areas in the plane.
 
-  // Over all ranks.
+  // Totals over all ranks.
   std::int64_t all = 0;
-  std::int64_t left_out = 0, moved = 0;  // nodes that are none, and those that moved
-  double closest = 0;  // least distance of two over the mean of their d; infinity if none are near
+  std::int64_t left_out = 0, moved = 0;  // Nodes that are left out, and particles that moved.
+  // Smallest distance of a pair, or infinity if none is near. [mean d of the pair]
+  double closest = 0;
 };
 
-// No two are closer than kClosestPair times the mean of their d. The body has been checked. Any
-// number of ranks and threads gives the same bits. Throws Error(ErrorKind::domain) if a node is not
-// strictly inside the body, or if they do not fill it. Collective, and agreed.
+// Returns particles with distances of at least kClosestPair times the mean of their d. The body
+// must have been checked. The result is bitwise equal for any number of ranks and threads. Throws
+// Error(ErrorKind::domain) if a node is not strictly inside the body, or if the nodes do not fill
+// it. Collective. If one rank throws, all ranks throw.
 template <int Dim>
 std::unique_ptr<Particles> make_particles(Results<Dim>& results, const Domain<Dim>& body);
 
-// 0.7 of the spacing that bubbles of 1.076 or 1.147 of it stand for (tool/centred_nodes.hpp).
+// Smallest distance of a pair of particles. [mean d of the pair] It is 0.7 particle spacings,
+// because d of the bubbles is 1.076 (plane) or 1.147 (space) particle spacings
+// (tool/centred_nodes.hpp).
 template <int Dim>
 inline constexpr double kClosestPair = Dim == 2 ? 0.651 : 0.611;
 

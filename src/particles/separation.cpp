@@ -14,8 +14,10 @@ namespace pnpbs {
 
 namespace {
 
+// Number of rounds.
 constexpr int kRounds = 40;
-// Of what a pair lacks, in each round: a particle may be pushed from several sides.
+// Fraction of the missing distance that is corrected per round. It is less than 1 because a
+// particle can be pushed from several sides.
 constexpr double kPart = 0.6;
 constexpr double kAboveRounding = 1 + 1e-12;
 

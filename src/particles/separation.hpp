@@ -8,13 +8,15 @@
 
 namespace pnpbs {
 
-// Pairs of less than `least` times the mean of their d share what they lack, round by round; none
-// of the others moves. No particle moves by more than kFarthestPush * d in all. Ghosts must be
-// known as far as `least` and two of these moves. Collective, and agreed.
+// Moves both particles of each pair closer than `least` times the mean of their d, round by round.
+// Other particles do not move. No particle moves by more than kFarthestPush * d in total. Ghosts
+// must be known up to `least` plus two of these moves. Collective. If one rank throws, all ranks
+// throw.
 template <int Dim>
 void push_apart(const Communicator& comm, double least, const Wall<Dim>& wall,
                 KnownParticles<Dim>& particles);
 
+// Largest total displacement of a particle. [d]
 inline constexpr double kFarthestPush = 0.3;
 
 extern template void push_apart(const Communicator&, double, const Wall<2>&, KnownParticles<2>&);

@@ -15,7 +15,8 @@ namespace {
 
 enum class Fate : char { open, kept, left_out };
 
-// Rounds in which those decide for whom it is clear from what was decided before.
+// A contest in rounds. In each round, the particles decide whose fate follows from earlier
+// decisions.
 template <int Dim>
 class Contest {
  public:

@@ -7,10 +7,11 @@
 
 namespace pnpbs {
 
-// Afterwards no two that are kept are less than least * (d_i + d_j) / 2 apart, and each that is
-// left out is that close to one that is kept. Those with the fewest others so close are kept first,
-// of several with as many the one with the lowest id; so it does not matter which rank has which.
-// Ghosts must be known as far. Collective, and agreed.
+// Leaves out particles until no two kept ones are closer than least * (d_i + d_j) / 2. Each one
+// left out is that close to a kept one. Particles with the fewest others so close are kept first,
+// and of equal ones that with the smallest id. Therefore the result does not depend on the
+// partition. Ghosts must be known up to that distance. Collective. If one rank throws, all ranks
+// throw.
 template <int Dim>
 void leave_out_close_ones(const Communicator& comm, double least, KnownParticles<Dim>& particles);
 

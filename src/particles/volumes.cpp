@@ -15,14 +15,17 @@ namespace pnpbs {
 
 namespace {
 
-// Beyond this, so much of the body is seen from no particle that the volumes would mean little.
+// Largest factor. Beyond it, too much of the body is visible from no particle for meaningful
+// volumes.
 constexpr double kFarthestFactor = 1.25;
-// Of what a particle sees, in units of d: a corner of 30 degrees, half a spacing off its sides.
+// Distance up to which a cell extends. [d] It covers a corner of 30 degrees half a spacing away
+// from its sides.
 constexpr double kReach = 2;
-// Particles farther apart have no face in common but where some are missing.
+// Distance beyond which two particles share no face, unless particles are missing. [mean d]
 constexpr double kNeighbours = 2.5;
 
-// Over all ranks, exact: whatever rank has which particle.
+// Returns the sum over all ranks of the volumes whose flag in `found_again` equals `again`. It is
+// exact, so that it does not depend on the partition. Collective.
 double sum_of(const Communicator& comm, std::span<const double> volumes,
               std::span<const char> found_again, bool again) {
   ExactSum sum;
@@ -52,7 +55,7 @@ class ParticleVolumes {
                   std::span<const Point<Dim>> first, const KnownParticles<Dim>& particles)
       : cells_(cells), first_(first), particles_(particles), cell_(body) {}
 
-  // Those whose cell is not the one that its node had among the elements.
+  // Returns flags of the particles whose cell differs from that of the node in the elements.
   std::vector<char> find_changed() const {
     const KnownParticles<Dim>& p = particles_;
     std::vector<char> moved(p.x.size()), changed(index(p.owned));
@@ -82,7 +85,7 @@ class ParticleVolumes {
     const Point<Dim>& x = particles_.x[index(i)];
     near.for_near(i, [&](std::int32_t j) { neighbours.push_back(particles_.x[index(j)]); });
     std::ranges::sort(neighbours, {}, [&](const Point<Dim>& y) {
-      return squared_distance<Dim>(x, y);  // faster: the others are behind the nearest
+      return squared_distance<Dim>(x, y);  // Faster: near ones exclude the others.
     });
     return cell_.volume(x, kReach * particles_.d[index(i)], neighbours);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each particle stands for: its Voronoi cell within the body.
+// The volume of each particle, which is that of its Voronoi cell within the body.
 #pragma once
 
 #include <span>
@@ -12,11 +12,12 @@
 
 namespace pnpbs {
 
-// Of the owned particles; 0 of those left out. `cells` are those of the nodes as they were placed,
-// at `first`. Where one ends at the boundary of the elements, or near a node that has moved or is
-// left out, its volume is found again (CellInBody); those that were, times one factor, make all
-// volumes add up to `measure`, the body's. Throws Error(ErrorKind::domain) if that factor is far
-// from 1. Collective, and agreed.
+// Returns the volumes of the owned particles; 0 for those left out.
+// `cells` are those of the nodes at their original positions `first`. A volume is computed again
+// (CellInBody) if the cell ends at the boundary of the elements, or if a node near it has moved or
+// is left out. These volumes are multiplied by a common factor, so that all sum up to `measure`,
+// that of the body. Throws Error(ErrorKind::domain) if the factor is far from 1. Collective. If one
+// rank throws, all ranks throw.
 template <int Dim>
 std::vector<double> volumes_within(const Communicator& comm, const SignedDistance<Dim>& body,
                                    double measure, const VoronoiCells& cells,

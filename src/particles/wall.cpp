@@ -13,9 +13,9 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kRounding = 1e-9, kTolerance = 1e-3;  // of the depth
+constexpr double kRounding = 1e-9, kTolerance = 1e-3;  // [depth]
 
-// Throws for the first one, by its id, that is not inside. Collective.
+// Throws for the particle with the smallest id that is not inside. Collective.
 template <int Dim>
 void require_inside(const Communicator& comm, const KnownParticles<Dim>& particles,
                     std::span<const double> depths) {
@@ -46,7 +46,8 @@ Wall<Dim>::Wall(const Communicator& comm, const SignedDistance<Dim>& body,
              [&](std::int64_t i) { least_depths_[index(i)] = -body(particles.x[index(i)]); });
   });
   require_inside(comm, particles, least_depths_);
-  double shallowest = std::numeric_limits<double>::infinity();  // over d
+  // Smallest depth of the outermost particles. [d]
+  double shallowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outermost.size(); ++i)
     if (outermost[i] != 0) shallowest = std::min(shallowest, least_depths_[i] / particles.d[i]);
   shallowest = -comm.allreduce_max(-shallowest);

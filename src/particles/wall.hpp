@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps particles off the wall of the body that they fill.
+// Keeps particles away from the wall of the body that they fill.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,21 @@ namespace pnpbs {
 template <int Dim>
 class Wall {
  public:
-  // `outermost`: which of the owned ones are; these may come no nearer to the wall than they are,
-  // and all others no nearer, over d, than the nearest of these. The body must outlive it. Throws
-  // Error(ErrorKind::domain) if a particle is not strictly inside. Collective, and agreed.
+  // Computes the least depth of each particle. The owned particles with `outermost` set may not
+  // approach the wall further. The others may not come nearer to it, relative to d, than the
+  // nearest of these. The body must outlive this object. Throws Error(ErrorKind::domain) if a
+  // particle is not strictly inside. Collective. If one rank throws, all ranks throw.
   Wall(const Communicator& comm, const SignedDistance<Dim>& body,
        const KnownParticles<Dim>& particles, std::span<const char> outermost);
 
-  // Where particle i goes that would be at `to`: there, or as deep below the wall as it must be. It
-  // stays where it is if that would not be inside. Any thread may ask.
+  // Returns the position of particle i if it moves from `from` to `to`: `to`, or the point at its
+  // least depth below the wall. Returns `from` if that is not inside. Several threads may call it
+  // at the same time.
   Point<Dim> held_off(std::int64_t i, const Point<Dim>& from, Point<Dim> to) const;
 
  private:
   const SignedDistance<Dim>& body_;
-  std::vector<double> least_depths_;  // of owned particles
+  std::vector<double> least_depths_;  // One per owned particle.
 };
 
 extern template class Wall<2>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which bits of finite doubles are in use: what exact arithmetic of them needs.
+// The range of bits that finite doubles use, which determines the size of their exact differences
+// and products.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +9,9 @@
 
 namespace pnpbs {
 
-// |value| = mantissa * 2^exponent
+// A double as integers: |value| = mantissa * 2^exponent.
 struct BinaryParts {
-  std::uint64_t mantissa;  // below 2^53
+  std::uint64_t mantissa;  // Less than 2^53.
   int exponent;
 };
 
@@ -18,16 +19,19 @@ inline BinaryParts binary_parts(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   const auto fraction = bits & ((std::uint64_t{1} << 52) - 1);
   const int exponent = static_cast<int>((bits >> 52) & 0x7ff);
-  const std::uint64_t leading = exponent == 0 ? 0 : 1;  // 0 for 0 and subnormal numbers
+  // Zero and subnormal numbers have no leading bit.
+  const std::uint64_t leading = exponent == 0 ? 0 : 1;
   return {fraction | leading << 52, std::max(exponent, 1) - 1075};
 }
 
-// The bits in which numbers have something: all are multiples of 2^low and below 2^high.
+// The range of bits of a set of numbers: all are multiples of 2^low and less than 2^high in
+// magnitude.
 struct BitRange {
   int low = 1100;
   int high = -1100;
 
-  // Without branches: which differences are 0 is hard to predict.
+  // Adds a number to the set. The code has no branches, because zero differences are hard to
+  // predict.
   void include(double value) {
     const auto [mantissa, exponent] = binary_parts(value);
     const int beyond = mantissa == 0 ? 4096 : 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expansions: exact numbers as sums of doubles that do not overlap, smallest first (Shewchuk
-// 1997). Exact as long as nothing overflows and no product falls below the normal range; needs
-// rounding to nearest and no contraction by the compiler.
+// Expansions: exact numbers as sums of doubles that do not overlap, in ascending order (Shewchuk
+// 1997). They are exact if nothing overflows and no product falls below the normal range. They
+// require rounding to nearest and no contraction by the compiler.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace pnpbs {
 
 struct TwoTerms {
   double high;
-  double low;  // high + low is the exact result
+  double low;  // high + low is the exact result.
 };
 
 inline TwoTerms two_sum(double a, double b) {
@@ -21,7 +21,7 @@ inline TwoTerms two_sum(double a, double b) {
   return {sum, (a - a_part) + (b - b_part)};
 }
 
-// two_sum for |a| >= |b|.
+// Returns two_sum(a, b) for |a| >= |b|, with fewer operations.
 inline TwoTerms fast_two_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
@@ -34,7 +34,7 @@ inline TwoTerms two_product(double a, double b) {
 
 template <int Capacity>
 struct Expansion {
-  int size = 0;  // zero terms are left out; 0 terms are the number 0
+  int size = 0;  // Number of terms. Zero terms are omitted, so that the number 0 has no terms.
   double terms[Capacity];
 
   void append(double term) {
@@ -54,7 +54,7 @@ inline Expansion<2> exact_difference(double a, double b) {
   return result;
 }
 
-// Adds by merging the terms in order of magnitude (Shewchuk's fast-expansion-sum).
+// Merges the terms in order of magnitude (Shewchuk's fast-expansion-sum).
 template <int A, int B>
 Expansion<A + B> operator+(const Expansion<A>& a, const Expansion<B>& b) {
   Expansion<A + B> result;
@@ -101,7 +101,8 @@ Expansion<2 * A> scaled(const Expansion<A>& a, double factor) {
   return result;
 }
 
-// The first `count` terms of b, times a: halved recursively, so that sums stay balanced.
+// Returns the product of a and `Count` terms of b from `first` on. The recursion halves the terms,
+// so that the sums are balanced.
 template <int Count, int A, int B>
 Expansion<2 * A * Count> product_of_terms(const Expansion<A>& a, const Expansion<B>& b, int first) {
   if constexpr (Count == 1) {

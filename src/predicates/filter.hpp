@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the floating-point filters of the predicates share.
+// Constants of the floating-point filters in the predicates.
 #pragma once
 
 namespace pnpbs::predicates {
 
 constexpr double kHalfUlp = 0x1p-53;
-// Far above what products lose that fall below the normal range: below it, nothing is decided
-// without the exact arithmetic. (Overflow gives inf or NaN, which decide nothing either.)
+// Bound of the magnitudes below which a filter does not decide. It is far above the loss of
+// products that fall below the normal range. Overflow results in inf or NaN, for which a filter
+// does not decide either.
 constexpr double kUnderflowGuard = 0x1p-960;
 
 }  // namespace pnpbs::predicates

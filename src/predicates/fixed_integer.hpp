@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integers of a few machine words, for determinants of doubles whose bits are not far apart. They
-// ask for no memory. That the numbers fit is for their user to know.
+// Integers of a few machine words, for determinants of doubles whose bits are close together. They
+// do not allocate memory and do not check for overflow: the caller ensures that the numbers fit.
 #pragma once
 
 #include <array>
@@ -12,21 +12,22 @@
 
 namespace pnpbs {
 
-// value / 2^lowest_bit, which must be an integer below 2^63 in magnitude.
+// Returns value / 2^lowest_bit, which must be an integer less than 2^63 in magnitude.
 inline std::int64_t word_integer(double value, int lowest_bit) {
   const auto power_of_two = [](int exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
   };
-  const int half = lowest_bit / 2;  // the whole may be no power that a double has
+  const int half = lowest_bit / 2;  // The whole power of two can be outside the range of a double.
   return static_cast<std::int64_t>(value * power_of_two(-half) * power_of_two(half - lowest_bit));
 }
 
-// Of two words, whatever is added or multiplied: below 2^127 in magnitude.
+// An integer of two words. Sums and products also have two words, so all numbers must be less than
+// 2^127 in magnitude.
 class ShortInteger {
  public:
   ShortInteger() = default;
 
-  // value / 2^lowest_bit, which must be an integer below 2^63 in magnitude.
+  // Constructs value / 2^lowest_bit, which must be an integer less than 2^63 in magnitude.
   ShortInteger(double value, int lowest_bit) : value_(word_integer(value, lowest_bit)) {}
 
   int sign() const { return (value_ > 0) - (value_ < 0); }
@@ -49,14 +50,14 @@ class ShortInteger {
   TwoWords value_ = 0;
 };
 
-// Of as many words as the template says: below 2^(64 Words - 1) in magnitude. A product has the
-// words of both its factors. In two's complement, lowest word first.
+// An integer of `Words` words in two's complement, lowest word first. It is less than 2^(64 Words -
+// 1) in magnitude. A product has as many words as both factors together.
 template <int Words>
 class FixedInteger {
  public:
   FixedInteger() = default;
 
-  // value / 2^lowest_bit, which must be an integer.
+  // Constructs value / 2^lowest_bit, which must be an integer.
   FixedInteger(double value, int lowest_bit) {
     if constexpr (Words == 1) {
       words_[0] = static_cast<std::uint64_t>(word_integer(value, lowest_bit));
@@ -90,7 +91,8 @@ class FixedInteger {
     return result;
   }
 
-  // As numbers without signs first; a negative one was taken for one larger by 2^(64 Words).
+  // The words are multiplied as unsigned numbers first. This takes a negative number as larger by
+  // 2^(64 Words), which the subtractions correct.
   template <int Others>
   FixedInteger<Words + Others> operator*(const FixedInteger<Others>& other) const {
     FixedInteger<Words + Others> result;
@@ -116,7 +118,8 @@ class FixedInteger {
 
   void set(const BinaryParts& value, int lowest_bit) {
     if (value.mantissa == 0) return;
-    // From a word below the lowest, which stays empty as the bits below the lowest one are zero.
+    // The mantissa is put in relative to a virtual word below the lowest one. That word remains
+    // empty because the value has no bits below lowest_bit.
     const int place = value.exponent - lowest_bit + 64;
     const int word = place / 64;
     const TwoWords shifted = TwoWords{value.mantissa} << (place % 64);
@@ -126,7 +129,8 @@ class FixedInteger {
 
   bool negative() const { return (words_[Words - 1] >> 63) != 0; }
 
-  // From the word `First` on, if `really`: no branch, for signs are hard to predict.
+  // Subtracts `other` from the word `First` on, if `really` is true. The code has no branch,
+  // because signs are hard to predict.
   template <int First, int Others>
   void subtract(const FixedInteger<Others>& other, bool really) {
     const std::uint64_t mask = std::uint64_t{0} - (really ? 1 : 0);

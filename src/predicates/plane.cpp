@@ -12,12 +12,12 @@ namespace pnpbs::predicates {
 
 namespace {
 
-// Between these, the products of four differences neither overflow nor lose bits at the bottom.
+// Range of bits in which products of four differences neither overflow nor lose low bits.
 constexpr int kLowestBit = -240;
 constexpr int kHighestBit = 240;
 
-// Brings coordinates into the range of expansions by a power of two, which changes no sign.
-// False if their bits are too far apart for that.
+// Multiplies coordinates by a power of two, which does not change signs, to bring them into the
+// range of expansions. Returns false if their bits are too far apart for that.
 template <std::size_t N>
 bool scale_for_expansions(std::array<Point<2>, N>& points, BitRange& range) {
   for (const Point<2>& point : points) {
@@ -86,9 +86,9 @@ int in_circle_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, con
   });
 }
 
-// The determinant is linear in each lifted height; its derivative by a height is, up to sign, the
-// orientation of the other three points. The first point, in order of ids, whose derivative is
-// not zero decides.
+// The determinant is linear in each lifted height. Its derivative by a height is, up to sign, the
+// orientation of the other three points. The first point in order of ids with a non-zero derivative
+// decides.
 int break_tie(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d,
               std::int64_t id_a, std::int64_t id_b, std::int64_t id_c, std::int64_t id_d) {
   struct Lifted {

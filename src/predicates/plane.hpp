@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact signs of determinants of points in the plane: a floating-point filter first, exact
-// expansions where it cannot decide. Method: J. R. Shewchuk, "Adaptive precision floating-point
-// arithmetic and fast robust geometric predicates", Discrete Comput. Geom. 18 (1997) 305-363. The
-// filters are inline: they decide almost always, and are asked hundreds of millions of times.
+// Exact signs of determinants of points in the plane. A floating-point filter is evaluated first,
+// exact expansions where it cannot decide. Method: J. R. Shewchuk, "Adaptive precision
+// floating-point arithmetic and fast robust geometric predicates", Discrete Comput. Geom. 18 (1997)
+// 305-363. The filters are inline because they decide almost always and are evaluated hundreds of
+// millions of times.
 #pragma once
 
 #include <cmath>
@@ -15,7 +16,8 @@ namespace pnpbs {
 
 namespace predicates {
 
-// Exact, slow, for every finite input.
+// Compute the signs of turn, of in_circle and of the tie-break exactly for every finite input. They
+// are slow.
 int turn_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
 int in_circle_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
 int break_tie(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d,
@@ -26,8 +28,9 @@ constexpr double kInCircleBound = (10 + 96 * kHalfUlp) * kHalfUlp;
 
 }  // namespace predicates
 
-// > 0 if the way from c to d leads to the left of that from a to b, < 0 to its right, 0 if the two
-// are parallel or one of them has no length.
+// Returns the sign of the cross product of b - a and d - c: > 0 if the direction from c to d points
+// to the left of that from a to b, < 0 if to the right, 0 if the two are parallel or one has length
+// 0.
 inline int turn(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d) {
   const double left = (b[0] - a[0]) * (d[1] - c[1]);
   const double right = (b[1] - a[1]) * (d[0] - c[0]);
@@ -39,13 +42,13 @@ inline int turn(const Point<2>& a, const Point<2>& b, const Point<2>& c, const P
   return predicates::turn_exact(a, b, c, d);
 }
 
-// > 0 if a, b, c turn counter-clockwise, < 0 clockwise, 0 exactly on a line.
+// Returns > 0 if a, b, c are counter-clockwise, < 0 if clockwise, 0 if exactly on a line.
 inline int orientation(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   return turn(c, a, c, b);
 }
 
-// For a, b, c counter-clockwise: > 0 if d lies inside their circumcircle, < 0 outside, 0 exactly
-// on it.
+// Returns > 0 if d is inside the circumcircle of a, b, c, < 0 if outside, 0 if exactly on it. a, b,
+// c must be counter-clockwise.
 inline int in_circle(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d) {
   const double ax = a[0] - d[0], ay = a[1] - d[1];
   const double bx = b[0] - d[0], by = b[1] - d[1];
@@ -67,10 +70,10 @@ inline int in_circle(const Point<2>& a, const Point<2>& b, const Point<2>& c, co
   return predicates::in_circle_exact(a, b, c, d);
 }
 
-// The same, but never 0 for distinct ids and not all on a line: a tie is broken by perturbing
-// the points' lifted heights |x|^2 by amounts that fall steeply with the id (the smallest id is
-// lifted most), so that all ranks decide alike and the triangulation conforms. Antisymmetric
-// under swapping two points (with their ids), invariant under even permutations.
+// Returns in_circle, but never 0 if the ids are distinct and the points are not all on a line. A
+// tie is broken by a perturbation of the lifted heights |x|^2 that falls steeply with the id: the
+// smallest id is lifted most. Therefore all ranks decide equally and the triangulation conforms.
+// The result is antisymmetric when two points and their ids are swapped.
 inline int in_circle_perturbed(const Point<2>& a, const Point<2>& b, const Point<2>& c,
                                const Point<2>& d, std::int64_t id_a, std::int64_t id_b,
                                std::int64_t id_c, std::int64_t id_d) {
@@ -79,8 +82,8 @@ inline int in_circle_perturbed(const Point<2>& a, const Point<2>& b, const Point
   return predicates::break_tie(a, b, c, d, id_a, id_b, id_c, id_d);
 }
 
-// Do the open segments ab and cd cross in one point that is inside both? (Touching ends and
-// overlaps on a line are no crossing.)
+// Returns whether the open segments ab and cd intersect in exactly one point. Segments that touch
+// at an end or overlap on a line do not cross properly.
 inline bool cross_properly(const Point<2>& a, const Point<2>& b, const Point<2>& c,
                            const Point<2>& d) {
   return orientation(a, b, c) * orientation(a, b, d) < 0 &&

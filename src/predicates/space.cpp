@@ -15,16 +15,16 @@ namespace {
 template <std::size_t Count, class Number>
 using Vectors = std::array<std::array<Number, 3>, Count>;
 
-// From one point to others, each the exact sum of two terms, the second of which is mostly 0; and
-// the bits in which these have something. They are fewer than those of the coordinates where points
-// are near each other but far from the origin.
+// Exact difference vectors from one point to others, and the range of bits that they use. Each
+// component is the sum of two terms, the second of which is mostly 0. The range is narrower than
+// that of the coordinates if the points are near each other and far from the origin.
 template <std::size_t Count>
 struct Differences {
   Vectors<Count, TwoTerms> terms;
   BitRange range;
 };
 
-// Below this, two_sum does not overflow.
+// Magnitude below which two_sum does not overflow.
 constexpr double kMaxSum = 0x1p1020;
 
 template <std::size_t Count>
@@ -57,9 +57,10 @@ Vectors<Count, Number> integers(const Differences<Count>& differences) {
   return result;
 }
 
-// How many bits the terms of differences may have for the determinants below to fit into integers
-// of so many words per factor: a difference is one bit longer than its terms, and five are
-// multiplied in at most 72 products (4 volumes of 6, and lifts of 3). Two words in all: 5 * 24 + 7.
+// Largest bit range of the terms for which the determinants below fit into integers of `Words`
+// words per factor. A difference has one bit more than its terms. At most 72 products of five
+// differences are added (4 volumes of 6 products, and lifts of 3), which takes 7 bits. ShortInteger
+// has 127 bits in all: 5 * 24 + 7.
 constexpr int kShortBits = 23;
 template <int Words>
 constexpr int kFixedBits = 64 * Words - 3;
@@ -74,7 +75,7 @@ int exact_sign(const std::array<Point<3>, Count>& points, const Point<3>& from, 
   return sign(integers<WideInteger>(differences));
 }
 
-// p x q in the plane of x and y.
+// Returns the cross product of the projections of p and q onto the plane of x and y.
 template <class Number>
 auto integer_cross(const std::array<Number, 3>& p, const std::array<Number, 3>& q) {
   return p[0] * q[1] - q[0] * p[1];
@@ -119,12 +120,13 @@ int in_sphere_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, con
                     [](const auto& from_e) { return in_sphere_sign(from_e); });
 }
 
-// As in the plane: the determinant's derivative by a height is, up to sign, the orientation of the
-// other four points.
+// The tie-break is that of the plane: the derivative of the determinant by a height is, up to sign,
+// the orientation of the other four points.
 int break_tie(const std::array<Point<3>, 5>& points, const std::array<std::int64_t, 5>& ids) {
   std::array<int, 5> order{0, 1, 2, 3, 4};
   const auto by_id = [&ids](int x, int y) { return ids[x] < ids[y]; };
-  for (auto next = order.begin(); next != order.end(); ++next) {  // the first mostly decides
+  // The first one decides in most cases.
+  for (auto next = order.begin(); next != order.end(); ++next) {
     std::iter_swap(next, std::min_element(next, order.end(), by_id));
     const auto other = [&](int k) { return points[k < *next ? k : k + 1]; };
     const int volume = orientation(other(0), other(1), other(2), other(3));

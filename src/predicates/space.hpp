@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact signs of determinants of points in space, as plane.hpp has them in the plane: a
-// floating-point filter first (Shewchuk 1997), exact integers where it cannot decide.
+// Exact signs of determinants of points in space. A floating-point filter is evaluated first
+// (Shewchuk 1997), exact integers where it cannot decide.
 #pragma once
 
 #include <array>
@@ -14,21 +14,22 @@ namespace pnpbs {
 
 namespace predicates {
 
-// Exact, slower, for every finite input.
+// Compute the signs of orientation, of in_sphere and of the tie-break exactly for every finite
+// input. They are slow.
 int orientation_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d);
 int in_sphere_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d,
                     const Point<3>& e);
 int break_tie(const std::array<Point<3>, 5>& points, const std::array<std::int64_t, 5>& ids);
 
-// Shewchuk's, for his order of the operations, which is that of the code below. To first order, in
-// half ulps of the permanent: 3 and 5 for the differences that are multiplied, 4 and 10 for the
-// roundings of products and sums that come upon them (but for that of the result itself; the
-// longer determinant has one to spare). The terms of second order are rounded up, and with them
-// the roundings of the permanent and of its product with the bound.
+// Relative error bounds of the two determinants in Shewchuk's order of operations. [permanent]
+// To first order, in units of half an ulp, rounding of the differences contributes 3 (orientation)
+// and 5 (in_sphere). Rounding of products and sums contributes 4 and 10, without that of the
+// result; the bound of in_sphere has one unit to spare. The terms of second order are rounded up
+// and also cover the rounding of the permanent and of its product with the bound.
 constexpr double kSpaceOrientationBound = (7 + 56 * kHalfUlp) * kHalfUlp;
 constexpr double kInSphereBound = (16 + 224 * kHalfUlp) * kHalfUlp;
 
-// A sum of products, and the same with all its terms taken positive (its permanent).
+// A sum of products and its permanent, which is the same sum with all terms positive.
 struct Estimate {
   double value;
   double permanent;
@@ -44,7 +45,7 @@ struct Estimate {
   }
 };
 
-// p x q in the plane of x and y.
+// Returns the cross product of the projections of p and q onto the plane of x and y.
 inline Estimate cross(const Point<3>& p, const Point<3>& q) {
   const double left = p[0] * q[1], right = q[0] * p[1];
   return {left - right, std::fabs(left) + std::fabs(right)};
@@ -58,10 +59,9 @@ inline Point<3> difference(const Point<3>& p, const Point<3>& q) {
 
 }  // namespace predicates
 
-// The sign of the volume of the tetrahedron a, b, c, d: > 0 if d lies on the side of the plane
-// a, b, c to which (b - a) x (c - a) points (from there, a, b, c turn counter-clockwise: the right
-// hand's rule), < 0 on the other, 0 exactly in the plane. So it is > 0 for the origin and the
-// unit vectors of x, y, z.
+// Returns the sign of the volume of the tetrahedron a, b, c, d. It is > 0 if d lies on the side of
+// the plane a, b, c to which (b - a) x (c - a) points, < 0 if on the other side, 0 if exactly in
+// the plane. For example, it is > 0 for the origin and the unit vectors of x, y, z.
 inline int orientation(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
   using predicates::cross, predicates::difference, predicates::Estimate;
   const Point<3> ad = difference(a, d), bd = difference(b, d), cd = difference(c, d);
@@ -74,8 +74,8 @@ inline int orientation(const Point<3>& a, const Point<3>& b, const Point<3>& c, 
   return predicates::orientation_exact(a, b, c, d);
 }
 
-// For a, b, c, d of positive orientation: > 0 if e lies inside their circumsphere, < 0 outside, 0
-// exactly on it.
+// Returns > 0 if e is inside the circumsphere of a, b, c, d, < 0 if outside, 0 if exactly on it.
+// The orientation of a, b, c, d must be positive.
 inline int in_sphere(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d,
                      const Point<3>& e) {
   using predicates::cross, predicates::difference, predicates::Estimate;
@@ -90,7 +90,7 @@ inline int in_sphere(const Point<3>& a, const Point<3>& b, const Point<3>& c, co
   const double lift_a = predicates::squared_length(ae), lift_b = predicates::squared_length(be);
   const double lift_c = predicates::squared_length(ce), lift_d = predicates::squared_length(de);
   const Estimate determinant = (lift_c * dab - lift_d * abc) + (lift_a * bcd - lift_b * cda);
-  // What a product loses by underflow is multiplied by three lengths at most.
+  // The underflow error of a product is multiplied by three lengths at most.
   const double lifts = (lift_a + lift_b) + (lift_c + lift_d);
   const double error = predicates::kInSphereBound * determinant.permanent +
                        predicates::kUnderflowGuard * (1 + lifts * lifts);
@@ -99,10 +99,10 @@ inline int in_sphere(const Point<3>& a, const Point<3>& b, const Point<3>& c, co
   return predicates::in_sphere_exact(a, b, c, d, e);
 }
 
-// The same, but never 0 for distinct ids and not all in one plane: a tie is broken by perturbing
-// the points' lifted heights |x|^2 by amounts that fall steeply with the id (the smallest id is
-// lifted most), so that all ranks decide alike and the triangulation conforms. Antisymmetric
-// under swapping two points (with their ids), invariant under even permutations.
+// Returns in_sphere, but never 0 if the ids are distinct and the points are not all in one plane. A
+// tie is broken by a perturbation of the lifted heights |x|^2 that falls steeply with the id: the
+// smallest id is lifted most. Therefore all ranks decide equally and the triangulation conforms.
+// The result is antisymmetric when two points and their ids are swapped.
 inline int in_sphere_perturbed(const Point<3>& a, const Point<3>& b, const Point<3>& c,
                                const Point<3>& d, const Point<3>& e, std::int64_t id_a,
                                std::int64_t id_b, std::int64_t id_c, std::int64_t id_d,

@@ -13,7 +13,7 @@ WideInteger::WideInteger(double value, int lowest_bit) {
   const double fraction = std::frexp(std::fabs(value), &exponent);
   auto mantissa = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
   int shift = exponent - 53 - lowest_bit;
-  while (shift < 0) {  // bits below the lowest one are zero
+  while (shift < 0) {  // Bits below lowest_bit are zero.
     mantissa >>= 1;
     ++shift;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Integers of any length, for determinants of doubles whose exponents are too far apart for
-// expansions. Plain and slow; hardly ever needed.
+// expansions. They are simple and slow, and rarely needed.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ class WideInteger {
  public:
   WideInteger() = default;
 
-  // value / 2^lowest_bit, which must be an integer.
+  // Constructs value / 2^lowest_bit, which must be an integer.
   WideInteger(double value, int lowest_bit);
 
   int sign() const { return limbs_.empty() ? 0 : (negative_ ? -1 : 1); }
@@ -22,7 +22,7 @@ class WideInteger {
   friend WideInteger operator*(const WideInteger& a, const WideInteger& b);
 
  private:
-  using Limbs = std::vector<std::uint32_t>;  // lowest first, no leading zeros
+  using Limbs = std::vector<std::uint32_t>;  // Lowest limb first, without leading zeros.
 
   static void trim(Limbs& limbs);
   static bool less(const Limbs& a, const Limbs& b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Areas on a sphere by a walk around them in its stereographic projection.
+// Areas on a sphere from line integrals along their boundaries in a stereographic chart.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,11 @@
 
 namespace pnpbs {
 
-// What a straight segment from a to b adds to the area on the left of a closed walk. With
-// q = |u|^2 / (4 R^2), du dv / (1 + q)^2 is an area on the sphere, and the curl of
-// (-v, u) / (2 (1 + q)). Along the segment that is a x b / 2, a constant, over a quadratic function
-// of the way: its integral.
+// Returns the contribution of the straight segment from a to b to the area on the left of a closed
+// polygon in the chart. `radius` is that of the sphere.
+// With q = |u|^2 / (4 R^2), du dv / (1 + q)^2 is an area element on the sphere. It is the curl of
+// (-v, u) / (2 (1 + q)), so the area is a line integral. On a segment its integrand is the constant
+// (a x b) / 2 over a quadratic polynomial in the curve parameter.
 inline double area_beside(const Point<2>& a, const Point<2>& b, double radius) {
   const Point<2> way{b[0] - a[0], b[1] - a[1]};
   const double unit = 4 * radius * radius;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the coordinates that nodes are placed in relate to the space in which users measure. In the
-// plane and in space they are the same. On a sphere they are those of a stereographic chart.
+// The map from the coordinates in which nodes are placed to the coordinates of the user. It is the
+// identity in the plane and in space, and a stereographic chart on a sphere.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace pnpbs {
 
-// The identity, which all functions of Embedding<2> compute in the plane as well.
+// The identity. Embedding<2> documents the functions.
 template <int Dim>
 class Embedding {
  public:
@@ -33,31 +33,33 @@ class Embedding {
 template <>
 class Embedding<2> {
  public:
-  Embedding() = default;  // of the plane
+  Embedding() = default;  // Constructs the identity of the plane.
   Embedding(const StereographicChart& chart) : chart_(chart) {}
 
   bool is_sphere() const { return chart_.has_value(); }
   // Requires is_sphere().
   const StereographicChart& chart() const { return *chart_; }
-  double radius() const { return chart_ ? chart_->radius() : 0; }  // of the sphere
-  // Number of coordinates that users give and get of a point.
+  // Radius of the sphere; 0 in the plane.
+  double radius() const { return chart_ ? chart_->radius() : 0; }
+  // Returns the number of coordinates that the user gives and receives for a point.
   int coordinates() const { return chart_ ? 3 : 2; }
 
-  // A length where nodes are placed over the same one as users measure it.
+  // Returns the factor from a length on the sphere to a length in the chart at u. It is 1 in the
+  // plane.
   double stretch(const Point<2>& u) const { return chart_ ? chart_->stretch(u) : 1; }
-  // Converts a short length at a point, such as d, from where nodes are placed to where users
-  // measure it, and back.
+  // Convert a length that is short at a point, such as d, from placement coordinates to user
+  // coordinates and back.
   double measured_length(const Point<2>& u, double length) const {
     return chart_ ? length / chart_->stretch(u) : length;
   }
   double coordinate_length(const Point<2>& u, double length) const {
     return chart_ ? length * chart_->stretch(u) : length;
   }
-  // Distance as users measure it.
+  // Returns the distance in user coordinates, which is along the great circle on a sphere.
   double distance(const Point<2>& u, const Point<2>& v) const {
     return chart_ ? chart_->distance(u, v) : pnpbs::distance<2>(u, v);
   }
-  // The point in space; in the plane its third coordinate is 0.
+  // Returns the point in space; its third coordinate is 0 in the plane.
   Point<3> in_space(const Point<2>& u) const {
     return chart_ ? chart_->on_sphere(u) : Point<3>{u[0], u[1], 0};
   }
@@ -68,7 +70,8 @@ class Embedding<2> {
   double most_stretch_in(const Box<2>& box) const {
     return chart_ ? chart_->most_stretch_in(box) : 1;
   }
-  // Whether the stretch differs so much in a box that a few samples of d miss its least value.
+  // Returns whether the stretch varies so much in a box that a few samples of d can miss its
+  // minimum.
   bool varies_much_in(const Box<2>& box) const { return chart_ && chart_->varies_much_in(box); }
 
  private:

@@ -16,9 +16,10 @@ struct PlaceOnSphere {
   Point<2> in_chart;
 };
 
-// A straight line of the chart bends by |u| / (2 R^2) per length on the sphere, at most: the
-// gradient of the stretch. Half of that over a piece is the angle that it makes with the great
-// circle at its ends.
+// Returns the longest piece in radians on which a straight line of the chart is close enough to a
+// great circle.
+// Its curvature on the sphere is at most |u| / (2 R^2), the gradient of the stretch. Half of the
+// turn over a piece is the angle with the great circle at the ends of the piece.
 double longest_piece(double radius, const Point<2>& u) {
   constexpr double kAngle = 0.3 * kDegree, kLongest = 0.1;
   const double away = length(u) / radius;

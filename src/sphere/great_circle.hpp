@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shortest way between two points of a sphere, which is a part of a great circle.
+// Shortest arcs between two points of a sphere, which are parts of great circles.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,17 @@
 
 namespace pnpbs {
 
-// Of the directions of two points, in radians.
+// Returns the angle between two directions in radians.
 double angle_between(const Point<3>& a, const Point<3>& b);
 
-// Of the direction of a point with the nearest one on the way from a to b, in radians. Not for
-// opposite ends.
+// Returns the angle in radians between direction x and the nearest point of the arc from a to b.
+// The ends of the arc must not be opposite.
 double angle_to_way(const Point<3>& x, const Point<3>& a, const Point<3>& b);
 
-// Points between the two ends, in the chart: so many that the straight way from one to the next
-// leaves the great circle nowhere at more than 0.3 degrees. Not for opposite ends, nor for a way
-// through the point that is projected from.
+// Returns points in the chart between the ends of the arc from a to b, without the ends. They are
+// so dense that the straight line from one to the next deviates from the great circle by at most
+// 0.3 degrees in direction. The ends must not be opposite, and the arc must not contain the
+// projection centre.
 std::vector<Point<2>> points_on_the_way(const StereographicChart& chart, const Point<3>& a,
                                         const Point<3>& b);
 

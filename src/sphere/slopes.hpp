@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How steep a field is, in the plane, in space or along a sphere, from its values beside each
-// place.
+// Slopes of a field in the plane, in space or along a sphere by central differences.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +14,8 @@
 
 namespace pnpbs {
 
-// Small against any cell of a grid, large against what is lost to rounding in a difference: this
-// part of the sphere's radius or of the field's longest side.
+// Step of the central differences, relative to the radius of the sphere or to the longest side of
+// the field. It is small compared to any grid cell and large compared to rounding errors.
 inline constexpr double kSlopeStep = 1e-7;
 
 using FieldValues = std::function<void(std::int64_t n, const double* coordinates, double* values)>;
@@ -29,14 +28,16 @@ inline double longest_finite_side(const Box<3>& box) {
   return longest > 0 ? longest : 1;
 }
 
-// Along x, y and z; on a sphere about the origin, east and north at a place.
+// Returns the directions of differentiation at x: the axes, or east and north on a sphere about the
+// origin.
 inline std::array<Point<3>, 3> directions_of_slopes(const Point<3>& x, bool on_sphere) {
   if (!on_sphere) return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const Point<3> east = east_at(x);
   return {{east, cross(unit_vector(x), east), {}}};
 }
 
-// The change of the values per length. `side` is the field's longest, unless it is on a sphere.
+// Writes the norm of the gradient of `field` at each of n points to `slopes`. `side` is the longest
+// side of the field and is not used on a sphere.
 inline void slopes_of(const FieldValues& field, int dimension, bool on_sphere, double side,
                       std::int64_t n, const double* coordinates, double* slopes) {
   const auto each = static_cast<std::size_t>(dimension);

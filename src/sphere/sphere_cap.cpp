@@ -10,10 +10,11 @@ namespace pnpbs {
 
 namespace {
 
-// By how much rounding may put a result off, generously. [of the numbers that go into it]
+// Generous bound of the rounding error of a result. [of the numbers that enter it]
 constexpr double kRounding = 1e-13;
-// Circles of the sphere that are larger have a plane so near to its middle that it takes care to
-// tell on which side that is; and there is hardly a node to be left out.
+// Largest length of a cap other than the whole sphere. [diameter of the sphere] The planes of
+// larger circles are so near the centre of the sphere that it is hard to decide on which side they
+// lie, and such a cap leaves out hardly any node.
 constexpr double kMostOfDiameter = 0.9;
 
 }  // namespace
@@ -25,15 +26,15 @@ SphereCap::SphereCap(const StereographicChart& chart, const Point<2>& centre, do
       centre_stretch_(chart.stretch(centre)),
       whole_(!(length <= kMostOfDiameter * 2 * chart.radius())) {}
 
-// The chart lengthens what is straight in space by the root of the stretches at both ends.
+// The chart lengthens a chord by the square root of the stretches at both ends.
 bool SphereCap::holds(const Point<2>& u) const {
   return whole_ ||
          squared_distance<2>(centre_, u) <= length_ * length_ * centre_stretch_ * chart_.stretch(u);
 }
 
-// That is (1 - k) |u|^2 - 2 c u + |c|^2 - 4 k R^2 <= 0 for points u of the cap around c, where k
-// is length^2 times the stretch at c over 4 R^2: the least of a sum of one function for each
-// coordinate, at the place where its slope is 0 or at an end.
+// The condition is (1 - k) |u|^2 - 2 c u + |c|^2 - 4 k R^2 <= 0 for points u of the cap around c,
+// where k is length^2 times the stretch at c over 4 R^2. The left side is a sum of one function for
+// each coordinate, which has its minimum where its slope is 0 or at an end of the interval.
 bool SphereCap::meets(const Box<2>& box) const {
   if (whole_) return true;
   const double unit = 4 * chart_.radius() * chart_.radius(),
@@ -51,9 +52,9 @@ bool SphereCap::meets(const Box<2>& box) const {
   return least <= kRounding * size;
 }
 
-// In space the circle has a plane, which cuts the sphere in two. Seen along that from the centre of
-// the sphere, counter-clockwise corners have the inside of the circle in the chart behind the
-// plane: if that is the smaller part, none of it is farther from a corner than the diameter.
+// The plane of the circle in space cuts the sphere in two parts. For counter-clockwise corners, the
+// normal points to the part inside the circle. If this part is the smaller one, no point of it is
+// farther from a corner than the diameter of the circle.
 bool SphereCap::holds_circle(const Point<2>& a, const Point<2>& b) const {
   if (whole_) return true;
   const double radius = chart_.radius(), room = kRounding * radius;
@@ -62,7 +63,7 @@ bool SphereCap::holds_circle(const Point<2>& a, const Point<2>& b) const {
   const Point<3> across = cross(to_a, to_b);
   const double side_a = length(to_a) + room, side_b = length(to_b) + room,
                side_ab = length(difference(to_a, to_b)) + room;
-  // Twice the area, not more.
+  // A lower bound of twice the area is required for a safe answer.
   const double twice_area = length(across) - room * (side_a + side_b);
   if (twice_area <= 0 || dot(across, x) <= 0) return false;
   return side_a * side_b * side_ab <= length_ * twice_area;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A cap of a sphere in a chart of it: what lies within a length of a point of the chart. There it
-// is a disc or, with the point that is projected from in it, all that lies around one.
+// A cap of a sphere: all points within a distance of a centre. In the chart it is a disc or, if it
+// contains the projection centre, the outside of a disc.
 #pragma once
 
 #include "sphere/stereographic_chart.hpp"
@@ -9,16 +9,16 @@ namespace pnpbs {
 
 class SphereCap {
  public:
-  // The length is one straight through space. One of more than nine tenths of the sphere's diameter
-  // means the whole sphere.
+  // Constructs a cap from its centre and `length`, a straight distance through space. More than
+  // nine tenths of the diameter of the sphere select the whole sphere.
   SphereCap(const StereographicChart& chart, const Point<2>& centre, double length);
 
   bool is_whole_sphere() const { return whole_; }
   bool holds(const Point<2>& u) const;
-  // Has it a point in common with the box? True where rounding leaves that open.
+  // Returns whether the cap and the box intersect. Returns true if rounding leaves it undecided.
   bool meets(const Box<2>& box) const;
-  // Is all that lies inside of the circle in the chart through its centre, a and b, which follow
-  // each other counter-clockwise, in it? False where rounding leaves that open.
+  // Returns whether the cap contains the inside of the circle in the chart through the centre of
+  // the cap, a and b, which are counter-clockwise. Returns false if rounding leaves it undecided.
   bool holds_circle(const Point<2>& a, const Point<2>& b) const;
 
  private:

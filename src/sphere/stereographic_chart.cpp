@@ -8,7 +8,8 @@
 
 namespace pnpbs {
 
-// East is along the equator of the coordinates, so that maps about a pole turn as maps do.
+// East is along the equator of the coordinates, so that charts about a pole have the orientation of
+// usual maps.
 StereographicChart::StereographicChart(double radius, const Point<3>& from) : radius_(radius) {
   const Point<3> down = unit_vector(from);
   up_ = {-down[0], -down[1], -down[2]};
@@ -21,8 +22,8 @@ Point<3> StereographicChart::projected_from() const {
   return {-radius_ * up_[0], -radius_ * up_[1], -radius_ * up_[2]};
 }
 
-// With t the angle from `up`, 2 tan(t / 2) = 2 sin t / (1 + cos t), which is 2 (1 - cos t) / sin t
-// where that is the one without cancellation.
+// With t the angle from `up`, 2 tan(t / 2) is 2 sin t / (1 + cos t) and 2 (1 - cos t) / sin t. Each
+// branch uses the expression without cancellation.
 Point<2> StereographicChart::in_chart(const Point<3>& x) const {
   const Point<3> at = unit_vector(x);
   const double a = dot(at, east_), b = dot(at, north_), c = dot(at, up_);

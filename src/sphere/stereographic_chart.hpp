@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sphere but for one point of it as a plane: the stereographic projection from that point (J.
+// The stereographic projection of a sphere from one of its points, the projection centre (J.
 // Snyder, Map projections: a working manual, U.S. Geological Survey Professional Paper 1395, 1987,
-// section 21). It keeps angles, and circles are circles. So bubbles of the sphere are bubbles of
-// the plane, of the spacing times the stretch there, and the Delaunay triangles of the nodes are
+// section 21).
+// It preserves angles, and maps circles to circles. Therefore bubbles of the sphere are bubbles of
+// the plane whose spacing is multiplied by the stretch, and the Delaunay triangles of the nodes are
 // the same in both.
 #pragma once
 
@@ -15,41 +16,45 @@ namespace pnpbs {
 
 class StereographicChart {
  public:
-  // About the origin of space; from the point of the sphere in the direction `from`, which is not
-  // 0.
+  // Constructs the chart of the sphere about the origin whose projection centre is in the direction
+  // `from`, which must
+  // not be 0.
   StereographicChart(double radius, const Point<3>& from);
 
   bool operator==(const StereographicChart&) const = default;
 
   double radius() const { return radius_; }
-  Point<3> projected_from() const;  // on the sphere
+  Point<3> projected_from() const;  // The projection centre, on the sphere.
 
-  // Of a point in space, which is taken along the ray from the origin. Infinite for the point that
-  // is projected from.
+  // Returns the image of the point of the sphere on the ray from the origin through x. It is
+  // infinite for the projection centre.
   Point<2> in_chart(const Point<3>& x) const;
-  // Exact but for rounding.
+  // Returns the point of the sphere with image u. It is exact up to rounding.
   Point<3> on_sphere(const Point<2>& u) const;
 
-  // A length in the chart over that on the sphere: 1 opposite to the point projected from, and more
-  // everywhere else.
+  // Returns the ratio of a length in the chart to the same length on the sphere. It is 1 opposite
+  // the projection centre and larger everywhere else.
   double stretch(const Point<2>& u) const;
-  // Where it is this or more, so near to that point, the chart has no place for what is known of d.
+  // Values of d that are known at points with this stretch or more are not converted to the chart,
+  // because these points are too close to the projection centre.
   static constexpr double kMostStretch = 1e12;
   double least_stretch_in(const Box<2>& box) const;
   double most_stretch_in(const Box<2>& box) const;
-  // Is it so different in the box that a few samples of a length there tell nothing of the others?
+  // Returns whether the largest stretch in the box is more than four times the smallest.
   bool varies_much_in(const Box<2>& box) const;
-  // By how much the stretch grows, over itself, per length in the chart.
+  // Returns the relative growth of the stretch per length in the chart.
   double relative_growth(const Point<2>& u) const;
-  // Along the sphere, between points of the chart.
+  // Returns the distance along the sphere between two points of the chart.
   double distance(const Point<2>& u, const Point<2>& v) const;
 
  private:
   double radius_;
-  Point<3> east_, north_, up_;  // right-handed, seen from outside; up: away from the point
+  // Right-handed, seen from outside; up_ is opposite the projection centre.
+  Point<3> east_, north_, up_;
 };
 
-// A function of points in space at points of the chart, so many in one call.
+// Calls work(begin, count, x) for batches of points of the chart, where x are their points in
+// space.
 template <class Work>
 void for_points_on_sphere(const StereographicChart& chart, std::int64_t n, const Point<2>* u,
                           const Work& work) {

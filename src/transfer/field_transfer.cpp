@@ -20,7 +20,8 @@ namespace pnpbs {
 
 namespace {
 
-// Of a field that is linear on each element: integrals of its components, and last of 1.
+// Returns the integrals of the components of a field that is linear on each element of this rank
+// and, as the last one, the integral of 1.
 template <class Space, std::size_t Corners>
 std::vector<ExactSum> integrals_here(const Space& space, const typename Space::Data& patch,
                                      const std::vector<std::array<std::int32_t, Corners>>& elements,
@@ -42,7 +43,8 @@ std::vector<ExactSum> integrals_here(const Space& space, const typename Space::D
   return sums;
 }
 
-// Over the elements of all ranks, by exact sums: in any order they come out the same. Collective.
+// Returns the integrals over the elements of all ranks. Sums are exact, so that they do not depend
+// on the order. If `on_border` is set, the elements are the facets of the border. Collective.
 template <class Space>
 std::vector<double> integrals(const Communicator& comm, const Space& space,
                               const typename Space::Data& patch, bool on_border,
@@ -70,11 +72,12 @@ std::vector<double> integrals(const Communicator& comm, const Space& space,
   return results;
 }
 
-// All of it within the elements and up to about their size beyond the border. Farther away the
-// corners' polynomials tell nothing of the field, and it goes on linearly.
+// Returns the fraction of the curvature that is used: all within the elements and up to about their
+// size beyond the border. Farther away, the corners' polynomials are not valid, and the field
+// continues linearly.
 template <int Dim>
 double part_of_curvature(const PatchWeights<Dim>& w) {
-  constexpr double kAll = 5, kNone = 9;  // sums of the weights' sizes, which are 1 within
+  constexpr double kAll = 5, kNone = 9;  // Sums of the absolute weights, which are 1 inside.
   double sum = 0;
   for (const double weight : w.weights) sum += std::fabs(weight);
   return std::clamp((kNone - sum) / (kNone - kAll), 0.0, 1.0);
@@ -103,7 +106,7 @@ class FieldTransferOf : public FieldTransfer {
   void evaluate_at_nodes(NodalResults& results, bool conserve, double* values) const override;
 
  private:
-  // A place on a simplex or facet of the rank that is asked.
+  // A point on a simplex or facet of the rank that receives the question.
   struct Question {
     Point<In> x;
     std::int64_t row;
@@ -116,13 +119,13 @@ class FieldTransferOf : public FieldTransfer {
 
   Space space_;
   NodalSearch<typename Space::Searched> search_;
-  std::vector<double> values_;     // at the nodes of the patch
-  std::vector<double> integrals_;  // of the components, and the size of all elements
+  std::vector<double> values_;     // Values at the nodes of the patch.
+  std::vector<double> integrals_;  // Integrals of the components, and the size of all elements.
   std::optional<typename Space::Fits> fits_;
 };
 
-// Between the values of the corners inside of a simplex, whatever is rounded; beyond the border the
-// simplex behind it goes on.
+// Inside a simplex, rounding must not lead to values outside the range of the corners. Beyond the
+// border, the linear function of the adjacent simplex continues.
 template <class Space>
 void FieldTransferOf<Space>::answer(const Question& question, double* values) const {
   const PatchWeights<Dim> w =
@@ -143,8 +146,8 @@ void FieldTransferOf<Space>::answer(const Question& question, double* values) co
   if (fits_) add_curvature(question.x, w, values);
 }
 
-// From what is linear to the corners' polynomials, each of which counts as its corner does; so the
-// field is continuous, and one of second order is met. A corner without one stays linear.
+// Blends the linear values with the corners' polynomials by the corners' weights. The result is
+// continuous and reproduces fields of second order. Corners without a polynomial remain linear.
 template <class Space>
 void FieldTransferOf<Space>::add_curvature(const Point<In>& x, const PatchWeights<Dim>& w,
                                            double* values) const {
@@ -204,7 +207,7 @@ void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* v
   collective_try(comm, [&] {
     RankPlaces places;
     for (const Message& theirs : told) places.add(theirs.rank);
-    std::vector<std::size_t> at(told.size());  // answers come in the order of the questions
+    std::vector<std::size_t> at(told.size());  // Answers are in the order of the questions.
     const std::size_t bytes = static_cast<std::size_t>(components_) * sizeof(double);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto k = static_cast<std::size_t>(places.of(found[i].rank));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values at the nodes there were, for the nodes there will be: the field that is linear on each of
-// the old elements, or of second order there, told at any points. The elements stay with the ranks
-// that owned them.
+// Transfers values from the nodes of a level to any points, such as those of another level. The
+// field is linear on each of the old elements, or of second order there. The elements remain on the
+// ranks that owned them.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +19,25 @@ class FieldTransfer {
   virtual ~FieldTransfer() = default;
   virtual int dimension() const = 0;
   std::int64_t components() const { return components_; }
-  // Of a transfer of second order: nodes, on all ranks, about which it is linear. Otherwise -1.
+  // Returns the number of nodes on all ranks around which a transfer of second order is only
+  // linear, or -1 for a transfer of first order.
   virtual std::int64_t nodes_of_first_order() const = 0;
 
-  // x: [n][coordinates of a node, as it is handed out], on a sphere of points of it; values:
-  // [n][components]. Collective; each rank asks what it wants.
+  // Evaluates the field at n points, which each rank chooses independently.
+  // `x` is [n][coordinates of the user], on a sphere points of the sphere. `values` is
+  // [n][components]. Collective.
   virtual void evaluate(std::int64_t n, const double* x, double* values) const = 0;
-  // At this rank's nodes, in places. With `conserve` the field that is linear on the placement's
-  // elements has the integral that the old one had on the old elements: every value is changed by
-  // the same number. On a sphere an integral is the sum, over the triangles, of the area along the
-  // sphere times the mean of the corners' values. Collective.
+  // Evaluates the field at the nodes of this rank in the order of the results.
+  // If `conserve` is set, a constant is added to each component so that the integral on the new
+  // elements equals that on the old ones. On a sphere, an integral is the sum over the triangles of
+  // their area on the sphere times the mean of the corners' values. Collective.
   virtual void evaluate_at_nodes(NodalResults& results, bool conserve, double* values) const = 0;
 
  protected:
   std::int64_t components_ = 0;
 };
 
-// values: [nodes of this rank][components]. Collective.
+// Creates a transfer of the values at the nodes of this rank, [nodes][components]. Collective.
 std::unique_ptr<FieldTransfer> make_field_transfer(NodalResults& results, TransferOrder order,
                                                    std::int64_t components, const double* values);
 

@@ -19,13 +19,14 @@ constexpr int binomial(int n, int k) {
   return result;
 }
 
-// Monomials up to fourth order, which products of two of second order are, by increasing order.
+// The monomials up to fourth order, in ascending order. Products of two monomials of second order
+// are among them.
 template <int Dim>
 class Monomials {
  public:
   static constexpr int kOrder = 4;
   static constexpr int up_to(int order) { return binomial(order + Dim, Dim); }
-  static constexpr int kFitted = up_to(2) - 1;  // without the constant
+  static constexpr int kFitted = up_to(2) - 1;  // The constant is not fitted.
   static constexpr int kAll = up_to(kOrder);
   using Exponents = std::array<int, Dim>;
 
@@ -43,7 +44,7 @@ class Monomials {
     return number(e);
   }
 
-  // Of all up to this one's order that there are.
+  // Evaluates the first `count` monomials, which must be all up to some order.
   void evaluate(const Point<Dim>& x, int count, double* values) const {
     std::array<std::array<double, kOrder + 1>, Dim> powers;
     for (std::size_t k = 0; k < Dim; ++k) {
@@ -56,7 +57,8 @@ class Monomials {
     }
   }
 
-  // Adds sums of monomials around a place to those around another one, which it is `way` from.
+  // Shifts sums of monomials around one point to another point, from which it is `way` away, and
+  // adds them to the sums there.
   void add_shifted(const double* sums, const double* way, int count, double* to) const {
     for (int m = 0; m < count; ++m)
       for (const Term& term : terms_[index(m)])
@@ -104,11 +106,11 @@ class Monomials {
   std::array<std::vector<Term>, kAll> terms_;
 };
 
-// Solves for several right sides with a matrix whose rows and columns may be of any scales. False
-// where it is as good as singular.
+// Solves for several right-hand sides with a matrix whose rows and columns may have different
+// scales. Returns false if it is nearly singular.
 template <std::size_t N>
 bool solve_scaled(SquareMatrix<N>& a, std::int64_t sides, double* b) {
-  constexpr double kSingular = 1e-7;  // part of a column that is none of those before
+  constexpr double kSingular = 1e-7;  // Smallest independent part of a column.
   std::array<double, N> scale;
   if (!scale_to_unit_diagonal(a, scale) || !factor_cholesky(a, kSingular)) return false;
   for (std::int64_t side = 0; side < sides; ++side) {
@@ -120,7 +122,7 @@ bool solve_scaled(SquareMatrix<N>& a, std::int64_t sides, double* b) {
   return true;
 }
 
-// The way from sums over neighbours to fits, for the nodes of a rank.
+// Computes sums over neighbours, and fits from these sums, for the nodes of a rank.
 template <int Dim>
 class Fitting {
  public:
@@ -133,8 +135,8 @@ class Fitting {
     monomials_.prepare_shifts();
   }
 
-  // Sums of monomials around a node over its neighbours, and of the differences of values times
-  // those up to second order, for each component.
+  // Columns of the sums around a node: monomials, then for each component differences of values
+  // times the monomials up to second order.
   std::int64_t sum_columns() const { return M::kAll + kOfField * components_; }
   std::vector<double> sums() const {
     std::vector<double> all(static_cast<std::size_t>(results_.count() * sum_columns()));
@@ -154,7 +156,8 @@ class Fitting {
     return all;
   }
 
-  // From the sums at all places. 1, and the coefficients; or 0.
+  // Columns of the fits: a flag, then the coefficients. They are computed from the sums of all
+  // nodes and ghosts.
   std::int64_t fit_columns() const { return 1 + M::kFitted * components_; }
   std::vector<double> fits(const std::vector<double>& sums) const {
     std::vector<double> all(static_cast<std::size_t>(results_.count() * fit_columns()));
@@ -164,7 +167,7 @@ class Fitting {
   }
 
  private:
-  // Itself among them, by id.
+  // Returns the neighbours including the node itself, in the order of their ids.
   std::vector<std::int64_t> neighbours(std::int64_t p) const {
     std::vector<std::int64_t> places{p};
     results_.level().stars.for_neighbours(
@@ -237,7 +240,7 @@ QuadraticFits<Dim>::QuadraticFits(Results<Dim>& results, std::vector<PatchNode<D
   std::int64_t without = 0;
   const std::int64_t owned = results.count();
   for (std::int64_t p = 0; p < owned; ++p) {
-    // Those on surfaces tell nothing of what is aside of these.
+    // Nodes on surfaces alone do not determine derivatives normal to the surface.
     double& has = fits[static_cast<std::size_t>(p * columns_)];
     if (results.kind() == GeometryKind::surface) has = 0;
     without += has == 0;

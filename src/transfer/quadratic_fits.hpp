@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A polynomial of second order at each node, through its value, fitted by least squares to those of
-// its neighbours and of their neighbours: in the stars, so across no boundary. A node counts as
-// often as it is met.
+// A polynomial of second order at each node through its value. It is fitted by least squares to the
+// values of its neighbours in the stars and of their neighbours, so that it does not cross a
+// boundary. A node that is reached several times has a corresponding weight.
 //
-// No rank needs more than the stars of its own nodes: each node sums up monomials around itself
-// over its neighbours, which are exchanged as values of ghosts are, and shifted to the nodes next
-// to it. Sums are in the order of ids, so it does not matter who makes them.
+// A rank needs only the stars of its own nodes. Each node sums up monomials around itself over its
+// neighbours. The sums are exchanged like ghost values and shifted to adjacent nodes. They run in
+// the order of ids, so that they do not depend on the partition.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,17 @@ namespace pnpbs {
 template <int Dim>
 class QuadraticFits {
  public:
-  // nodes: at all places; values: [places][components]. Collective.
+  // Fits the polynomials. `nodes` and `values` [nodes][components] have the order of the results
+  // and include ghosts. Collective.
   QuadraticFits(Results<Dim>& results, std::vector<PatchNode<Dim>> nodes, std::int64_t components,
                 const std::vector<double>& values);
 
-  // Is there one? Not where the neighbours are too few, or lie on a curve of second order, as those
-  // of nodes that are on surfaces alone may.
+  // Returns whether the node has a polynomial. It has none if its neighbours are too few or lie on
+  // a curve of second order, which can be the case for nodes on surfaces alone.
   bool has(std::int32_t place) const { return fit(place)[0] != 0; }
-  // What is to be added to the node's own value at x.
+  // Returns the difference between the polynomial at x and the value of the node.
   double rise(std::int32_t place, std::int64_t component, const Point<Dim>& x) const;
-  // On all ranks.
+  // Returns the number of nodes on all ranks without a polynomial.
   std::int64_t nodes_without() const { return nodes_without_; }
 
  private:
@@ -38,8 +39,9 @@ class QuadraticFits {
   }
 
   std::vector<PatchNode<Dim>> nodes_;
-  std::int64_t columns_ = 0;  // 1 if there is one, then coefficients by component
-  std::vector<double> fits_;  // [places][columns]
+  // A flag that is 1 if there is a polynomial, then coefficients by component.
+  std::int64_t columns_ = 0;
+  std::vector<double> fits_;  // [nodes][columns]
   std::int64_t nodes_without_ = 0;
 };
 

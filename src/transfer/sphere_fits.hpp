@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Polynomials of second order at the nodes on a sphere: in the chart from the one or the other of
-// two opposite points, whichever is the farther from the node. So in the chart it is made in, the
-// stretch is 2 at most, and nodes about a node are as far from it as they are on the sphere.
+// Polynomials of second order at nodes on a sphere. Each is fitted in one of two charts with
+// opposite projection centres, that whose centre is farther from the node. Therefore the stretch is
+// at most 2, and distances around a node are nearly those on the sphere.
 #pragma once
 
 #include <array>
@@ -13,10 +13,11 @@
 
 namespace pnpbs {
 
-// The interface of QuadraticFits.
+// Polynomials with the interface of QuadraticFits.
 class SphereFits {
  public:
-  // nodes: at all places, on the sphere; values: [places][components]. Collective.
+  // Fits the polynomials. `nodes` on the sphere and `values` [nodes][components] have the order of
+  // the results and include ghosts. Collective.
   SphereFits(Results<2>& results, const std::vector<PatchNode<3>>& nodes, std::int64_t components,
              const std::vector<double>& values);
 
@@ -39,7 +40,7 @@ class SphereFits {
   }
 
   std::array<InChart, 2> charts_;
-  std::vector<char> chart_at_;  // of each place
+  std::vector<char> chart_at_;  // Index of the chart of each node.
   std::int64_t nodes_without_ = 0;
 };
 

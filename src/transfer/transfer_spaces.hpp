@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the transfer of a field takes from where its nodes are: in the plane and in space, or on a
-// sphere.
+// The geometry that a field transfer depends on: the plane, space, or a sphere.
 #pragma once
 
 #include <array>
@@ -31,7 +30,7 @@ struct FlatSpace {
     return results.level().nodes.position(node);
   }
 
-  // Of triangles and tetrahedra.
+  // Return the size of a triangle or a tetrahedron.
   double measure(const std::array<Point<2>, 3>& c) const {
     return std::fabs((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) -
                      (c[1][1] - c[0][1]) * (c[2][0] - c[0][0])) /

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An element divided among the sites (nodes) that are nearest in some part of it: Voronoi cells
-// within a triangle or a tetrahedron.
+// An element divided among the sites (nodes) that are nearest in some part of it, which are the
+// parts of their Voronoi cells within a triangle or a tetrahedron.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace pnpbs {
 
-// A convex piece of a line or of a plane, which planes cut. Extent: 1 for a segment, 2 for a
-// polygon. Memory is kept for the next piece.
+// A convex piece of a line (Extent 1, a segment) or of a plane (Extent 2, a polygon) that is cut by
+// planes. Its memory is reused for the next piece.
 template <int Dim, int Extent>
 class ConvexPiece {
  public:
@@ -27,11 +27,11 @@ class ConvexPiece {
   bool empty() const { return size_ == 0; }
   std::span<const Point<Dim>> points() const { return std::span(points_).first(size_); }
 
-  // Keeps the side on which value(point), which is linear, is positive. with_zero: what lies
-  // wholly where it is zero is kept, too.
+  // Keeps the side on which the linear function value(point) is positive. If `with_zero` is set, a
+  // piece on which the value is zero everywhere is kept, too.
   template <class Value>
   void cut(const Value& value, bool with_zero) {
-    std::size_t first_out = 0;  // mostly there is none
+    std::size_t first_out = 0;  // Usually no point is outside.
     while (first_out < size_) {
       values_[first_out] = value(points_[first_out]);
       if (!inside(values_[first_out], with_zero)) break;
@@ -42,7 +42,7 @@ class ConvexPiece {
     keep_inside(with_zero);
   }
 
-  // Length or area.
+  // Returns the length or area.
   double measure() const {
     if (size_ <= Extent) return 0;
     if constexpr (Extent == 1)
@@ -55,7 +55,7 @@ class ConvexPiece {
   static bool inside(double value, bool with_zero) { return with_zero ? value >= 0 : value > 0; }
 
   void keep_inside(bool with_zero) {
-    make_room(2 * size_);  // by rounding, more than one side may cross each way
+    make_room(2 * size_);  // With rounding, more than two sides may cross.
     std::size_t kept = 0;
     bool in = inside(values_[0], with_zero);
     for (std::size_t i = 0; i < size_; ++i) {
@@ -95,14 +95,14 @@ class ConvexPiece {
     return 0.5 * length(sum);
   }
 
-  // All as long as the largest piece so far.
+  // All have the size of the largest piece so far.
   std::vector<Point<Dim>> points_, kept_;
   std::vector<double> values_;
   std::size_t size_ = 0;
 };
 
-// Of a point x: positive where it is closer to p than to r: half the difference of the squared
-// distances, times two. Exchanging p and r changes the sign and nothing else.
+// The function |x - r|^2 - |x - p|^2 of points x, which is positive where x is closer to p.
+// Swapping p and r changes only its sign.
 template <int Dim>
 class CloserBy {
  public:
@@ -122,8 +122,9 @@ class CloserBy {
   Point<Dim> way_, sum_;
 };
 
-// Of points, by their coordinates alone: where both of two sites are equally far from a whole side
-// of an element, this decides in which of its two elements their common face lies.
+// Returns whether a comes before b in the order of coordinates. If two sites are equally far from a
+// whole side of an element, this order decides in which of the two elements at the side their
+// common face lies.
 template <int Dim>
 bool is_first(const Point<Dim>& a, const Point<Dim>& b) {
   return a < b;
@@ -132,15 +133,15 @@ bool is_first(const Point<Dim>& a, const Point<Dim>& b) {
 template <int Dim, std::size_t Corners>
 class DividedElement {
  public:
-  static constexpr int kExtent = static_cast<int>(Corners) - 1;  // of the element
+  static constexpr int kExtent = static_cast<int>(Corners) - 1;  // Dimension of the element.
   static constexpr std::size_t kPairs = Corners * (Corners - 1) / 2;
   using Piece = ConvexPiece<Dim, kExtent - 1>;
 
-  // The first sites are the corners. They stay the caller's.
+  // Sets the sites, the first of which are the corners. The span must remain valid.
   void set(std::span<const Point<Dim>> sites) { sites_ = sites; }
   std::span<const Point<Dim>> sites() const { return sites_; }
 
-  // Finds the faces that the corners would have if they were all the sites.
+  // Finds the faces between the corners as if they were the only sites.
   void divide_among_corners() {
     for (std::size_t b = 1; b < Corners; ++b)
       for (std::size_t a = 0; a < b; ++a)
@@ -148,9 +149,9 @@ class DividedElement {
   }
   std::span<const Piece> faces_of_corners() const { return of_corners_; }
 
-  // What sites a < b have in common: the part of the element in which they are both as close as the
-  // closest one. Those of two corners are made of the faces there are since divide_among_corners,
-  // so they can be had once.
+  // Returns the common face of sites a < b: the part of the element in which both are as close as
+  // the closest site. The face of two corners is cut out of that of divide_among_corners, so it can
+  // be requested only once.
   const Piece& face(std::size_t a, std::size_t b) {
     if (b >= Corners) {
       find_face(a, b, sites_, piece_);
@@ -162,7 +163,7 @@ class DividedElement {
     return piece;
   }
 
-  // The part of the side opposite to corner k in which a site is closest.
+  // Returns the part of the side opposite to corner k in which the site is closest.
   const Piece& part_of_side(std::size_t k, std::size_t site) {
     piece_.clear();
     for (std::size_t c = 0; c < Corners; ++c)
@@ -172,7 +173,8 @@ class DividedElement {
     return piece_;
   }
 
-  // From the side opposite to corner k to this corner, at right angles to the side.
+  // Returns the height vector of corner k, perpendicular to the opposite side and pointing to the
+  // corner.
   Point<Dim> height(std::size_t k) const {
     std::array<std::size_t, Corners - 1> side;
     for (std::size_t c = 0, n = 0; c < Corners; ++c)
@@ -187,8 +189,9 @@ class DividedElement {
     }
   }
 
-  // Of the part in which a site is closest: a cone from a corner over each of its faces, and over
-  // the side opposite to this corner. measure_of(other): of the face between the site and another.
+  // Returns the volume of the part in which a site is closest. It is the sum of the cones from a
+  // corner over each face of the part and over the side opposite to this corner. measure_of(other)
+  // returns the measure of the face between the site and another.
   template <class Measure>
   double volume(std::size_t site, const Measure& measure_of) {
     const std::size_t apex = site < Corners ? site : 0;
@@ -214,11 +217,12 @@ class DividedElement {
     return sum;
   }
 
-  // May a corner be the closest one somewhere on the side opposite to it? There it would be closer
-  // than all corners of the side. By how much, as a difference of squared distances, is linear, and
-  // so is the sum over these corners: where that is well below 0 at each of them, nothing is left.
+  // Returns whether a corner may be the closest site somewhere on the opposite side. It would be
+  // closer there than all corners of the side. The differences of squared distances are linear, and
+  // so is their sum over these corners. If the sum is well below 0 at each of them, the corner is
+  // nowhere closest.
   bool may_reach_side(std::size_t corner) const {
-    constexpr double kWell = 0.9;  // far more than rounding
+    constexpr double kWell = 0.9;  // Far above rounding.
     for (std::size_t a = 0; a < Corners; ++a) {
       if (a == corner) continue;
       double sum = 0;
@@ -229,7 +233,7 @@ class DividedElement {
     return false;
   }
 
-  // The part of a vector that lies in the plane of the element.
+  // Returns the component of a vector in the plane of the element.
   Point<Dim> within(const Point<Dim>& a) const {
     if constexpr (Dim == 3 && Corners == 3)
       return part_across(a,
@@ -243,7 +247,7 @@ class DividedElement {
     return is_first<Dim>(sites_[a], sites_[b]) ? a : b;
   }
 
-  // The same to the last bit for b and a.
+  // Finds the face of sites a and b. It is bitwise the same for b and a.
   void find_face(std::size_t a, std::size_t b, std::span<const Point<Dim>> sites, Piece& piece) {
     if (first_of(a, b) == b) std::swap(a, b);
     begin_at_bisector(sites[a], sites[b], piece);
@@ -251,7 +255,7 @@ class DividedElement {
       if (r != a && r != b) cut(piece, a, r);
   }
 
-  // Where the plane between two points meets the element.
+  // Begins a piece with the intersection of the element and the bisector of two points.
   void begin_at_bisector(const Point<Dim>& p, const Point<Dim>& q, Piece& piece) {
     std::array<double, Corners> values;
     std::array<std::size_t, Corners> near, far;
@@ -270,7 +274,7 @@ class DividedElement {
       piece.add(plus(sites_[from], values[from] / (values[from] - values[to]),
                      way(sites_[from], sites_[to])));
     };
-    // Around the piece: what follows has a corner in common with what is before.
+    // Points are added in their order around the piece: consecutive ones have a corner in common.
     for (std::size_t n = 0; n < nears; ++n)
       for (std::size_t f = 0; f < fars; ++f) add(n, n == 0 ? f : fars - 1 - f);
   }

@@ -21,21 +21,21 @@
 namespace pnpbs {
 namespace {
 
-// A node that is not a corner is a site if it is closer than the corners, or as close: then two
-// nodes may have a side of the element in common.
-constexpr double kAsClose = 1 + 1e-12;  // of squared distances
+// A node that is not a corner is a site if it is as close as the corners or closer. If it is
+// equally close, two nodes can share a side of the element.
+constexpr double kAsClose = 1 + 1e-12;  // [squared distance]
 constexpr double kAboveRounding = 1 + 1e-9;
 
-// Finds the sites of one element after another, the nodes that are closest in some part of it: its
-// corners, and those of their neighbours that are closer than the corners somewhere.
+// Finds the sites of one element after another: its corners and those of their neighbours that are
+// as close as the corners in some part of it.
 template <int Dim, std::size_t Corners>
 class SiteFinder {
  public:
-  // neighbours: the nodes that have an element in common with each node.
+  // neighbours[i] must contain the nodes that share an element with node i.
   SiteFinder(const ElementSites<Dim>& nodes, const ChunkedRows<std::int32_t>& neighbours)
       : nodes_(nodes), neighbours_(neighbours) {}
 
-  // corners: by id. Appends them and the others.
+  // Appends the sites of the element with these corners, which must be ordered by id.
   void find(const std::array<std::int32_t, Corners>& corners, std::vector<std::int32_t>& sites) {
     list_vertices(corners);
     sites.insert(sites.end(), corners.begin(), corners.end());
@@ -49,11 +49,13 @@ class SiteFinder {
     divided_.set(x_);
   }
 
-  // That element, with the faces between its corners. Until the next one is looked at.
+  // Returns the last element with the faces between its corners. It is valid until the next call of
+  // find.
   DividedElement<Dim, Corners>& divided() { return divided_; }
 
  private:
-  // Where the cells of the corners, by themselves, have their corners within the element.
+  // Lists the vertices of the corners' cells within the element, as if the corners were the only
+  // sites.
   void list_vertices(const std::array<std::int32_t, Corners>& corners) {
     x_.clear();
     for (const std::int32_t corner : corners)
@@ -80,10 +82,11 @@ class SiteFinder {
     squared_distances_[count_++] = squared;
     enclose(squared_distance<Dim>(middle_, vertex), squared);
   }
-  // No node farther from the middle than the reach is closer to any of the vertices than the
-  // corners. Of this one, by the squares of its distances from the middle and the closest corners.
+  // Extends the reach for one vertex, given its squared distances from the middle and from the
+  // closest corners. A node farther from the middle than the reach is at no vertex closer than the
+  // corners.
   void enclose(double from_middle, double from_corners) {
-    // (a + b)^2 <= 2 (a^2 + b^2): mostly this needs no root.
+    // (a + b)^2 <= 2 (a^2 + b^2), so that a root is rarely necessary.
     if (2 * (from_middle + from_corners) * kAboveRounding <= squared_reach_) return;
     const double reach = std::sqrt(from_middle) + std::sqrt(from_corners);
     squared_reach_ = std::max(squared_reach_, reach * reach * kAboveRounding);
@@ -95,8 +98,8 @@ class SiteFinder {
     return sum;
   }
 
-  // The neighbours within reach, each once, without the corners. Without branches: what comes next
-  // takes the place of one that is not kept.
+  // Returns the neighbours within reach without duplicates and corners. The loops have no branches:
+  // a node that is not kept is overwritten by the next one.
   std::span<const std::int32_t> near(const std::array<std::int32_t, Corners>& corners) {
     std::size_t most = 0;
     for (const std::int32_t corner : corners) most += neighbours_.row(corner).size();
@@ -131,18 +134,18 @@ class SiteFinder {
   const ElementSites<Dim>& nodes_;
   const ChunkedRows<std::int32_t>& neighbours_;
   DividedElement<Dim, Corners> divided_;
-  std::vector<Point<Dim>> x_;  // of the sites
-  // Coordinates, and squares of the distances to the closest corners, each by itself for vector
-  // instructions.
+  std::vector<Point<Dim>> x_;  // Positions of the sites.
+  // Coordinates of the vertices, and squared distances to the closest corners, in separate arrays
+  // for vector instructions.
   std::array<std::vector<double>, Dim> vertices_;
   std::vector<double> squared_distances_;
   std::size_t count_ = 0;
   std::vector<std::int32_t> near_;
-  Point<Dim> middle_{};  // of the corners
+  Point<Dim> middle_{};  // Mean of the corners.
   double squared_reach_ = 0;
 };
 
-// The nodes that have an element in common with each node.
+// Returns for each node the nodes that share an element with it.
 template <std::size_t Corners>
 ChunkedRows<std::int32_t> neighbours_in_elements(const DistributedMesh& mesh) {
   const std::vector<std::int32_t>& corners = mesh.element_corners;
@@ -150,7 +153,7 @@ ChunkedRows<std::int32_t> neighbours_in_elements(const DistributedMesh& mesh) {
   const std::int64_t nodes = static_cast<std::int64_t>(mesh.numbers.size());
   CountingSort by_node(static_cast<std::int64_t>(corners.size()), static_cast<std::int32_t>(nodes),
                        key);
-  std::vector<std::int64_t> at_nodes(corners.size());  // places in corners
+  std::vector<std::int64_t> at_nodes(corners.size());  // Indices in corners.
   by_node.for_places(key, [&](std::int64_t k, std::int32_t place) {
     at_nodes[static_cast<std::size_t>(place)] = k;
   });
@@ -180,8 +183,8 @@ void copy_nodes(const DistributedMesh& mesh, ElementSites<Dim>& to) {
     std::copy_n(mesh.x.begin() + static_cast<std::ptrdiff_t>(Dim * n), Dim, to.x[n].begin());
 }
 
-// Of each element here the sides that are parts of the boundary, by their opposite corners: bit k
-// for its k-th corner.
+// Returns for each element the sides that belong to the boundary. Bit k is the side opposite to
+// corner k.
 std::vector<std::uint32_t> boundary_sides(const DistributedMesh& mesh) {
   std::vector<std::uint32_t> sides(mesh.element_numbers.size());
   for (std::size_t f = 0; f < mesh.facet_tags.size(); ++f)
@@ -190,11 +193,11 @@ std::vector<std::uint32_t> boundary_sides(const DistributedMesh& mesh) {
   return sides;
 }
 
-// The corners of an element by id, and the bits of its sides in this order.
+// Sorts the corners of an element by id. Returns the bits of its sides in this order.
 template <std::size_t Corners>
 std::uint32_t sort_corners(const DistributedMesh& mesh, std::size_t element, std::uint32_t sides,
                            std::array<std::int32_t, Corners>& corners) {
-  std::array<std::pair<std::int64_t, std::size_t>, Corners> order;  // id, which corner
+  std::array<std::pair<std::int64_t, std::size_t>, Corners> order;  // Id and index of each corner.
   const std::int32_t* const from = mesh.element_corners.data() + Corners * element;
   for (std::size_t c = 0; c < Corners; ++c)
     order[c] = {mesh.ids[static_cast<std::size_t>(from[c])], c};
@@ -207,8 +210,8 @@ std::uint32_t sort_corners(const DistributedMesh& mesh, std::size_t element, std
   return sorted;
 }
 
-// Those of the elements that this rank owns, and their parts: both begin with the faces between
-// corners.
+// Finds the sites and the parts of the elements that this rank owns. Both use the faces between
+// corners, so that they are computed once.
 template <std::size_t Corners, int Dim>
 void find_own(const DistributedMesh& mesh, ElementSites<Dim>& found, ChunkedRows<double>& parts) {
   const auto neighbours = neighbours_in_elements<Corners>(mesh);
@@ -239,13 +242,13 @@ void find_own(const DistributedMesh& mesh, ElementSites<Dim>& found, ChunkedRows
   }
 }
 
-// A site of an element on its way to the ranks that own a site of it. The sites of an element
-// follow each other.
+// A site of an element in a message to the ranks that own a site of the element. The sites of an
+// element are consecutive.
 template <int Dim>
 struct SentSite {
   std::int64_t number, id;
   Point<Dim> x;
-  std::int32_t sites;  // of the element
+  std::int32_t sites;  // Number of sites of the element.
   std::uint32_t boundary;
 };
 
@@ -272,16 +275,16 @@ Outbox elements_for_others(const Communicator& comm, const DistributedMesh& mesh
   return outgoing;
 }
 
-// Adds what has come, and the nodes that are new here.
+// Adds the received elements, and their nodes that this rank does not have yet.
 template <int Dim>
 void add_arrived(const std::vector<SentSite<Dim>>& arrived, ElementSites<Dim>& found) {
-  std::unordered_map<std::int64_t, std::int32_t> index;  // by number
+  std::unordered_map<std::int64_t, std::int32_t> index;  // Node index by number.
   if (!arrived.empty())
     for (std::size_t n = 0; n < found.numbers.size(); ++n)
       index[found.numbers[n]] = static_cast<std::int32_t>(n);
   for (std::size_t s = 0; s < arrived.size(); ++s) {
     const SentSite<Dim>& site = arrived[s];
-    // The first site of an element has the element with it.
+    // A site that does not belong to the last element begins a new one.
     const bool within =
         !found.elements.empty() && found.elements.back().first_site + found.elements.back().sites >
                                        static_cast<std::int64_t>(found.sites.size());

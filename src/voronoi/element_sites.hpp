@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which nodes are closest in some part of an element: mostly its corners alone, but where an angle
-// is obtuse others, too.
+// The sites of elements, i.e. the nodes that are closest in some part of an element. These are
+// usually its corners only. If an angle is obtuse, there can be others.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,22 @@
 
 namespace pnpbs {
 
-// Nodes and elements that a rank knows, by local indices.
+// The nodes and elements of a rank, by local indices.
 template <int Dim>
 struct ElementSites {
-  double sphere_radius = 0;   // 0: not on a sphere
-  std::vector<Point<Dim>> x;  // of nodes, those that the rank owns first
+  double sphere_radius = 0;   // 0 if not on a sphere.
+  std::vector<Point<Dim>> x;  // Positions of nodes, owned ones first.
   std::vector<std::int64_t> ids, numbers;
 
   struct Element {
     std::int64_t first_site;
     std::int32_t sites;
-    std::uint32_t boundary;  // bit k: the side opposite to its k-th site is a part of the boundary
+    // Bit k says whether the side opposite to corner k belongs to the boundary.
+    std::uint32_t boundary;
   };
   std::vector<Element> elements;
-  // Of the elements, as indices of nodes: the corners by id, then the others by id.
+  // Node indices of the sites of all elements: for each element the corners by id, then the others
+  // by id.
   std::vector<std::int32_t> sites;
 
   std::span<const std::int32_t> of(const Element& element) const {
@@ -36,15 +38,15 @@ struct ElementSites {
   }
 };
 
-// All elements of which a node of this rank is a site. mesh: with a layer of ghost elements. The
-// candidates of an element are the corners of all elements that touch it. parts: gets the rows
-// (append_parts) of those that this rank owns, which come first. sphere_radius: of the sphere that
-// they are on, or 0. Collective.
+// Returns all elements that have a node of this rank as a site. `mesh` must have a layer of ghost
+// elements. Candidates for sites of an element are the corners of all elements that touch it.
+// `parts` receives the rows (append_parts) of the elements owned by this rank, which come first.
+// `sphere_radius` is 0 if the elements are not on a sphere. Collective.
 template <std::size_t Corners, int Dim>
 ElementSites<Dim> find_element_sites(const Communicator& comm, const DistributedMesh& mesh,
                                      double sphere_radius, ChunkedRows<double>& parts);
 
-// Triangles of the plane and of surfaces alone, and tetrahedra.
+// Instances for triangles of the plane, triangles of surfaces alone, and tetrahedra.
 extern template ElementSites<2> find_element_sites<3>(const Communicator&, const DistributedMesh&,
                                                       double, ChunkedRows<double>&);
 extern template ElementSites<3> find_element_sites<3>(const Communicator&, const DistributedMesh&,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Searches among so few nodes that a branch for each would cost more than to look at all of them.
+// Linear searches in sets of so few nodes that branches would cost more than reading all of them.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace pnpbs {
 
-// The last place of the node, or -1.
+// Returns the last index of the node, or -1.
 inline std::int32_t place_among(std::span<const std::int32_t> nodes, std::int32_t node) {
   std::int32_t place = -1;
   const std::int32_t count = static_cast<std::int32_t>(nodes.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of Voronoi cells in a triangle on a sphere about the origin. The planes that are as far
-// from two nodes go through the origin, so the straight triangle is divided as the one on the
-// sphere is, seen from there: only lengths and areas are others.
+// Parts of Voronoi cells in a triangle on a sphere about the origin. The bisector planes of two
+// nodes contain the origin. Therefore the central projection maps the division of the straight
+// triangle to that of the spherical triangle, and only lengths and areas differ.
 #pragma once
 
 #include <cmath>
@@ -15,14 +15,14 @@
 
 namespace pnpbs {
 
-// What an element gives to the cells of its sites, as a row of numbers: the volumes of all sites,
-// then the areas of all pairs, each once.
+// Returns the index of a pair of sites in the row of an element. A row contains the volumes of all
+// sites, then the areas of the faces between all pairs.
 inline std::size_t place_of_pair(std::size_t sites, std::size_t a, std::size_t b) {
   if (a > b) std::swap(a, b);
   return sites + a * (2 * sites - a - 1) / 2 + (b - a - 1);
 }
 
-// Appends the row of an element. Its faces between corners are used up.
+// Appends the row of an element. The faces between its corners are consumed.
 template <int Dim, std::size_t Corners>
 void append_parts(DividedElement<Dim, Corners>& divided, std::vector<double>& out) {
   const std::size_t sites = divided.sites().size(), begin = out.size();
@@ -36,12 +36,12 @@ void append_parts(DividedElement<Dim, Corners>& divided, std::vector<double>& ou
         divided.volume(s, [&](std::size_t other) { return row[place_of_pair(sites, s, other)]; });
 }
 
-// Of a piece of a straight triangle, seen from the origin on the sphere of radius 1.
+// Returns the arc length of a segment projected from the origin onto the unit sphere.
 inline double arc_of(std::span<const Point<3>> segment) {
   return segment.size() < 2 ? 0 : arc(unit_vector(segment[0]), unit_vector(segment[1]));
 }
 
-// Appends a row as append_parts does, of arcs and areas on the sphere.
+// Appends rows like append_parts, with arcs and areas on the sphere.
 class SpherePartRows {
  public:
   using Element = DividedElement<3, 3>;
@@ -65,11 +65,12 @@ class SpherePartRows {
 
  private:
   struct Border {
-    std::size_t a, b;  // sites on both sides of it
+    std::size_t a, b;  // Sites on either side.
     Point<3> begin, end;
   };
 
-  // A part is convex: triangles over its borders from a point on one of them add up.
+  // A part is convex. Its area is the sum of triangles over its borders from a point on one of
+  // them.
   double area_of(Element& divided, std::size_t site) {
     double sum = 0;
     const Point<3>* apex = nullptr;
@@ -88,10 +89,10 @@ class SpherePartRows {
   }
 
   double radius_;
-  std::vector<Border> borders_;  // of the element
+  std::vector<Border> borders_;  // Borders of the current element.
 };
 
-// Rows of elements, on a sphere of this radius or, for 0, straight.
+// Appends rows of elements, on a sphere of the given radius or, if it is 0, of straight elements.
 template <int Dim, std::size_t Corners>
 class PartRows {
  public:

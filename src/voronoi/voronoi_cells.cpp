@@ -20,19 +20,20 @@
 namespace pnpbs {
 namespace {
 
-// What each element gives to the cells of its sites: a volume to each, and a part of the face
-// between any two.
+// The contributions of each element to the cells of its sites: a volume for each site, and a part
+// of the face between each pair.
 template <int Dim, std::size_t Corners>
 class ElementParts {
  public:
-  // own: rows of the first elements, which were made with their sites.
+  // Computes the rows of the other elements. `own` contains the rows of the first `owned` elements,
+  // which were computed with their sites.
   ElementParts(const ElementSites<Dim>& all, ChunkedRows<double> own, std::int64_t owned)
       : owned_(owned), own_(std::move(own)) {
     arrived_.build("pnpbs::voronoi::parts", std::ssize(all.elements) - owned,
                    [&] { return Writer(all, owned); });
   }
 
-  // See place_of_pair.
+  // Returns the row of an element (see place_of_pair).
   std::span<const double> of(std::int32_t element) const {
     return element < owned_ ? own_.row(element) : arrived_.row(element - owned_);
   }
@@ -57,14 +58,14 @@ class ElementParts {
     std::int64_t first_;
     PartRows<Dim, Corners> rows_;
     DividedElement<Dim, Corners> divided_;
-    std::vector<Point<Dim>> x_;  // of the sites
+    std::vector<Point<Dim>> x_;  // Positions of the sites.
   };
 
   std::int64_t owned_;
   ChunkedRows<double> own_, arrived_;
 };
 
-// The elements of which each owned node is a site, and as which of their sites.
+// For each owned node, the elements that have it as a site, and its index among their sites.
 template <int Dim>
 class ElementsOfSites {
  public:
@@ -105,10 +106,10 @@ class ElementsOfSites {
   std::vector<Entry> entries_;
 };
 
-// Faces that are smaller than this times what is usual, d^(dim - 1) or so, are rounding.
+// Largest face area that is attributed to rounding. [distance^(dim - 1)]
 constexpr double kNoFace = 1e-12;
 
-// Adds terms so that their order does not matter. Sorts them.
+// Sorts and adds terms, so that the sum does not depend on their order.
 double sum_by_size(std::vector<double>& terms) {
   std::ranges::sort(terms);
   double sum = 0;
@@ -124,7 +125,7 @@ struct CellFace {
   Point<Dim> normal;
 };
 
-// Puts one cell after another together from its parts in elements.
+// Assembles one cell after another from its parts in elements.
 template <std::size_t Corners, int Dim>
 class CellMaker {
  public:
@@ -132,7 +133,7 @@ class CellMaker {
             const ElementParts<Dim, Corners>& parts, VoronoiCells& cells)
       : all_(all), at_nodes_(at_nodes), parts_(parts), cells_(cells) {}
 
-  // Appends its faces to out.
+  // Stores the volume and boundary of the cell of `node`, and appends its faces to `out`.
   void operator()(std::int64_t node, std::vector<CellFace<Dim>>& out) {
     volumes_.clear();
     faces_.clear();
@@ -149,11 +150,11 @@ class CellMaker {
 
  private:
   struct FacePart {
-    std::int32_t place;  // of the neighbour in neighbours_
+    std::int32_t place;  // Index of the neighbour in neighbours_.
     double area;
   };
 
-  // Adds it if it is new.
+  // Returns the index of the neighbour in neighbours_, to which it is added if it is new.
   std::int32_t place_of(std::int32_t neighbour) {
     const std::int32_t place = place_among(neighbours_, neighbour);
     if (place >= 0) return place;
@@ -178,7 +179,7 @@ class CellMaker {
       if (element.boundary >> k & 1U) add_boundary(k, site);
   }
 
-  // The side opposite to corner k; its height points inwards.
+  // Adds a part of the side opposite to corner k, whose height vector points inwards.
   void add_boundary(std::size_t k, std::size_t site) {
     if constexpr (Dim == 3 && Corners == 3)
       if (all_.sphere_radius > 0) return add_coast(k, site);
@@ -189,7 +190,8 @@ class CellMaker {
     for (std::size_t c = 0; c < Dim; ++c) boundary_[c].push_back(-inward[c] / length * area);
   }
 
-  // On a sphere, along which the normal of a great circle is the same everywhere.
+  // Adds a part of a side on a sphere. The normal of a great circle is the same along the whole
+  // side.
   void add_coast(std::size_t k, std::size_t site) requires(Dim == 3 && Corners == 3) {
     const double length = all_.sphere_radius * arc_of(divided_.part_of_side(k, site).points());
     if (length == 0) return;
@@ -198,12 +200,12 @@ class CellMaker {
     for (std::size_t c = 0; c < 3; ++c) boundary_[c].push_back(outward * normal[c] * length);
   }
 
-  // Of a chord.
+  // Returns the length along the sphere between the ends of a chord.
   double along_sphere(double straight) const {
     return 2 * all_.sphere_radius * std::asin(std::min(1.0, straight / (2 * all_.sphere_radius)));
   }
 
-  // By the neighbours' ids.
+  // Appends the faces in the order of the neighbours' ids.
   void append_faces(const Point<Dim>& x, std::vector<CellFace<Dim>>& out) {
     sort_areas();
     order_.resize(neighbours_.size());
@@ -223,7 +225,7 @@ class CellMaker {
       out.push_back({neighbour, area, away, normal});
     }
   }
-  // Rows of the areas at each neighbour, each by size.
+  // Groups the areas by neighbour and sorts each group by size.
   void sort_areas() {
     ends_.assign(neighbours_.size() + 1, 0);
     for (const FacePart& part : faces_) ++ends_[static_cast<std::size_t>(part.place) + 1];
@@ -242,16 +244,16 @@ class CellMaker {
   const ElementParts<Dim, Corners>& parts_;
   VoronoiCells& cells_;
   DividedElement<Dim, Corners> divided_;
-  std::vector<Point<Dim>> x_;  // of an element's sites
+  std::vector<Point<Dim>> x_;  // Positions of the sites of an element.
   std::vector<double> volumes_;
   std::array<std::vector<double>, Dim> boundary_;
   std::vector<FacePart> faces_;
   std::vector<std::int32_t> neighbours_;
-  std::vector<double> areas_;              // of the parts, by neighbour
-  std::vector<std::size_t> ends_, order_;  // of neighbours_: of their areas, and by id
+  std::vector<double> areas_;              // Areas of parts, grouped by neighbour.
+  std::vector<std::size_t> ends_, order_;  // Ends of the groups; neighbours by id.
 };
 
-// Makes room for all faces at once: as the arrays grew they would be copied, and be too large.
+// Reserves memory for all faces at once. Growing arrays would be copied and too large.
 void reserve(std::size_t faces, VoronoiCells& cells) {
   for (auto* array : {&cells.ids, &cells.numbers}) array->reserve(faces);
   for (auto* array : {&cells.areas, &cells.distances}) array->reserve(faces);

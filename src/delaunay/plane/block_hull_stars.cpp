@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inversion about the node turns the star into a convex hull, as in hull_star: a neighbour belongs
-// to it if the inverted points before it, at it and after it turn left. All neighbours that do not
-// are dropped together, again and again, until all do. Every decision must hold by a margin far
-// above rounding errors, or else the lane is given up.
+// Inversion about the node transforms the star to a convex hull, as in hull_star. A neighbour
+// belongs to it if the inverted points before it, at it and after it turn left. All neighbours that
+// do not are removed at once, and this is repeated until none is left to remove. Every decision
+// must hold by a margin far above rounding errors; otherwise the lane is given up.
 #include "delaunay/plane/block_hull_stars.hpp"
 
 #include <cmath>
@@ -13,14 +13,16 @@ namespace pnpbs {
 
 namespace {
 
-// Circles must lie within reach by this margin, in squares, against the errors of cross products
-// here and of circle_diameter, whose area is right to 1e-10 if no neighbour is nearer than that.
+// Margin by which the squared diameters of circles must be below the squared reach. It covers the
+// errors of cross products here and of circle_diameter. The relative error of its area is 1e-10 if
+// no neighbour is nearer than kMinGap.
 constexpr double kCircleMargin = 1 - 1e-8;
-constexpr double kMinGap = 1e-4;  // in units of the reach
-// Reaches for which the products of six lengths neither overflow nor lose bits.
+constexpr double kMinGap = 1e-4;  // [reach]
+// Range of reaches for which products of six lengths neither overflow nor lose bits.
 constexpr double kMinReach = 1e-30, kMaxReach = 1e30;
 
-constexpr std::int32_t kNoKey = 0x7ffffff0;  // comes last, whatever place it names
+// Sorts after all keys, whatever index its low bits hold.
+constexpr std::int32_t kNoKey = 0x7ffffff0;
 constexpr std::int32_t kKeyIndex = kMaxListed - 1;
 constexpr double kQuarterTurn = 1 << 24;
 constexpr std::int32_t kTurnMask = (1 << 26) - 1;
@@ -61,7 +63,7 @@ class BlockHull {
   }
 
  private:
-  // Positions relative to the node, and which neighbour is nearest.
+  // Computes the positions relative to the node and finds the nearest neighbour.
   void gather(std::int32_t pad, const double* x, const double* y,
               const std::int64_t (&self)[kLanes]) {
     Lanes own_x, own_y;
@@ -89,14 +91,14 @@ class BlockHull {
     }
   }
 
-  // Increases with the angle of (dx, dy), by kQuarterTurn from one half axis to the next.
+  // Returns a number that increases with the angle of (dx, dy), by kQuarterTurn per right angle.
   static std::int32_t angle(double dx, double dy) {
     const double t = dy / (std::fabs(dx) + std::fabs(dy) + 1e-300);
     return static_cast<std::int32_t>(kQuarterTurn * (dx >= 0 ? t : 2 - t));
   }
 
-  // Keys hold the angle from the nearest neighbour on, and below it the place in the list. The
-  // angles are rough; what comes of them is checked.
+  // A key consists of the angle from the nearest neighbour and, in its low bits, of the index in
+  // the list. The angles are approximate. Later checks verify the order that results.
   void key_by_angle() {
     Integers first;
 #pragma omp simd
@@ -132,7 +134,7 @@ class BlockHull {
     return max;
   }
 
-  // Positions in order; after the last come the first and the second again.
+  // Stores the positions in order. The first and second follow again after the last.
   void close_ring() {
     for (int k = 0; k < length_ + 2; ++k) {
       const int row = k < length_ ? k : 0;
@@ -162,7 +164,8 @@ class BlockHull {
     }
   }
 
-  // Returns whether there were any, in lanes not given up.
+  // Removes the neighbours that are not on the hull. Returns whether there were any in lanes that
+  // are not given up.
   bool drop_outsiders() {
     Integers dropped{};
     for (int k = 1; k < length_ + 1; ++k) {
@@ -182,7 +185,7 @@ class BlockHull {
         const std::int32_t outside = bend < -kMinBend * size ? 1 : 0;
         sure_[lane] &= (inside | outside) | (1 - here);
         const std::int32_t drop = outside & here & sure_[lane];
-        // The nearest, which comes last here and first in the keys, always belongs.
+        // The nearest neighbour is last here and first in the keys. It always belongs to the star.
         key_[row][lane] |= k < left_[lane] ? kNoKey & -drop : 0;
         dropped[lane] += drop;
       }
@@ -195,7 +198,7 @@ class BlockHull {
     return any > 0;
   }
 
-  // Every circle through the node and two neighbours must lie within its reach.
+  // Requires every circle through the node and two consecutive neighbours to lie within its reach.
   void check_circles(const double (&reach)[kLanes]) {
     for (int k = 0; k < length_; ++k) {
 #pragma omp simd
@@ -212,15 +215,15 @@ class BlockHull {
 
   const std::int32_t* entries_;
   int listed_;
-  int length_ = 0;  // of the longest star so far
-  Integers left_;   // neighbours listed and not dropped
-  Integers sure_;   // 0: given up
-  Lanes nearest_;   // squared distance
+  int length_ = 0;  // Length of the longest star.
+  Integers left_;   // Listed neighbours that are not removed.
+  Integers sure_;   // 0 if the lane is given up.
+  Lanes nearest_;   // Squared distance.
   Integers nearest_place_;
-  Lanes dx_[kMaxListed], dy_[kMaxListed];  // as listed
+  Lanes dx_[kMaxListed], dy_[kMaxListed];  // In the order of the list.
   Integers key_[kMaxListed];
-  Lanes x_[kMaxListed + 2], y_[kMaxListed + 2], square_[kMaxListed + 2];  // as sorted
-  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];              // of one and the next
+  Lanes x_[kMaxListed + 2], y_[kMaxListed + 2], square_[kMaxListed + 2];  // Sorted.
+  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];  // Of each neighbour and the next.
 };
 
 }  // namespace

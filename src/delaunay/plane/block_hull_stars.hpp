@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stars of a block of nodes at once, one node per SIMD lane, as far as plain floating point can
-// prove them; the rest is left to hull_star, which gives the same stars where both give one.
+// Finds the stars of a block of nodes at the same time, one node per SIMD lane. It covers the stars
+// that plain floating point can prove. The others are left to hull_star, and the results of both
+// are identical where both succeed.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +10,24 @@
 
 namespace pnpbs {
 
-inline constexpr int kMaxListed = 16;  // longer lists are left to hull_star
+inline constexpr int kMaxListed = 16;  // Longest list that is handled here.
 
-// Least sine, about, of the angle between two neighbours next to each other: their cross product,
-// in which rounding loses 2^-51 of the terms, is then right to 1e-10.
+// Approximate minimum of the sine of the angle between consecutive neighbours. The cross product,
+// in which rounding loses 2^-51 of the terms, then has a relative error of 1e-10.
 inline constexpr double kMinTurn = 1e-5;
-// Least turn of three inverted points, relative to the terms of the determinant. Rounding loses
-// less than 2^-49 of them.
+// Minimum turn of three inverted points. [terms of the determinant] Rounding loses less than 2^-49
+// of them.
 inline constexpr double kMinBend = 1e-13;
 
 struct BlockHullStars {
   bool found[kLanes];
-  std::int32_t size[kLanes];  // of those found
-  // Counter-clockwise from the nearest neighbour (of several, the one with the smallest id).
+  std::int32_t size[kLanes];  // Valid if found.
+  // Counter-clockwise from the nearest neighbour; of several, from the one with the smallest id.
   std::int32_t node[kMaxListed][kLanes];
 };
 
-// x, y: positions of all nodes; entry `pad` of a list is none. `reach` is how far from each node
-// its list is complete, or 0 for a lane to leave out.
+// Finds stars. `x` and `y` are the positions of all nodes. The entry `pad` of a list is not a node.
+// `reach` is the distance within which the list of each node is complete, or 0 for a lane to skip.
 void find_block_hull_stars(const ListBlock& list, std::int32_t pad, const double* x,
                            const double* y, const std::int64_t (&self)[kLanes],
                            const double (&reach)[kLanes], BlockHullStars& stars);

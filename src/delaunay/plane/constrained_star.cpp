@@ -19,27 +19,28 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class GiftWrap {
  public:
-  // From the list of node i, which holds all that it sees within reach.
+  // Uses the list of node i, which contains all nodes visible from it within `reach`.
   GiftWrap(const StarInput& input, std::int64_t i, double reach)
       : GiftWrap(input, i, reach, false, {}) {
     gather_listed();
   }
 
-  // From all nodes within reach.
+  // Uses all nodes within `reach`. `everything` says whether these are all nodes.
   GiftWrap(const StarInput& input, std::int64_t i, double reach, bool everything)
       : GiftWrap(input, i, reach, everything, {}) {
     gather_all();
   }
 
-  // From all nodes of a cap of the sphere around it.
+  // Uses all nodes of a cap of the sphere around node i.
   GiftWrap(const StarInput& input, std::int64_t i, const SphereCap& cap)
       : GiftWrap(input, i, kInfinity, cap.is_whole_sphere(), {}) {
     cap_ = cap;
     gather_cap();
   }
 
-  // Many boundary nodes, no inner one, and none that makes a circle within reach with an edge of
-  // this node: those that matter are most likely farther away, and it would take long to find out.
+  // Returns whether the reach is probably too small: there are many boundary nodes, no inner one,
+  // and none whose circle with an edge of this node lies within reach. The relevant nodes are then
+  // most likely farther away, and wrapping would take long to find that out.
   bool looks_too_near() const {
     constexpr std::size_t kMany = 64;
     if (inner_ > 0 || around_.size() <= kMany || everything_ || boundary_ < 0) return false;
@@ -52,7 +53,7 @@ class GiftWrap {
     });
   }
 
-  // False if nodes beyond the reach may matter. Where all are within reach, none can.
+  // Appends the star. Returns false if nodes beyond the reach may change it.
   bool wrap(std::vector<Entry>& star) {
     if (!listed_ && !cap_) find_edges();
     if (boundary_ >= 0 && in_.sectors.begin(boundary_) != in_.sectors.end(boundary_))
@@ -77,7 +78,7 @@ class GiftWrap {
     return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
   }
 
-  // Edges between any two of them are within reach as well, and so near to the node.
+  // Edges between any two listed nodes lie within reach as well, so near_edges contains them.
   void gather_listed() {
     around_.reserve(16);
     in_.lists.for_neighbours(centre_.node, [&](std::int64_t j) {
@@ -102,9 +103,10 @@ class GiftWrap {
     sees_centre_.assign(around_.size(), -1);
   }
 
-  // The cap may go around a hole in the chart. Edges in the hole that separate two of the nodes are
-  // not found then, and too much counts as visible. No proven triangle comes of that: the ways
-  // between its corners lie inside its circle, all of which the cap holds.
+  // The cap can surround a hole of the chart. Edges in the hole that separate two nodes are not
+  // found, so that too many pairs count as visible. This does not produce wrong triangles: the
+  // segments between the corners of a proven triangle lie inside its circle, which the cap contains
+  // completely.
   void gather_cap() {
     const BackgroundTree<2>& tree = in_.map.tree();
     const auto meets_cap = [&](std::int32_t cell) {
@@ -135,9 +137,9 @@ class GiftWrap {
     edges_ = found_edges_;
   }
 
-  // What is found does not depend on the order. Where the boundary is far finer than d, the circle
-  // through an inner node and an edge rules out hundreds of boundary nodes at once; among
-  // themselves they often lie on one circle, which takes exact arithmetic to tell.
+  // The result does not depend on the order, but the time does. If the boundary is much finer than
+  // d, the circle through an inner node and an edge excludes hundreds of boundary nodes at once.
+  // Boundary nodes alone often lie on one circle, which requires exact arithmetic.
   void put_inner_first() {
     const auto first_of_boundary =
         std::partition(around_.begin(), around_.end(),
@@ -175,8 +177,8 @@ class GiftWrap {
     return nearest;
   }
 
-  // A neighbour counter-clockwise of a that a boundary edge joins with a or the centre, or -1.
-  // Where there is one, it mostly is the one that follows, and rules out the others at once.
+  // Returns a neighbour counter-clockwise of a that a boundary edge connects to a or the centre, or
+  // -1. It usually is the neighbour that follows, and excludes the others at once.
   int joined_after(const StarPoint& a) {
     for (std::size_t k = inner_; k < around_.size(); ++k) {
       const StarPoint& p = around_[k];
@@ -187,7 +189,7 @@ class GiftWrap {
     return -1;
   }
 
-  // The neighbour that follows a counter-clockwise, or -1.
+  // Returns the neighbour that follows a counter-clockwise, or -1.
   int next_after(const StarPoint& a) {
     int best = joined_after(a);
     for (int k = 0; k < static_cast<int>(around_.size()); ++k) {
@@ -205,7 +207,7 @@ class GiftWrap {
     return best;
   }
 
-  // Are all nodes that could spoil the triangle among those around?
+  // Returns whether all nodes that could invalidate the triangle are in around_.
   bool is_proven(const StarPoint& a, const StarPoint& b) const {
     if (everything_) return true;
     if (cap_) return cap_->holds_circle(a.position, b.position);
@@ -213,7 +215,7 @@ class GiftWrap {
                         {is_edge(centre_, a), is_edge(centre_, b), is_edge(a, b)}) <= reach_;
   }
 
-  // Wraps from neighbour `first` on until node `last` has come; appends all but the last.
+  // Wraps from neighbour `first` to node `last`, and appends all but the last.
   bool wrap_from(int first, std::int32_t last, std::vector<Entry>& star) {
     StarPoint a = around_[index(first)];
     for (std::size_t guard = 0; guard <= around_.size(); ++guard) {
@@ -234,7 +236,7 @@ class GiftWrap {
     return -1;
   }
 
-  // A boundary node: sector by sector, each from one boundary edge to the next.
+  // Wraps around a boundary node, in each sector from one boundary edge to the next.
   bool wrap_sectors(std::vector<Entry>& star) {
     const std::int32_t begin = in_.sectors.begin(boundary_), end = in_.sectors.end(boundary_);
     for (std::int32_t s = begin; s < end; ++s) {
@@ -255,27 +257,29 @@ class GiftWrap {
   StarPoint centre_;
   std::int32_t boundary_;
   double reach_;
-  bool everything_;               // is every node within reach?
-  bool listed_ = false;           // are the nodes around from the list?
-  std::optional<SphereCap> cap_;  // if that is where they are from
+  bool everything_;               // Whether all nodes are within reach.
+  bool listed_ = false;           // Whether around_ is from the list.
+  std::optional<SphereCap> cap_;  // Cap that around_ is from, if any.
   std::vector<StarPoint> around_;
-  std::size_t inner_ = 0;                // of them, the first ones
-  std::span<const std::int32_t> edges_;  // all that can lie between any of the nodes
+  std::size_t inner_ = 0;                // Number of inner nodes, which come first.
+  std::span<const std::int32_t> edges_;  // All edges that can separate two of the nodes.
   std::vector<std::int32_t> found_edges_;
-  std::vector<signed char> sees_centre_;  // -1 not asked yet
+  std::vector<signed char> sees_centre_;  // -1 if not evaluated yet.
 };
 
-// Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
+// Marks a gap after the last neighbour. This is the star if all nodes have been searched, which
+// requires fewer than three nodes in all.
 void leave_gap(std::vector<Entry>& star, std::size_t before) {
   if (star.size() > before) star.back() = {star.back().value(), false};
 }
 
-// In the patch of a whole sphere. There bubbles grow in the chart towards the point projected from,
-// and what is near along the sphere is as far away as all the rest: no list holds all nodes within
-// such a length of the chart, and it would take all nodes to look so far. Circles of the chart are
-// those of the sphere, so the star is the one that would be found from all nodes.
+// Finds a star in the patch of a whole sphere. Bubbles there grow in the chart towards the
+// projection centre, and nodes that are near along the sphere are as far away in the chart as all
+// others. No list contains all nodes within such a chart length, and a search of it would visit all
+// nodes. Circles of the chart are circles of the sphere, so the caps result in the same star as a
+// search of all nodes.
 double star_in_patch(const StarInput& input, std::int64_t i, std::vector<Entry>& star) {
-  constexpr double kFirst = 2, kNext = 1.5;  // in a lattice circles are 1.15 d wide
+  constexpr double kFirst = 2, kNext = 1.5;  // Circles of a lattice have a diameter of 1.15 d.
   const std::size_t before = star.size();
   const StereographicChart& chart = input.domain.embedding().chart();
   const Point<2> at = input.nodes.position(i);
@@ -300,7 +304,8 @@ double constrained_star(const StarInput& input, std::int64_t i, double listed_re
                         double first_reach, std::vector<Entry>& star) {
   if (input.domain.is_in_patch(input.nodes.position(i))) return star_in_patch(input, i, star);
   const std::size_t before = star.size();
-  constexpr double kFar = 16;  // in a channel of boundary nodes alone there is nothing to wait for
+  // Stops looks_too_near(), because a channel may contain boundary nodes only.
+  constexpr double kFar = 16;
   const auto found = [&](GiftWrap&& wrap, double reach) {
     return (reach > kFar * first_reach || !wrap.looks_too_near()) && wrap.wrap(star);
   };

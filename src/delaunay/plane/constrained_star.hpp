@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The star of a node at or near the boundary, or with a gap beside it: gift wrapping around the
-// node. After neighbour a comes the visible node b to the left of the way to a whose circle
-// through the node, a and b holds no other visible one. Boundary edges are edges of the
-// triangulation whatever lies in their circles.
+// The star of a node near the boundary or next to a gap, found by gift wrapping around the node.
+// The neighbour after a is the visible node b on the left of the line from the node to a such that
+// the circle through the node, a and b contains no other visible node. Boundary edges are edges of
+// the triangulation whatever their circles contain.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@
 
 namespace pnpbs {
 
-// Appends the star of node i to `star`, looking as far as needed, and returns 0. Where it would
-// have to look farther than this rank knows the nodes, it appends nothing and returns how far (see
-// DelaunayStars::needs).
-// The list of the node holds all that it sees within listed_reach (0 if that is not sure), and is
-// tried first.
+// Appends the star of node i to `star` and returns 0. The search extends as far as necessary. If it
+// would have to extend beyond the nodes that this rank knows, nothing is appended and the necessary
+// distance is returned (see DelaunayStars::needs).
+// The list of the node must contain all nodes visible from it within `listed_reach`, and is tried
+// first. `listed_reach` is 0 if that is not certain. Without success, all
+// nodes within `first_reach` are searched, then those within larger distances.
 double constrained_star(const StarInput& input, std::int64_t i, double listed_reach,
                         double first_reach, std::vector<DelaunayStars::Entry>& star);
 

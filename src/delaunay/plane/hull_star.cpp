@@ -9,8 +9,8 @@
 
 namespace pnpbs {
 
-// The area is found from the shortest side, whose ends are the most exact to subtract, and taken at
-// its least: of a triangle too flat to tell, the circle reaches everywhere.
+// The area is computed from the shortest side, whose ends have the most accurate difference, and
+// rounded down. If it cannot be distinguished from 0, the diameter is infinite.
 double circle_diameter(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   const double ab = squared_distance<2>(a, b), bc = squared_distance<2>(b, c),
                ca = squared_distance<2>(c, a);
@@ -28,7 +28,7 @@ double circle_diameter(const Point<2>& a, const Point<2>& b, const Point<2>& c) 
 
 namespace {
 
-// 0 in the direction of `first` and up to 180 degrees on, 1 beyond.
+// Returns 0 for directions from that of `first` to 180 degrees on, and 1 for the others.
 int half(const StarPoint& centre, const StarPoint& first, const StarPoint& p) {
   const int turn = orientation(centre.position, first.position, p.position);
   if (turn != 0) return turn > 0 ? 0 : 1;
@@ -38,8 +38,8 @@ int half(const StarPoint& centre, const StarPoint& first, const StarPoint& p) {
   return along > 0 ? 0 : 1;
 }
 
-// Sorts counter-clockwise from around[0]; of two in one direction the nearer comes first. Few
-// points, nearly sorted by bucket: insertion.
+// Sorts counter-clockwise from around[0]. Of two points in one direction, the nearer one comes
+// first. An insertion sort is used because the points are few and nearly sorted by bucket.
 void sort_by_angle(const StarPoint& centre, std::vector<StarPoint>& around,
                    std::vector<char>& halves) {
   halves.resize(around.size());
@@ -65,7 +65,7 @@ void sort_by_angle(const StarPoint& centre, std::vector<StarPoint>& around,
   }
 }
 
-// Does `middle` belong to the star between its neighbours `left` and `right`?
+// Returns whether `middle` belongs to the star between its neighbours `left` and `right`.
 bool belongs(const StarPoint& centre, const StarPoint& left, const StarPoint& middle,
              const StarPoint& right) {
   if (orientation(centre.position, left.position, middle.position) == 0) return false;
@@ -74,8 +74,8 @@ bool belongs(const StarPoint& centre, const StarPoint& left, const StarPoint& mi
                              centre.id, left.id, right.id, middle.id) > 0;
 }
 
-// Graham scan of points sorted by angle, from the first, which is in the star, to `last`. (Of a
-// whole star that is the first again.)
+// Runs a Graham scan over points sorted by angle, from the first, which is in the star, to `last`.
+// For a whole star, `last` is again the first.
 void keep_star(const StarPoint& centre, const StarPoint& last, std::vector<StarPoint>& around) {
   const std::size_t n = around.size();
   std::size_t top = 0;
@@ -87,7 +87,7 @@ void keep_star(const StarPoint& centre, const StarPoint& last, std::vector<StarP
   around.resize(top + 1);
 }
 
-// False if there is none, or if it is where the centre is.
+// Returns false if `around` is empty or its nearest point coincides with the centre.
 bool put_nearest_first(const StarPoint& centre, std::vector<StarPoint>& around) {
   std::size_t nearest = 0;
   double min = std::numeric_limits<double>::infinity();
@@ -113,7 +113,7 @@ void sort_by_angle(const StarPoint& centre, std::vector<StarPoint>& around) {
 bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& around) {
   if (around.size() < 3 || !put_nearest_first(centre, around)) return false;
   sort_by_angle(centre, around);
-  keep_star(centre, around[0], around);  // the nearest neighbour is always in the star
+  keep_star(centre, around[0], around);  // The nearest neighbour is always in the star.
   if (around.size() < 3) return false;
   for (std::size_t k = 0; k < around.size(); ++k) {
     const StarPoint &a = around[k], &b = around[(k + 1) % around.size()];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The star of a node with no boundary about: inversion x -> x / |x|^2 about the node turns it into
-// the convex hull of the listed neighbours, which a Graham scan finds after a sort by angle.
+// The star of a node away from the boundary. Inversion x -> x / |x|^2 about the node transforms it
+// to the convex hull of the listed neighbours. A sort by angle and a Graham scan find the hull.
 #pragma once
 
 #include <cstdint>
@@ -16,29 +16,31 @@ struct StarPoint {
   std::int32_t node;
 };
 
-// Sorts `around` and leaves the star of `centre` in it, counter-clockwise. Returns whether the
-// star is closed and proven: every circumcircle lies within `reach` of the centre, up to which
-// `around` must be complete. If not, `around` is of no use.
+// Sorts `around` and reduces it to the star of `centre`, counter-clockwise. Returns whether the
+// star is closed and proven, i.e. every circumcircle lies within `reach` of the centre. `around`
+// must contain all nodes within `reach`, and is unspecified if the result is false.
 bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& around);
 
-// The part of the star between two neighbours that are in it for certain, counter-clockwise from
-// `first` to `last`, both included (-1 and -1: the whole star, its first neighbour once more at the
-// end). Of nodes beyond a sector nothing is seen. False if the star is not closed in between.
+// Reduces `around` to the part of the star from neighbour `first` to neighbour `last`,
+// counter-clockwise. Both must belong to the star and are included. If both are -1, the result is
+// the whole star with its first neighbour repeated at the end. Nodes outside the sector are
+// ignored. Returns false if the star is not closed in between.
 bool sector_star(const StarPoint& centre, std::int32_t first, std::int32_t last,
                  std::vector<StarPoint>& around);
 
-// Which sides of the triangle (centre, a, b) are edges of the triangulation whatever lies near.
+// Sides of the triangle (centre, a, b) that are edges of the triangulation whatever lies near them.
 struct FixedSides {
   bool to_a, to_b, ab;
 };
 
-// How far from the centre a node could lie that would spoil the triangle. Beyond a fixed side
-// nothing is seen. In the part of the circle cut off by a side that the circle's middle is not
-// beyond, nothing is farther than the ends of that side.
+// Returns the distance from the centre up to which a node can invalidate the triangle.
+// Nodes beyond a fixed side are not visible. A side cuts the circle into two parts. In the part
+// without the circle's centre, no point is farther away than the ends of that side.
 double needed_reach(const Point<2>& centre, const Point<2>& a, const Point<2>& b,
                     const FixedSides& fixed);
 
-// Diameter of the circle through a, b, c, not less (infinity for three points on a line).
+// Returns the diameter of the circle through a, b, c, rounded up. It is infinite for points on a
+// line.
 double circle_diameter(const Point<2>& a, const Point<2>& b, const Point<2>& c);
 
 }  // namespace pnpbs

@@ -17,20 +17,20 @@
 namespace pnpbs {
 namespace {
 
-// Are the stars of a block of nodes still Delaunay where the nodes are now? One node per SIMD lane,
-// as far as plain floating point can prove it.
+// The result of checking whether the stars of a block of nodes are still Delaunay, one node per
+// SIMD lane. It covers what plain floating point can prove.
 struct BlockStarCheck {
-  // Proven to turn once around the node, and to be convex where it is inverted: each edge from the
-  // node is locally Delaunay. Only of stars that are all triangles.
+  // The star is proven to turn exactly once around the node and to be convex after inversion, so
+  // that each edge from the node is locally Delaunay. Only stars of triangles alone can be proven.
   bool holds[kLanes];
-  // Of those: is the first neighbour nearer than all others?
+  // Whether the first neighbour is nearer than all others. Valid only where holds is set.
   bool begins_with_nearest[kLanes];
 };
 
 using Lanes = double[kLanes];
 using Integers = std::int32_t[kLanes];
 
-// Squares of lengths for which the products of six lengths neither overflow nor lose bits.
+// Range of squared lengths for which products of six lengths neither overflow nor lose bits.
 constexpr double kMinSquare = 1e-60, kMaxSquare = 1e60;
 
 class BlockCheck {
@@ -57,8 +57,8 @@ class BlockCheck {
   }
 
  private:
-  // Positions relative to the node: of the neighbours in their order, then of the first two again.
-  // (What shorter stars are filled up with is the first.)
+  // Computes the positions relative to the node, in the order of the neighbours. The first two
+  // follow again after the last, as shorter stars are padded with their first neighbour.
   void gather(const double* x, const double* y, const std::int64_t (&self)[kLanes]) {
     Lanes own_x, own_y;
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -121,12 +121,13 @@ class BlockCheck {
   const DelaunayStars::Entry* entries_;
   int length_;
   Integers size_, sure_;
-  Lanes min_of_others_;  // squared distance
+  Lanes min_of_others_;  // Squared distance.
   Lanes x_[kMaxListed + 2], y_[kMaxListed + 2], square_[kMaxListed + 2];
-  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];  // of one and the next
+  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];  // Of each neighbour and the next.
 };
 
-// x, y: positions of all nodes, and of the far-away one behind them.
+// Checks the stars of a block. `x` and `y` are the positions of all nodes and of the far point
+// that follows them.
 void check_block_stars(const DelaunayStars::Block& stars, const double* x, const double* y,
                        const std::int64_t (&self)[kLanes], BlockStarCheck& check) {
   if (stars.length < 3 || stars.length > kMaxListed) {
@@ -141,12 +142,13 @@ void check_block_stars(const DelaunayStars::Block& stars, const double* x, const
 using Entry = DelaunayStars::Entry;
 using Star = std::vector<Entry>;
 
-// Nodes to one that is beside an edge to be flipped: with fewer, to find all stars takes no longer.
+// Minimum number of nodes per node beside an edge to be flipped. With more flips, finding all stars
+// takes no longer.
 constexpr std::int64_t kFewFlips = 16;
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// The places in a star, round and round.
+// Return the index that follows or precedes k cyclically in a star.
 std::size_t after(const Star& star, std::size_t k) { return k + 1 < star.size() ? k + 1 : 0; }
 std::size_t before(const Star& star, std::size_t k) { return k > 0 ? k - 1 : star.size() - 1; }
 
@@ -155,13 +157,14 @@ class StarRules {
   StarRules(const Nodes<2>& nodes, const IncidentSectors& sectors)
       : nodes_(nodes), sectors_(sectors) {}
 
-  // Stars of nodes that boundary edges end at begin with one of these, all others with the nearest.
+  // Returns whether the star must begin with the nearest neighbour. Stars of nodes with boundary
+  // edges begin with the neighbour on one of these instead.
   bool begins_with_nearest(std::int64_t i) const {
     const std::int32_t b = nodes_.boundary_node(i);
     return b < 0 || sectors_.begin(b) == sectors_.end(b);
   }
 
-  // Are there triangles wherever the domain is around the node?
+  // Returns whether triangles cover the part of the domain around the node.
   bool is_whole(std::int64_t i, const Star& star) const {
     const auto gaps =
         std::count_if(star.begin(), star.end(), [](Entry neighbour) { return !neighbour.flag(); });
@@ -181,7 +184,8 @@ class StarRules {
     return false;
   }
 
-  // Is the edge to the neighbour at that place between two triangles, and not locally Delaunay?
+  // Returns whether the edge to the neighbour at index `place` lies between two triangles and is
+  // not locally Delaunay.
   bool wants_flip(std::int64_t i, const Star& star, std::size_t place) const {
     const Entry right = star[before(star, place)], at = star[place];
     if (!right.flag() || !at.flag() || is_boundary_edge(i, at.value())) return false;
@@ -190,7 +194,7 @@ class StarRules {
                                nodes_.id(c)) > 0;
   }
 
-  // The place of the nearest one of these neighbours; of several, of the one with the smallest id.
+  // Returns the index of the nearest neighbour; of several, of the one with the smallest id.
   template <class ForNeighbours>
   std::int32_t nearest(std::int64_t i, const ForNeighbours& for_neighbours) const {
     std::int32_t place = 0, best = 0;
@@ -235,7 +239,7 @@ void begin_with_nearest(const StarRules& rules, DelaunayStars& stars, std::int64
 
 enum class Verdict : char { holds, wants_flips, is_broken };
 
-// And has it begin with the neighbour that it is to begin with now.
+// Checks the star of node i. If it holds, the star is rotated to begin with the required neighbour.
 Verdict judge(const StarRules& rules, DelaunayStars& stars, std::int64_t i) {
   const Star star = star_of(stars, i);
   if (!rules.is_whole(i, star) || rules.turns_over(i, star)) return Verdict::is_broken;
@@ -288,7 +292,7 @@ class Flips {
   void write_stars() {
     std::vector<char> changed(index(nodes_.count), 0);
     for (auto& [i, changed_star] : changed_) {
-      Star& star = changed_star;  // Clang 14 captures no structured binding
+      Star& star = changed_star;  // Clang 14 cannot capture structured bindings.
       changed[index(i)] = 1;
       if (rules_.begins_with_nearest(i)) {
         const std::int32_t nearest = rules_.nearest(i, [&star](const auto& visit) {
@@ -322,7 +326,7 @@ class Flips {
     star.insert(star.begin() + static_cast<std::ptrdiff_t>(place_in(star, there)) + 1, {j, true});
   }
 
-  // The edge from i to j becomes that between the corners on its right and on its left.
+  // Replaces the edge from i to j by the edge between the corners on its right and on its left.
   void flip(std::int64_t i, std::size_t place) {
     const Star& star = star_to_change(i);
     const std::int64_t j = star[place].value(), right = star[before(star, place)].value(),
@@ -338,7 +342,7 @@ class Flips {
   const StarRules& rules_;
   DelaunayStars& stars_;
   std::unordered_map<std::int64_t, Star> changed_;
-  std::vector<std::pair<std::int64_t, std::int64_t>> edges_;  // to be looked at
+  std::vector<std::pair<std::int64_t, std::int64_t>> edges_;  // Edges to be checked.
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stars of the plane after nodes have moved a little. They are still a triangulation where no
-// triangle has turned over, as the boundary stays: it covers the domain once. And it is the one
-// that would be found anew if each edge but those of the boundary is locally Delaunay, which takes
-// far less to see than to find stars; where an edge is not, it is flipped (Lawson).
+// Restores the stars of the plane after small movements of the nodes. As the boundary does not
+// move, the stars are still a triangulation if no triangle has turned over. It is the Delaunay
+// triangulation if every edge off the boundary is locally Delaunay, which is much faster to check
+// than finding stars. Edges that are not are flipped (Lawson).
 #pragma once
 
 #include "base/nodes.hpp"
@@ -11,8 +11,8 @@
 
 namespace pnpbs {
 
-// False if that cannot be done, or would not pay: then the stars are to be found anew. Of nodes
-// that are all owned; stars are those of all of them.
+// Restores the stars. Returns false if that is impossible or too slow; then they must be built
+// again. All nodes must be owned, and all must have a star.
 bool restore_by_flips(const Nodes<2>& nodes, const IncidentSectors& sectors, DelaunayStars& stars);
 
 }  // namespace pnpbs

@@ -7,7 +7,8 @@
 
 namespace pnpbs {
 
-// A node whose ring is yet to be found has nothing against it.
+// Returns whether `node` finds the triangle (node, a, b). A node whose ring has not been found yet
+// counts as finding it.
 bool AgreedTriangles::found_by(std::int32_t node, std::int64_t a, std::int64_t b) const {
   if (rings_.needs(node) > 0) return true;
   const std::size_t n = rings_.size(node);
@@ -23,7 +24,7 @@ bool AgreedTriangles::collective_try(std::int64_t i, std::size_t k) const {
   return found_by(a, b, i) && found_by(b, i, a);
 }
 
-// Runs of triangles that node i finds and others do not.
+// Finds the runs of triangles that node i finds and other corners do not.
 void AgreedTriangles::find_gaps(std::int64_t i, std::vector<Gap>& gaps) const {
   gaps.clear();
   const std::size_t n = rings_.size(i);
@@ -38,7 +39,7 @@ void AgreedTriangles::find_gaps(std::int64_t i, std::vector<Gap>& gaps) const {
   }
 }
 
-// The corner of the hole after `node`, for one who comes from another one; -1 if there is none.
+// Returns the corner of the hole that follows `node` if `from` precedes it, or -1 if there is none.
 std::int32_t AgreedTriangles::next_around_hole(std::int32_t node, std::int64_t from) {
   find_gaps(node, gaps_there_);
   for (const Gap& gap : gaps_there_)
@@ -75,8 +76,8 @@ Point<3> AgreedTriangles::hole_normal() const {
   return normal;
 }
 
-// Of the triangle that corner k of the hole makes with those beside it: its area over the squares
-// of its sides; negative if it is turned over.
+// Returns the quality of the triangle at corner k of the hole: its area over the sum of its squared
+// sides, negative if it is turned over.
 double AgreedTriangles::ear_quality(std::size_t k, const Point<3>& normal) const {
   const std::size_t n = hole_.size();
   const Point<3> a = nodes_.position(hole_[(k + n - 1) % n]), b = nodes_.position(hole_[k]),
@@ -93,7 +94,7 @@ void AgreedTriangles::add_with(std::int64_t i, const std::array<std::int32_t, 3>
     if (triangle[k] == i) triangles.push_back({triangle[(k + 1) % 3], triangle[(k + 2) % 3]});
 }
 
-// The best first; of equals the first after the corner with the least id.
+// Cuts the best ear first. Of equal ears, the first after the corner with the smallest id is cut.
 void AgreedTriangles::cut_ears(std::int64_t i, std::vector<Others>& triangles) {
   begin_with_least_id();
   const Point<3> normal = hole_normal();

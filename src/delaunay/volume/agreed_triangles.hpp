@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a surface on which all nodes agree: those that all three corners find, and in
-// the holes that are left, where they do not, a triangulation that is a function of the hole alone.
-// So every triangle is in the stars of all its corners, on any rank.
+// The triangles of a surface on which all nodes agree. They are those that all three corners find,
+// and a triangulation of each hole in between, which is a function of the hole alone. Therefore
+// every triangle is in the stars of all its corners, on any rank.
 #pragma once
 
 #include <array>
@@ -15,25 +15,26 @@ namespace pnpbs {
 
 class AgreedTriangles {
  public:
-  // Holes of more corners stay open.
+  // Maximum number of corners of a hole that is triangulated. Larger holes remain open.
   static constexpr std::size_t kMaxHole = 8;
-  // So many neighbours away the rings must be known for a node's triangles: half around a hole, and
-  // one more to agree.
+  // Number of rings of neighbours that must be known for the triangles of a node: half the way
+  // around a hole, and one more for the agreement.
   static constexpr int kRings = static_cast<int>(kMaxHole / 2) + 1;
 
   AgreedTriangles(const Nodes<3>& nodes, const SurfaceRings& rings)
       : nodes_(nodes), rings_(rings) {}
 
-  // Triangle (i, a, b) turns counter-clockwise.
+  // The two other corners of a triangle; (i, a, b) is counter-clockwise.
   using Others = std::array<std::int32_t, 2>;
   void of(std::int64_t i, std::vector<Others>& triangles);
 
  private:
   struct Gap {
-    std::size_t begin, end;  // entries of the ring: the hole lies between them
+    std::size_t begin, end;  // Entries of the ring between which the hole lies.
   };
 
   bool found_by(std::int32_t node, std::int64_t a, std::int64_t b) const;
+  // Returns whether both other corners of the k-th triangle of node i find the triangle, too.
   bool collective_try(std::int64_t i, std::size_t k) const;
   void find_gaps(std::int64_t i, std::vector<Gap>& gaps) const;
   std::int32_t next_around_hole(std::int32_t node, std::int64_t from);
@@ -48,7 +49,7 @@ class AgreedTriangles {
   const Nodes<3>& nodes_;
   const SurfaceRings& rings_;
   std::vector<Gap> gaps_, gaps_there_;
-  std::vector<std::int32_t> hole_;  // its corners, counter-clockwise
+  std::vector<std::int32_t> hole_;  // Corners of the current hole, counter-clockwise.
 };
 
 }  // namespace pnpbs

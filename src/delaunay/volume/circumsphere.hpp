@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sphere through the corners of a tetrahedron, and the circle through those of a triangle.
+// The circumsphere of a tetrahedron and the circumcentre of a triangle.
 #pragma once
 
 #include <algorithm>
@@ -23,17 +23,18 @@ inline double longest_edge(const TetrahedronCorners& x) {
 struct Circumsphere {
   Point<3> centre;
   double radius;
-  bool flat;  // too flat to tell its volume from rounding: centre and radius say nothing
+  bool flat;  // Volume not distinguishable from rounding: centre and radius are invalid.
 };
 
-// The same bits for the same order of the corners, whatever their orientation.
+// Returns the circumsphere. The result is bitwise equal for the same order of the corners, whatever
+// their orientation.
 inline Circumsphere circumsphere(const TetrahedronCorners& x) {
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
   const Point<3> vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
-  const double volume = dot(u, vw);  // six times
-  // Far above the error of a determinant, in the differences of its rows and in itself, and far
-  // below that of any tetrahedron worth the name.
+  const double volume = dot(u, vw);  // Six times the volume.
+  // Far above the error of a determinant, from the differences of its rows and its own rounding,
+  // and far below the volume of any useful tetrahedron.
   constexpr double kFlat = 0x1p-40;
   const bool flat = !(std::fabs(volume) > kFlat * std::sqrt(uu * vv) * std::sqrt(ww));
   Point<3> to_centre{};
@@ -44,7 +45,7 @@ inline Circumsphere circumsphere(const TetrahedronCorners& x) {
           flat};
 }
 
-// The same bits for the same order of the corners.
+// Returns the circumcentre. The result is bitwise equal for the same order of the corners.
 inline Point<3> circle_centre(const std::array<Point<3>, 3>& x) {
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), normal = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v), twice = 2 * dot(normal, normal);

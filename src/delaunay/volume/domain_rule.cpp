@@ -13,17 +13,19 @@ namespace pnpbs {
 
 namespace {
 
-// Is it so thin that its volume is a small part of a regular one with its longest edge?
+// Returns whether the volume is a small fraction of that of a regular tetrahedron with the same
+// longest edge.
 bool is_flat_cap(const TetrahedronCorners& x) {
   constexpr double kFlat = 0.2;
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
   const double longest = longest_edge(x);
-  const double regular = longest * longest * longest * std::numbers::sqrt2 / 2;  // six times
+  // Six times the volume.
+  const double regular = longest * longest * longest * std::numbers::sqrt2 / 2;
   return std::fabs(dot(u, cross(v, w))) < kFlat * regular;
 }
 
-// Which two of its edges, without a common end, cross as seen along its thin side: first the one
-// that lies farther up. None: one corner lies before the face of the others.
+// Returns the two edges without a common end that cross in the projection along `up`, the upper one
+// first. Returns nothing if one corner is projected into the face of the others.
 using EdgePair = std::array<std::array<std::size_t, 2>, 2>;
 std::optional<EdgePair> crossing_edges(const TetrahedronCorners& x, const Point<3>& up) {
   constexpr std::array<std::array<std::size_t, 4>, 3> kPairs{
@@ -40,12 +42,12 @@ std::optional<EdgePair> crossing_edges(const TetrahedronCorners& x, const Point<
   return std::nullopt;
 }
 
-// Would the surface have the same nodes and feature edges without this flat one? Where its outer
-// edge was lies the other one that crosses it.
+// Returns whether the surface without this flat element has the same nodes and feature edges.
+// Without it, the edge that crosses its outer edge replaces the outer edge.
 bool can_go(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
             const TetrahedronCorners& x, const Point<3>& middle) {
   if (!in.joined) return true;
-  constexpr double kOnSurface = 1e-6;  // far above rounding
+  constexpr double kOnSurface = 1e-6;  // Far above rounding.
   const double longest = longest_edge(x);
   const NearestPoint<3> above = in.nearest(middle, longest);
   if (above.gap < kOnSurface * longest) return true;
@@ -55,16 +57,17 @@ bool can_go(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
   return !in.joined(nodes[outer[0]], nodes[outer[1]]);
 }
 
-// Is a flat one on the boundary? (In a wall of one element, nodes of both its sides may lie in a
-// plane across it: what is between them there is an element, however flat.)
+// Returns whether a flat element lies in or beyond the boundary. In a wall of one element, nodes of
+// both sides can lie in one plane across the wall. The elements between them are part of the
+// domain, however flat they are.
 bool on_boundary(const VolumeStarInput& in, const TetrahedronCorners& x, const Point<3>& middle) {
-  constexpr double kSurely = 1e-6;  // far above rounding
+  constexpr double kSurely = 1e-6;  // Far above rounding.
   const double reach = kSurely * longest_edge(x);
   return in.facets->clearance(middle, reach) < reach || !in.facets->inside(middle);
 }
 
-// Is it nearer to a free node, which is inside, than any facet is? For nodes that are where the
-// corners are: elsewhere their room is another.
+// Returns whether x is nearer to a free node, which is inside, than any facet is. Only nodes at the
+// positions of their corners are considered, because `room` is valid for these positions only.
 bool beside_free_node(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
                       const Tetrahedron& corners, const Point<3>& x) {
   constexpr double kSurely = 0.999;
@@ -77,7 +80,7 @@ bool beside_free_node(const VolumeStarInput& in, const std::array<std::int64_t, 
   return false;
 }
 
-// In the order of their ids.
+// Returns the nodes in the order of their ids.
 std::array<std::int64_t, 4> ordered(std::array<std::int64_t, 4> nodes, const Nodes<3>& of) {
   std::ranges::sort(nodes, {}, [&](std::int64_t i) { return of.id(i); });
   return nodes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which elements are part of the domain.
+// Decides which elements are part of the domain.
 #pragma once
 
 #include <array>
@@ -10,15 +10,17 @@
 
 namespace pnpbs {
 
-// Of an element with these nodes at its corners: a pure function of the corners, which may be where
-// the nodes mean to go. One that is flat between boundary nodes is nothing but their rounding, or
-// what a curved surface rises between them.
+// Returns whether an element with these nodes at its corners is part of the domain. The result is a
+// pure function of the corners, which can be the positions to which the nodes are about to move. A
+// flat element between boundary nodes is not part of it: it results from rounding, or fills the gap
+// between a curved surface and the facets between its nodes.
 bool in_domain(const VolumeStarInput& input, const std::array<std::int64_t, 4>& nodes,
                const Tetrahedron& corners);
-// Of nodes where they are.
+// Returns the same for the present positions of the nodes.
 bool in_domain(const VolumeStarInput& input, const std::array<std::int64_t, 4>& nodes);
 
-// Is it flat, and lies in the boundary? By its corners in the order of their ids.
+// Returns whether the element is flat and lies in the boundary. The corners must be in the order of
+// their ids.
 bool lies_in_boundary(const VolumeStarInput& input, const Tetrahedron& ordered);
 
 }  // namespace pnpbs

@@ -49,12 +49,13 @@ ElementLabels::ElementLabels(std::vector<LabelledTetrahedron> tetrahedra,
   first_pieces_ = pieces_inside();
 }
 
-// What is surely inside or outside stays; so does what has a node around which not all is known.
+// Returns whether the label may change. Tetrahedra that are certainly inside or outside keep their
+// label, and so do those with a node around which not all tetrahedra are given.
 bool ElementLabels::may_change(std::size_t t, double max_depth) const {
   return tetrahedra_[t].may_change && tetrahedra_[t].depth < max_depth && corners_[t].size() == 4;
 }
 
-// Has a label changed around one of their nodes?
+// Returns whether a label has changed around one of their nodes after `since`.
 bool ElementLabels::may_help(const std::vector<std::size_t>& free, std::uint64_t since) const {
   return std::ranges::any_of(free, [&](std::size_t t) {
     return std::ranges::any_of(
@@ -71,7 +72,8 @@ ElementLabels::Change ElementLabels::change_of(std::size_t t) {
   return change;
 }
 
-// Of both at once: another one only at nodes that both have. Less than `worth` may be less still.
+// Returns the gain of both changes at once, which is not the sum of both only at common nodes. If
+// it is less than `worth`, an upper bound may be returned.
 int ElementLabels::gain(const Change& one, const Change& other, int worth) {
   int gain = sum_of(one.gains) + sum_of(other.gains), most = 0;
   std::array<std::array<Corner, 2>, 4> shared;
@@ -90,8 +92,9 @@ int ElementLabels::gain(const Change& one, const Change& other, int worth) {
   return gain;
 }
 
-// What helps most, the change of one tetrahedron or, if that does not and the node has no disk, of
-// two around it; of equals what is nearest to the surface.
+// Returns the changes with the largest gain: that of one tetrahedron or, if none helps and the
+// boundary is torn at the node, of two around it. Of equal gains, the one nearest to the surface is
+// returned.
 std::vector<std::size_t> ElementLabels::best_changes(const Node& node,
                                                      const std::vector<std::size_t>& free) {
   std::tuple<int, double> best{0, 0};
@@ -128,7 +131,8 @@ bool ElementLabels::improve(Node& node) {
   return !changes.empty();
 }
 
-// Of its nodes, edges and faces.
+// Returns six times the contribution of the tetrahedron's nodes, edges and faces to Euler's
+// characteristic.
 int ElementLabels::euler_times_six(std::size_t t) const {
   int sum = 0;
   for (const Corner& corner : corners_[t])
@@ -176,27 +180,28 @@ std::vector<LabelledTetrahedron> ElementLabels::changed() const {
   return result;
 }
 
-// The search for elements, where no change of a label, nor two at once, helps any more, and nodes
-// still lack their disks or the boundary has another topology than the domain's: an iterated local
-// search (Lourenco, Martin, Stuetzle 2003). In each round a label is changed near what is wrong, a
-// walk over labels repairs what that has torn (WalkSAT: Selman, Kautz, Cohen, "Noise strategies for
-// improving local search", 1994), and what is no better is taken back. What is random is a function
-// of the step, so that all ranks go the same way.
+// The search: if changing one or two labels no longer helps, but nodes lack their disks or the
+// boundary has another topology than the domain, an iterated local search follows (Lourenco,
+// Martin, Stuetzle 2003). Each round changes a label near a fault and repairs the consequences by a
+// walk over labels (WalkSAT: Selman, Kautz, Cohen, "Noise strategies for improving local search",
+// 1994). A result that is not better is reverted. Random numbers are a function of the step, so
+// that all ranks search alike.
 
 namespace {
 
-constexpr int kInVain = 4;             // of so many parts of the rounds one, and the search ends
-constexpr int kWalk = 100;             // steps of one
-constexpr std::uint64_t kRest = 8;     // steps in which a tetrahedron is not changed back
-constexpr std::uint64_t kOneInSo = 5;  // changes is any one
-constexpr double kMaxDepth = 0.35;     // of centroids, over the longest edge
+constexpr int kInVain = 4;          // The search ends after 1 / kInVain of the rounds without gain.
+constexpr int kWalk = 100;          // Maximum number of steps of a walk.
+constexpr std::uint64_t kRest = 8;  // Steps during which a tetrahedron is not changed back.
+constexpr std::uint64_t kOneInSo = 5;  // One in so many changes is random.
+constexpr double kMaxDepth = 0.35;     // Maximum depth of centroids. [longest edge]
 
 }  // namespace
 
-// Of the boundary, between nodes that are given alone: a piece that comes, a bubble inside or
-// outside, would make up for a handle in the characteristic.
+// Returns the number of pieces of the boundary that contain given nodes only. A new piece, i.e. a
+// bubble inside or outside, would compensate for a handle in the characteristic.
 std::int64_t ElementLabels::pieces_inside() const {
-  UnionFind<std::size_t> joined(nodes_.size() + 1);  // the last one stands for all not given
+  // The last element represents all nodes that are not given.
+  UnionFind<std::size_t> joined(nodes_.size() + 1);
   std::vector<std::size_t> on_boundary;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     bool any = false;
@@ -228,7 +233,8 @@ int ElementLabels::gain_of_disks(std::size_t t) {
   return gain;
 }
 
-// Around a node, mostly the one that does the least harm. None: the number of tetrahedra.
+// Returns a tetrahedron around node n, usually the one whose change does the least harm. Returns
+// the number of tetrahedra if none may be changed.
 std::size_t ElementLabels::tetrahedron_to_change(std::size_t n, std::uint64_t random) {
   std::vector<std::size_t> free;
   for (const std::size_t t : nodes_[n].tetrahedra)
@@ -251,7 +257,7 @@ void ElementLabels::change_in_search(std::size_t t) {
   round_.push_back(t);
 }
 
-// Of these, or if there are none, of all.
+// Changes a label at one of these nodes, or at one of all nodes if `nodes` is empty.
 void ElementLabels::change_at_one_of(const std::set<std::size_t>& nodes) {
   const std::uint64_t random = mixed(++step_);
   const std::size_t k = random % (nodes.empty() ? nodes_.size() : nodes.size());
@@ -263,13 +269,13 @@ void ElementLabels::change_at_one_of(const std::set<std::size_t>& nodes) {
   rests_until_[t] = step_ + kRest;
 }
 
-// Until no more nodes than so many lack their disks.
+// Walks until at most `without_disks` nodes lack their disks.
 void ElementLabels::walk(std::size_t without_disks) {
   for (int k = 0; k < kWalk && without_disks_.size() > without_disks; ++k)
     change_at_one_of(without_disks_);
 }
 
-// Single changes that help, around the nodes where labels were changed in this round.
+// Makes single changes that help, around the nodes where labels were changed in this round.
 void ElementLabels::descend() {
   std::set<std::size_t> nodes;
   for (const std::size_t t : round_)
@@ -293,7 +299,7 @@ void ElementLabels::search(std::int64_t euler_change, std::int64_t pieces_change
     change_at_one_of(round % 2 == 0 && !without_disks_.empty() ? without_disks_ : with_defects_);
     walk(least.without_disks);
     if (without_disks_.size() <= least.without_disks) descend();
-    if (round_.empty()) {  // no label could be changed
+    if (round_.empty()) {  // No label could be changed.
       ++in_vain;
       continue;
     }
@@ -306,7 +312,7 @@ void ElementLabels::search(std::int64_t euler_change, std::int64_t pieces_change
   }
 }
 
-// Each change leaves one thin element less, so it ends.
+// Terminates because each change removes one thin element.
 void ElementLabels::drop_thin_elements() {
   for (bool any = true; any;) {
     any = false;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the tetrahedra between nodes of the surfaces are elements, where their centroids leave
-// the boundary torn: where a surface is rough beside d, thin tetrahedra along it are inside or
-// outside by chance, and where they meet in an edge or a node alone, or leave a node in none, no
-// surface closes. There labels are changed, one after the other, until around every node the faces
-// of the boundary are one disk: first as long as one change or two at once help (settle), then,
-// where that has not been enough, by a search. A function of the tetrahedra given, in whatever
-// order they come.
+// Labels that say which tetrahedra between nodes of surfaces are elements, where labels by
+// centroids do not result in a closed boundary. Where a surface is rough compared to d, thin
+// tetrahedra along it are inside or outside by chance. If they meet only in an edge or a node, or a
+// node is in no element, the boundary is not a closed surface.
+// Labels are changed one after the other until the boundary faces around every node form one disk.
+// Defects measure how far they are from it.
+// At first a change of one or two labels at once is tried (settle), then a search. The result is a
+// function of the given tetrahedra and does not depend on their order.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@
 
 namespace pnpbs {
 
-// Tetrahedra with a label that is not that of their centroid.
+// Tetrahedra with a label that differs from that of their centroid.
 class ChangedLabels {
  public:
   ChangedLabels() = default;
@@ -27,7 +28,8 @@ class ChangedLabels {
     for (const LabelledTetrahedron& t : changed) labels_[t.ids] = t.is_element;
   }
   bool any() const { return !labels_.empty(); }
-  // The label of this one, by its nodes' ids, ascending, if it has been changed.
+  // Returns the label of a tetrahedron if it has been changed, or null. `ids` are those of its
+  // nodes in ascending order.
   const bool* find(const std::array<std::int64_t, 4>& ids) const {
     const auto found = labels_.find(ids);
     return found == labels_.end() ? nullptr : &found->second;
@@ -41,38 +43,38 @@ class ElementLabels {
  public:
   ElementLabels(std::vector<LabelledTetrahedron> tetrahedra, std::vector<LabelledNode> nodes);
 
-  // Changes labels as long as one, or two around a node, help.
+  // Changes labels as long as changing one, or two around a node, reduces the defects.
   void settle();
-  // And then goes on by chance until all nodes have their disks and Euler's
-  // characteristic of the boundary, and the number of its pieces, are larger by so much than they
-  // were with the labels given, or that
-  // has been tried for so many rounds. Nothing, if that is so
-  // already.
+  // Continues with a randomized search. It ends when all nodes have their disks, and Euler's
+  // characteristic and the number of pieces of the boundary exceed those of the given labels by
+  // `euler_change` and `pieces_change`, or after `rounds` rounds. It does nothing if this is
+  // already so.
   void search(std::int64_t euler_change, std::int64_t pieces_change, int rounds);
-  // Makes thin elements none where that leaves no more defects and the same topology: two faces of
+  // Removes thin elements where that neither adds defects nor changes the topology: two faces of
   // the boundary are exchanged for the two others of the tetrahedron.
   void drop_thin_elements();
-  // Those whose label is now another.
+  // Returns the tetrahedra whose label has changed, with their new label.
   std::vector<LabelledTetrahedron> changed() const;
-  // By how much Euler's characteristic of the boundary is larger for that.
+  // Returns the increase of Euler's characteristic of the boundary due to the changes.
   std::int64_t euler_change() const { return euler_change_; }
-  // How far the faces of the boundary around this node are from one disk along a surface; 0: they
-  // are one.
+  // Returns a measure of how far the boundary faces around a node are from one disk along a
+  // surface. It is 0 if they are one.
   int defects_at(std::int64_t id) const { return nodes_[node_at_.at(id)].link.defects(); }
 
  private:
   struct Node {
     NodeLink link;
     std::vector<std::size_t> tetrahedra;
-    std::vector<std::size_t> others;  // of its link; not given: the number of nodes
-    // Numbers of changes: the last around it, and the last known when none helped.
+    std::vector<std::size_t> others;  // Nodes of its link; the number of nodes if not given.
+    // Counts of changes: at the last change around the node, and when improve() last found none
+    // that helps.
     std::uint64_t changed = 1, given_up = 0;
   };
-  // Where a tetrahedron is found: at which node, as which of those around it.
+  // A node of a tetrahedron, and the index of the tetrahedron among those around the node.
   struct Corner {
     std::size_t node, place;
   };
-  // What it brings to change one label: at each corner, so many defects fewer.
+  // Change of one label, and by how much it reduces the defects at each corner.
   struct Change {
     std::size_t t;
     std::array<int, 4> gains;
@@ -89,10 +91,11 @@ class ElementLabels {
   int euler_times_six(std::size_t t) const;
 
   // --- the search ---
-  // Less is better.
+
+  // Remaining faults; less is better.
   struct Faults {
     std::size_t without_disks;
-    std::int64_t topology;  // how far the characteristic is off; each piece counts 2
+    std::int64_t topology;  // Deviation of the characteristic; each piece counts 2.
     std::int64_t defects;
 
     auto operator<=>(const Faults&) const = default;
@@ -108,17 +111,18 @@ class ElementLabels {
   void descend();
   void take_back();
 
-  std::vector<LabelledTetrahedron> tetrahedra_;  // as given
+  std::vector<LabelledTetrahedron> tetrahedra_;  // As given.
   std::vector<char> changed_;
-  std::vector<std::vector<Corner>> corners_;  // of each tetrahedron, at nodes that are given
-  std::vector<Node> nodes_;                   // by id
+  std::vector<std::vector<Corner>> corners_;  // Corners of each tetrahedron at given nodes.
+  std::vector<Node> nodes_;                   // In the order of their ids.
   std::map<std::int64_t, std::size_t> node_at_;
   std::uint64_t changes_ = 1;
-  std::set<std::size_t> without_disks_, with_defects_;  // nodes
+  std::set<std::size_t> without_disks_, with_defects_;  // Indices of nodes.
   std::int64_t defects_ = 0, euler_change_ = 0;
-  std::int64_t first_pieces_ = 0;           // inside, with the labels given
-  std::vector<std::uint64_t> rests_until_;  // of each tetrahedron: the step of the search
-  std::vector<std::size_t> round_;          // changed in this round of it
+  std::int64_t first_pieces_ = 0;  // Result of pieces_inside() for the given labels.
+  // Per tetrahedron: step of the search until which it must not change back.
+  std::vector<std::uint64_t> rests_until_;
+  std::vector<std::size_t> round_;  // Tetrahedra changed in this round.
   std::uint64_t step_ = 0;
 };
 

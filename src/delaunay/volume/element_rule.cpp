@@ -10,7 +10,7 @@ namespace pnpbs {
 
 namespace {
 
-// Numbers of 106 bits; errors are relative to the terms that go into a sum.
+// Numbers of 106 bits. Errors are relative to the terms of a sum.
 TwoTerms operator+(const TwoTerms& a, const TwoTerms& b) {
   const TwoTerms sum = two_sum(a.high, b.high);
   return fast_two_sum(sum.high, sum.low + (a.low + b.low));
@@ -65,7 +65,8 @@ bool is_element(const Tetrahedron& ordered) {
   const Vector u = from_to(a.x, b.x), v = from_to(a.x, c.x), w = from_to(a.x, d.x);
   const Vector vw = accurate_cross(v, w), wu = accurate_cross(w, u), uv = accurate_cross(u, v);
   const TwoTerms uu = accurate_dot(u, u), vv = accurate_dot(v, v), ww = accurate_dot(w, w);
-  double square = 0;  // of the vector to the centre, times
+  // Squared length of the vector to the circumcentre times twelve volumes.
+  double square = 0;
   const double twelve_volumes = 2 * accurate_dot(u, vw).high;
   for (std::size_t k = 0; k < 3; ++k) {
     const double along = (uu * vw[k] + vv * wu[k] + ww * uv[k]).high;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which tetrahedra of a Delaunay triangulation are elements: a pure function of the corners, the
-// same for all of them and on all ranks.
+// The rule that decides which tetrahedra of a Delaunay triangulation are elements. It is a pure
+// function of the corners, so that all corners and all ranks decide equally.
 #pragma once
 
 #include <array>
@@ -16,22 +16,24 @@ struct VolumeNode {
   std::int64_t id;
 };
 
-// The circumradius of an element is at most this times the least d of its corners: what is wider,
-// nodes have not filled, or it lies outside. (In a lattice it is 0.6 d; beside a jump of d by a
-// factor of four it is twice the smaller d.) The least, not the mean: so a node knows how far
-// away its elements can end.
+// Maximum circumradius of an element. [least d of its corners] A wider tetrahedron lies outside or
+// where nodes are missing. In a lattice, the circumradius is 0.6 d; beside a jump of d by a factor
+// of four, it is twice the smaller d. The least d is used and not the mean, so that the own d of a
+// node bounds the distance to the corners of its elements.
 inline constexpr double kMaxRadius = 2;
 
-// By id, so that what is computed from them in turn has the same bits whoever asks.
+// Corners in the order of their ids. Computations in this order have bitwise equal results on all
+// ranks.
 using Tetrahedron = std::array<VolumeNode, 4>;
 Tetrahedron ordered_by_id(Tetrahedron corners);
-// Of nodes where they are.
+// Returns the tetrahedron of the present positions of nodes.
 Tetrahedron tetrahedron_of(const Nodes<3>& nodes, const std::array<std::int64_t, 4>& corners);
 
-// The corners' mean, added up in the order of their ids.
+// Returns the mean of the corners, summed up in the order of their ids.
 Point<3> centroid(const Tetrahedron& ordered);
 
-// With twice the digits: of a tetrahedron that is flat but for rounding, the sphere is not.
+// Returns whether the tetrahedron is an element. The computation has twice the digits of a double,
+// because the circumsphere of a tetrahedron that is flat up to rounding is otherwise wrong.
 bool is_element(const Tetrahedron& ordered);
 
 }  // namespace pnpbs

@@ -9,7 +9,7 @@ namespace pnpbs {
 
 namespace {
 
-// A face of a tetrahedron at one of its nodes, by its other two, ascending.
+// A face of a tetrahedron at one of its nodes, given by its two other nodes in ascending order.
 struct LinkEdge {
   std::array<std::int64_t, 2> ids;
   bool along;
@@ -17,7 +17,7 @@ struct LinkEdge {
   auto operator<=>(const LinkEdge&) const = default;
 };
 
-// Those of a tetrahedron around one of its nodes.
+// Returns the faces of a tetrahedron at one of its nodes.
 std::array<LinkEdge, 3> link_edges(const LabelledTetrahedron& tetrahedron, std::int64_t around) {
   const std::array<std::int64_t, 4>& ids = tetrahedron.ids;
   std::array<LinkEdge, 3> edges;
@@ -119,16 +119,16 @@ int NodeLink::euler_times_six(std::size_t place) const {
     ends[2 * k + 1] = edge.ends[1];
   }
   std::ranges::sort(ends);
-  for (std::size_t k = 0; k < ends.size(); k += 2)  // each is that of two
+  for (std::size_t k = 0; k < ends.size(); k += 2)  // Each end belongs to two edges.
     edges += std::ranges::any_of(edges_, [&](const Edge& edge) {
       return is_open(edge) && (edge.ends[0] == ends[k] || edge.ends[1] == ends[k]);
     });
   return 6 - 3 * edges + 2 * faces;
 }
 
-// Of the open edges, pieces too many or too few, nodes where they branch, feature edges that are
-// not among them, and those that lie along no surface; a node in no element, or with elements all
-// around, has none.
+// Counts the defects of the open edges: pieces too many or too few, nodes where they branch,
+// feature edges that are not among them, and edges along no surface. A node in no element, or
+// surrounded by elements, has no open edge.
 NodeLink::Defects NodeLink::counted_defects() {
   constexpr Defects kNoFace{4, 0, 0};
   std::ranges::fill(open_at_, 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The link of a node: of each tetrahedron around it the triangle opposite to it. An edge that one
-// triangle of an element has alone is a face of the boundary, as the node sees it.
+// The link of a node: the triangles opposite to it in the tetrahedra around it. An edge of the link
+// that belongs to exactly one triangle of an element is open. It corresponds to a boundary face at
+// the node.
 #pragma once
 
 #include <array>
@@ -14,18 +15,18 @@
 namespace pnpbs {
 
 struct LabelledTetrahedron {
-  std::array<std::int64_t, 4> ids;  // of its nodes, ascending
+  std::array<std::int64_t, 4> ids;  // Ids of its nodes in ascending order.
   bool is_element;
   bool may_change;
-  double depth;               // of its centroid below or above the surface, over its longest edge
-  std::array<bool, 4> along;  // does its face opposite to each lie along one surface?
-  bool thin = false;          // has it a dihedral angle that elements should not have?
+  double depth;               // Distance of the centroid from the surface. [longest edge]
+  std::array<bool, 4> along;  // Whether the face opposite to each node lies along one surface.
+  bool thin = false;          // Whether it has a dihedral angle that elements should not have.
 
   auto operator<=>(const LabelledTetrahedron&) const = default;
 };
 
-// A node around which all tetrahedra are given that are not too wide for elements; how many disks
-// the boundary should be there, and the nodes that it is joined with along feature edges.
+// A node with all tetrahedra around it given that are not too wide for elements. It has the number
+// of disks that the boundary should form there, and the nodes connected to it by feature edges.
 struct LabelledNode {
   std::int64_t id;
   std::int64_t disks;
@@ -34,32 +35,33 @@ struct LabelledNode {
 
 class NodeLink {
  public:
-  // Around the node are these of the tetrahedra.
+  // Builds the link. `around` are the indices of the tetrahedra around the node.
   NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedron>& tetrahedra,
            const std::vector<std::size_t>& around);
 
-  // Changes the label of the `place`-th tetrahedron around the node.
+  // Changes the label of the tetrahedron with index `place` around the node.
   void change(std::size_t place);
-  // By how many there would be fewer defects if the labels of these changed.
+  // Returns by how much the defects decrease if the labels of these tetrahedra change.
   int gain(std::initializer_list<std::size_t> places);
 
-  // How far the faces of the boundary around the node are from its disks along surfaces; 0: they
-  // are these.
+  // Returns a measure of how far the boundary faces around the node are from its disks along
+  // surfaces. It is 0 if they are these disks.
   int defects() const { return weighed(defects_); }
-  // More than a face that strays.
+  // Returns whether there are more severe defects than a face that lies along no surface.
   bool is_torn() const { return defects() >= kTorn; }
-  // Are the faces not so many disks as they should be?
+  // Returns whether the number of disks is wrong.
   bool lacks_disks() const { return defects_.disks > 0; }
-  // As defects() and gain(), for who cares for the disks first. What was found is kept until a
-  // label changes: a search asks the same of a node again and again.
+  // Return the same as defects() and gain() with priority for the disks. Gains are cached until a
+  // label changes, because a search evaluates the same node many times.
   int defects_of_disks() const { return disks_first(defects_); }
   int gain_of_disks(std::size_t place);
-  // What the node, and its edges and faces that are of this tetrahedron, add to six times Euler's
-  // characteristic of the boundary: an edge adds the rest at its other end, a face at its others.
+  // Returns the contribution of the node, and of its edges and faces in this tetrahedron, to six
+  // times Euler's characteristic of the boundary. The other ends of an edge and the other corners
+  // of a face contribute the rest.
   int euler_times_six(std::size_t place) const;
-  // The ids of the nodes that a tetrahedron joins to this one, ascending; and calls visit(k, l) for
-  // the faces of the boundary, with the places of their other corners among these.
+  // Returns the ids of the nodes that share a tetrahedron with this one, in ascending order.
   const std::vector<std::int64_t>& ids() const { return ids_; }
+  // Calls visit(k, l) for the boundary faces, with the indices of their other corners in ids().
   template <class Visit>
   void for_faces(const Visit& visit) const {
     for (const Edge& edge : edges_)
@@ -67,12 +69,12 @@ class NodeLink {
   }
 
  private:
-  static constexpr int kTorn = 3;  // where a face that strays counts 1
+  static constexpr int kTorn = 3;  // A face along no surface counts 1.
 
   struct Defects {
-    int disks;   // pieces of open edges too many or too few, and where these branch
-    int edges;   // feature edges that are not among them
-    int strays;  // those that lie along no surface
+    int disks;   // Excess or lack of pieces of open edges, and branches of these.
+    int edges;   // Feature edges that are not among the open edges.
+    int strays;  // Open edges whose face lies along no surface.
   };
   static int weighed(const Defects& defects) {
     return kTorn * (defects.disks + defects.edges) + defects.strays;
@@ -84,8 +86,8 @@ class NodeLink {
 
   struct Edge {
     std::array<std::size_t, 2> ends;
-    bool along;         // does the face lie along one surface?
-    std::int32_t used;  // by so many elements
+    bool along;         // Whether the face lies along one surface.
+    std::int32_t used;  // Number of elements at the face.
   };
 
   static constexpr int kNotAsked = std::numeric_limits<int>::min();
@@ -96,13 +98,13 @@ class NodeLink {
   std::int64_t disks_;
   std::vector<std::int64_t> ids_;
   std::vector<Edge> edges_;
-  std::vector<char> is_element_;                      // of each tetrahedron around the node
-  std::vector<std::array<std::size_t, 3>> edges_of_;  // likewise
-  std::vector<std::int64_t> joined_;   // by feature edges; -1: in no tetrahedron here
-  std::vector<std::int32_t> open_at_;  // of each node of the link
-  UnionFind<std::size_t> pieces_{0};   // likewise, joined by open edges
+  std::vector<char> is_element_;                      // Per tetrahedron around the node.
+  std::vector<std::array<std::size_t, 3>> edges_of_;  // Per tetrahedron around the node.
+  std::vector<std::int64_t> joined_;   // Neighbours on feature edges; -1 if in no tetrahedron here.
+  std::vector<std::int32_t> open_at_;  // Number of open edges at each node of the link.
+  UnionFind<std::size_t> pieces_{0};   // Nodes of the link, joined by open edges.
   Defects defects_;
-  std::vector<int> gains_of_disks_;  // of each tetrahedron around the node
+  std::vector<int> gains_of_disks_;  // Per tetrahedron around the node; kNotAsked if not cached.
 };
 
 }  // namespace pnpbs

@@ -20,13 +20,13 @@
 namespace pnpbs {
 namespace {
 
-// Is the star of a node that was right before nodes moved right still? See stars_before.hpp.
+// Checks whether a previously correct star of a node is still correct. See stars_before.hpp.
 class KeptStar {
  public:
   KeptStar(const VolumeStarInput& input, const VolumeStars& stars) : in_(input), stars_(stars) {}
 
-  // Calls fails(j) for the nodes whose stars may be others by now, as far as tetrahedra and faces
-  // show it of which node i is the first of all corners.
+  // Calls fails(j) for the nodes whose stars may have changed. Each tetrahedron and face is
+  // examined at the first of its corners, so that all nodes together examine each once.
   template <class Fails>
   void check(std::int64_t i, const Fails& fails) {
     if (!gather(i)) return fails(static_cast<std::int32_t>(i));
@@ -36,7 +36,8 @@ class KeptStar {
         fail_at(i, triangle, fails);
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t p = triangle[k], q = triangle[(k + 1) % 3];
-        if (node(p) < i || node(q) < node(p)) continue;  // one of the two tetrahedra at the face
+        // Selects one of the two tetrahedra at each face.
+        if (node(p) < i || node(q) < node(p)) continue;
         const std::int32_t apex = beyond(p, q);
         if (apex >= 0 && surely_outside(sphere, apex)) continue;
         fail_at(i, triangle, fails);
@@ -46,19 +47,19 @@ class KeptStar {
   }
 
  private:
-  using Corners = VolumeStars::Corners;  // places among the neighbours
-  // Of the points y around the node, those with volume * y * y < normal * y are inside.
+  using Corners = VolumeStars::Corners;  // Indices among the neighbours.
+  // A circumsphere. Points y relative to the node are inside if volume * y * y < normal * y.
   struct Sphere {
     Point<3> normal;
     double volume;
   };
 
-  // More are rare, and such stars are found anew.
+  // Stars with more neighbours are rare and are found again.
   static constexpr std::int32_t kMaxNeighbours = 64;
 
   static std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
   std::int32_t node(std::int32_t place) const { return nodes_[index(place)]; }
-  // The third corner of the triangle on the other side of the edge from p to q.
+  // Returns the third corner of the triangle on the other side of the edge from p to q.
   std::int32_t beyond(std::int32_t p, std::int32_t q) const {
     return third_[index(q * kMaxNeighbours + p)];
   }
@@ -79,19 +80,20 @@ class KeptStar {
   const VolumeStarInput& in_;
   const VolumeStars& stars_;
   std::vector<std::int32_t> nodes_;
-  std::vector<Point<3>> to_;  // from node i
+  std::vector<Point<3>> to_;  // Relative to node i.
   std::vector<double> squares_;
   std::vector<Corners> triangles_;
   std::array<std::int8_t, kMaxNeighbours * kMaxNeighbours> third_;
   double volume_error_ = 0, sphere_error_ = 0;
 };
 
-// Of a difference of positions each component is right up to half an ulp. With edges no longer than
-// 1, a volume (six times that of the tetrahedron) is then wrong by less than 60 half ulps, and what
-// tells on which side of a sphere a point is, by less than 300.
+// Relative rounding error. Each component of a difference of positions has an error of half an ulp.
+// With edges of at most 1, the error of a volume (six times that of the tetrahedron) is then less
+// than 60 half ulps, and that of the sphere test less than 300.
 constexpr double kRounding = 0x1p-44;
 
-// Positions, triangles and what is beyond their edges. Is the star fit to be looked at?
+// Collects positions, triangles and the third corners beyond their edges. Returns whether the star
+// can be checked.
 bool KeptStar::gather(std::int64_t i) {
   nodes_.clear();
   to_.clear();
@@ -135,7 +137,8 @@ bool KeptStar::surely_outside(const Sphere& sphere, std::int32_t place) const {
   return sphere.volume * squares_[k] - dot(sphere.normal, to_[k]) > sphere_error_;
 }
 
-// One of the domain, surely of positive orientation, and surely small enough.
+// Returns whether the tetrahedron is certainly of positive orientation, small enough for an element
+// and part of the domain.
 bool KeptStar::is_tetrahedron(std::int64_t i, const Corners& triangle, const Sphere& sphere) const {
   constexpr double kSurely = 0.999;
   if (!(sphere.volume > volume_error_)) return false;
@@ -150,7 +153,7 @@ constexpr std::int64_t kChunk = VolumeStars::kChunk;
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Several threads may do so.
+// Sets a flag. Several threads may do so at the same time.
 void set(std::vector<char>& flags, std::int64_t i) {
   std::atomic_ref<char>(flags[index(i)]).store(1, std::memory_order_relaxed);
 }
@@ -161,7 +164,8 @@ void for_chunks(const char* label, std::int64_t count, const Body& body) {
            [&](std::int64_t c) { body(c * kChunk, std::min((c + 1) * kChunk, count)); });
 }
 
-// Where the nodes that count are, by their ids: in a table where these are dense.
+// Maps the ids of the nodes for which counts(i) holds to their indices. It uses a table if the ids
+// are dense.
 class PlacesById {
  public:
   template <class Counts>
@@ -182,7 +186,7 @@ class PlacesById {
         map_.emplace(nodes.id(i), i);
     }
   }
-  // -1: of one that does not count, or of none.
+  // Returns -1 if there is no such node or it does not count.
   std::int32_t place_of(std::int64_t id) const {
     if (!table_.empty()) return id >= 0 && id < std::ssize(table_) ? table_[index(id)] : -1;
     const auto found = map_.find(id);
@@ -194,7 +198,7 @@ class PlacesById {
   std::unordered_map<std::int64_t, std::int32_t> map_;
 };
 
-// How many rows of each chunk are yet to be used, by several threads.
+// Number of rows of each chunk that are still to be used by any thread.
 class Uses {
  public:
   explicit Uses(std::int64_t rows) : left_(index((rows + kChunk - 1) / kChunk)) {}
@@ -207,7 +211,7 @@ class Uses {
   std::vector<std::int32_t> left_;
 };
 
-// Those of the nodes whose stars are kept of which this may be wrong.
+// Returns flags of the nodes whose kept stars may be wrong.
 std::vector<char> doubted(const VolumeStarInput& input, const VolumeStars& stars,
                           const std::vector<char>& kept) {
   std::vector<char> fails(kept.size(), 0);
@@ -219,7 +223,8 @@ std::vector<char> doubted(const VolumeStarInput& input, const VolumeStars& stars
   return fails;
 }
 
-// Has the star of node i the tetrahedron with these other corners, of positive orientation with it?
+// Returns whether the star of node i contains the tetrahedron with these other corners, which have
+// positive orientation with it.
 bool has_tetrahedron(const VolumeStars& stars, std::int64_t i,
                      const VolumeStars::Corners& corners) {
   VolumeStars::Corners places{-1, -1, -1};
@@ -236,12 +241,12 @@ bool has_tetrahedron(const VolumeStars& stars, std::int64_t i,
              i, {places[first], places[(first + 1) % 3], places[(first + 2) % 3]});
 }
 
-// Where a star kept has a tetrahedron that one found last has not, or the other way round, the one
-// kept was wrong. Returns those.
+// Returns flags of the nodes whose kept stars are wrong. A kept star is wrong if it has a
+// tetrahedron that a star found in the last round lacks, or the other way round.
 std::vector<char> contradicted(const VolumeStarInput& input, const VolumeStars& stars,
                                const std::vector<char>& kept, const std::vector<char>& found) {
   std::vector<char> wrong(kept.size(), 0);
-  // By the flags of those that a corner's star is held against.
+  // `others` are flags of the nodes with whose stars that of node i is compared.
   const auto compare = [&](std::int64_t i, const std::vector<char>& others) {
     bool beside = false;
     stars.for_neighbours(i, [&](std::int64_t j) { beside = beside || others[index(j)]; });
@@ -294,8 +299,8 @@ StarsBefore::Places StarsBefore::find_places(const Nodes<3>& nodes, const Counts
   return places;
 }
 
-// Of the nodes i for which keeps(i, its number before), if all around it have a place. Returns for
-// which.
+// Puts back the stars of the nodes i for which keeps(i, previous index) holds, if all nodes of the
+// star still exist. Returns flags of these nodes.
 template <class Keeps>
 std::vector<char> StarsBefore::put_in_place(const Places& places, const Keeps& keeps,
                                             VolumeStars& stars) {
@@ -343,7 +348,7 @@ void StarsBefore::find_stars(const VolumeStarInput& input, std::vector<char> wan
   give_up(doubted(input, stars, kept));
   for (std::size_t i = 0; i < kept.size(); ++i) wanted[i] = wanted[i] && !kept[i];
   stars.add(input, wanted);
-  // With all that are there: those found before, too.
+  // Compare with all stars that are complete, including those found earlier.
   std::vector<char> found(kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const auto node = static_cast<std::int64_t>(i);

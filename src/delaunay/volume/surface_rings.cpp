@@ -10,7 +10,7 @@ namespace pnpbs {
 
 namespace {
 
-// Finds the stars of one node after the other.
+// Finds the stars of consecutive nodes.
 class RingWriter {
  public:
   RingWriter(const SurfaceStarInput& input, std::vector<double>& needs)
@@ -31,10 +31,10 @@ class RingWriter {
  private:
   bool on_facet(std::int64_t i) const { return in_.nodes.carrier(i) == Carrier::surface; }
 
-  // Returns 0, or how far the nodes would have to be known. If all are seen and there is still no
-  // star, there is none.
+  // Returns 0, or the distance up to which nodes must be known. If all nodes are examined without
+  // success, the node has no star.
   double find(std::int64_t i) {
-    constexpr double kFirst = 2;  // times d: stars mostly need no more
+    constexpr double kFirst = 2;  // Sufficient for most stars. [d]
     const double everywhere = 2 * in_.tree.side();
     for (double reach = kFirst * in_.nodes.d(i);; reach *= 2) {
       const bool all = !(reach < everywhere);
@@ -52,7 +52,8 @@ class RingWriter {
     return tangent_star(centre, reach, sides_, joined_, star_);
   }
 
-  // What the node sees on its sides; false if a neighbour on a curve is farther away.
+  // Collects the nodes visible on each side of node i. Returns false if a neighbour on a curve is
+  // beyond the reach.
   bool look_around(std::int64_t i, double reach) {
     gather(i, reach);
     sides_.clear();

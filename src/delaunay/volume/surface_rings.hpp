@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The star of each node within its surface, in its own tangent plane, as it finds it alone. Where
-// four nodes lie nearly on a circle, not all of them need to find the same.
+// The star of each node within its surface, found in its own tangent plane independently of other
+// nodes. Where four nodes lie nearly on a circle, their stars can disagree.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace pnpbs {
 
-// What they are found from; all for the same positions. No node is free.
+// The data from which the stars are found, all for the same positions. No node may be free.
 struct SurfaceStarInput {
   const Nodes<3>& nodes;
   const BackgroundTree<3>& tree;
@@ -26,12 +26,12 @@ struct SurfaceStarInput {
   const KnownRegion<3>& known;
   const Surface& surface;
   const FeatureNodes& features;
-  std::function<SurfacePlace(std::int64_t)> place;  // of a node
+  std::function<SurfacePlace(std::int64_t)> place;  // Surface point of a node.
 };
 
 class SurfaceRings {
  public:
-  // A neighbour, and whether it, the next one around and the node are a triangle.
+  // A neighbour, and whether the node, this and the next neighbour are a triangle.
   struct Entry {
     std::int32_t node;
     bool triangle;
@@ -39,13 +39,15 @@ class SurfaceRings {
 
   void build(const SurfaceStarInput& input);
 
-  // Counter-clockwise; where sheets end or meet, sheet after sheet.
+  // Return the size and the entries of the star of node i, counter-clockwise. Where sheets end or
+  // meet, one sheet follows the other.
   std::size_t size(std::int64_t i) const { return rows_.row(i).size(); }
   Entry at(std::int64_t i, std::size_t k) const {
     const std::int32_t packed = rows_.row(i)[k];
     return {packed / 2, packed % 2 != 0};
   }
-  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
+  // Returns 0 if the star of node i has been found. Otherwise returns the distance up to which all
+  // nodes around it must be known.
   double needs(std::int64_t i) const { return needs_[static_cast<std::size_t>(i)]; }
   std::vector<double> take_needs() { return std::move(needs_); }
 

@@ -15,7 +15,7 @@ class TangentStar {
   TangentStar(const SurfaceStarPoint& centre, double reach, const Joined& joined)
       : centre_(centre), reach_(reach), joined_(joined) {}
 
-  // Leaves the points of the side's star in around(), first and last included.
+  // Stores the points of the side's star in around_, including the first and last.
   bool find(const StarSide& side) {
     const TangentPlane plane(side.normal, centre_.position);
     const StarPoint centre{plane.centre(), centre_.id, centre_.node};
@@ -43,7 +43,8 @@ class TangentStar {
   std::vector<StarPoint> around_;
 };
 
-// The sides in an order in which each begins as the one before it ends, where there is one.
+// Returns an order of the sides in which each begins where the previous one ends, if there is such
+// a side.
 std::vector<std::size_t> chained(std::span<const StarSide> sides) {
   std::vector<std::size_t> order;
   std::vector<char> taken(sides.size(), 0);
@@ -67,7 +68,8 @@ std::vector<std::size_t> chained(std::span<const StarSide> sides) {
 
 }  // namespace
 
-// Duff et al., "Building an orthonormal basis, revisited", J. Comput. Graph. Tech. 6 (2017).
+// Method: Duff et al., "Building an orthonormal basis, revisited", J. Comput. Graph. Tech. 6
+// (2017).
 TangentPlane::TangentPlane(const Point<3>& normal, const Point<3>& centre) : origin_(centre) {
   const auto [x, y, z] = normal;
   const double sign = std::copysign(1.0, z), a = -1 / (sign + z), b = x * y * a;
@@ -78,8 +80,8 @@ TangentPlane::TangentPlane(const Point<3>& normal, const Point<3>& centre) : ori
 
 Point<2> TangentPlane::projection(const Point<3>& x) const { return {dot(u_, x), dot(v_, x)}; }
 
-// In a flat patch the projection is left as it is, to the bit: then all nodes see the same points,
-// and break ties alike.
+// The projection is not scaled in a flat patch. All nodes then have bitwise the same points and
+// break ties equally.
 Point<2> TangentPlane::image(const Point<3>& x) const {
   constexpr double kFlat = 1 + 1e-6;
   const Point<2> at = projection(x);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The star of a node within its surface. The neighbours that it sees are mapped to its tangent
-// plane, where the plane's star is found. Inversion x -> x / |x|^2 about the node, in space, and
-// then the projection on the tangent plane, give the points whose convex hull that star is: on a
-// sphere this is the stereographic projection, which keeps circles, so that there, and in a plane,
-// the stars of all nodes agree; elsewhere nearly all do.
+// The star of a node within its surface. The visible neighbours are mapped to its tangent plane,
+// where the star of the plane is found. Inversion x -> x / |x|^2 about the node in space, followed
+// by a projection onto the tangent plane, gives the points whose convex hull is that star. On a
+// sphere this is the stereographic projection, which preserves circles. Therefore the stars of all
+// nodes agree on spheres and planes. On other surfaces nearly all do.
 #pragma once
 
 #include <cstdint>
@@ -22,38 +22,38 @@ struct SurfaceStarPoint {
   std::int32_t node;
 };
 
-// What a node sees on one side of it (see SurfaceSide).
+// The nodes visible from a node on one side of it (see SurfaceSide).
 struct StarSide {
   Point<3> normal;
-  // The neighbours on the curves where the side begins and ends, counter-clockwise as seen from
-  // where the normal points to; -1 and -1: it reaches all around.
+  // Neighbours on the curves where the side begins and ends, counter-clockwise seen from the tip of
+  // the normal. Both are -1 if the side extends all around.
   std::int32_t first, last;
-  std::vector<SurfaceStarPoint> around;  // these two among them
+  std::vector<SurfaceStarPoint> around;  // Includes these two.
 };
 
-// Of a neighbour j: is (node, j, next neighbour) a triangle?
+// A neighbour, and whether the node, this and the next neighbour are a triangle.
 struct SurfaceStarEntry {
   std::int32_t node;
   bool triangle;
 };
 
-// Are two nodes next to each other on a feature curve?
+// Returns whether two nodes are adjacent on a feature curve.
 using Joined = std::function<bool(std::int32_t, std::int32_t)>;
 
-// Appends the star, side after side, each counter-clockwise; where a side begins as another one
-// ends it follows, so that around a manifold's node the order is cyclic. Returns whether it is
-// complete: no node farther away than `reach`, up to which the sides hold all that is seen, could
-// change it. If not, nothing is appended.
+// Appends the star, side by side, each counter-clockwise. A side follows the one that ends where it
+// begins, so that the order is cyclic around a node of a manifold. Returns whether the star is
+// complete, i.e. no node beyond `reach` can change it. The sides must contain all visible nodes
+// within `reach`. If the result is false, nothing is appended.
 bool tangent_star(const SurfaceStarPoint& centre, double reach, std::span<const StarSide> sides,
                   const Joined& joined, std::vector<SurfaceStarEntry>& star);
 
-// The tangent plane of a node, its axes a function of the normal alone.
+// The tangent plane of a node. Its axes are a function of the normal alone.
 class TangentPlane {
  public:
   TangentPlane(const Point<3>& normal, const Point<3>& centre);
 
   Point<2> centre() const { return centre_; }
-  // Where the star's point x comes to lie; the centre if it is straight above it.
+  // Returns the image of point x of the star. It is the centre if x is directly above it.
   Point<2> image(const Point<3>& x) const;
 
  private:

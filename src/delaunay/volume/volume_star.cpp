@@ -115,8 +115,8 @@ void VolumeStar::start_at_known() {
     }
 }
 
-// Then there is one to either side of each edge. By Euler's formula there are so many that the
-// edges are mostly not looked at.
+// The elements surround the centre if each edge has one on either side. Their number then follows
+// from Euler's formula, so that the edges are rarely checked in vain.
 bool VolumeStar::all_known() {
   facets_.clear();
   open_.clear();
@@ -126,10 +126,11 @@ bool VolumeStar::all_known() {
   return waiting_.empty();
 }
 
-// The nearest node is a neighbour. Of all circles through it and the centre, the smallest one is
-// the equator of an empty sphere: a node in there would make a smaller one, as it is farther away
-// than the nearest. After inversion, circles are lines, and the smallest one is the farthest line.
-// So its other node makes a face with the nearest one, unless there are ties.
+// The nearest node is a neighbour of the centre. The smallest of all circles through the centre,
+// this and another node is the equator of an empty sphere: a node inside it, which is farther away
+// than the nearest one, would give a smaller circle. Inversion maps the circles to lines and the
+// smallest circle to the farthest line. Therefore its other node forms a face with the nearest one,
+// unless there are ties.
 void VolumeStar::start_walk(std::int32_t first) {
   const std::size_t n = candidates_.size();
   const Point<3> a = inverse(first);
@@ -146,7 +147,8 @@ void VolumeStar::start_walk(std::int32_t first) {
   const Point<3> b = inverse(second), along = difference(b, a);
   const double length2 = dot(along, along), t = -dot(a, along) / length2;
   const Point<3> foot{a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]};
-  // The sphere is a little larger than it is by rounding, as long as the line's ends are apart.
+  // The offset is reduced by the rounding error, which enlarges the sphere. This is valid if the
+  // ends of the line are apart.
   constexpr double kApart = 0.1;
   if (*farthest > kApart * kApart && length2 > kApart * kApart &&
       all_surely_below({foot, *farthest - 4 * kRounding}, {first, second, second})) {
@@ -157,7 +159,7 @@ void VolumeStar::start_walk(std::int32_t first) {
   }
 }
 
-// With ties: some facet with the nearest node for a corner.
+// Handles ties: finds some facet that has the nearest node as a corner.
 void VolumeStar::start_walk_exactly(std::int32_t first) {
   std::vector<std::int32_t> order(candidates_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -194,7 +196,7 @@ void VolumeStar::walk(double reach) {
   }
 }
 
-// Of all faces in one plane across an axis, one says what lies beyond them.
+// Adds an open face. Of all faces in one plane across an axis, one is sufficient.
 void VolumeStar::add_open(const Face& face) {
   shields_.push_back(face);
   const auto k = static_cast<std::size_t>(face.common);
@@ -211,7 +213,7 @@ void VolumeStar::add_facet(const Facet& facet, double reach) {
     if (!is_done(back)) waiting_.push_back(back);
   }
   facets_.push_back(facet);
-  // The offset rounded down makes the sphere larger.
+  // Rounding the offset down makes the sphere larger.
   Plane& plane = facets_.back().plane;
   plane.offset -= kRounding;
   constexpr double kMargin = 1 - 1e-9;
@@ -219,7 +221,7 @@ void VolumeStar::add_facet(const Facet& facet, double reach) {
   const double square = unit_ * unit_ * dot(plane.normal, plane.normal);
   if (proven > 0 && proven * proven >= square) return;
   unproven_.push_back(plane);
-  if (plane.offset <= 0)  // flat, or nearly so
+  if (plane.offset <= 0)  // Flat, or nearly so.
     for (std::size_t k = 0; k < 3; ++k)
       shields_.push_back(face_of({facet.corners[k], facet.corners[(k + 1) % 3]}));
   const double diameter =
@@ -256,9 +258,9 @@ bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) cons
   return true;
 }
 
-// The facet with this edge, if there is one; if not, face (centre, from, to) is open. Seen along
-// the edge, its third corner is the steepest candidate on the right side of the face, and when all
-// others are surely below, the exact arithmetic has nothing to add.
+// Finds the facet with this edge. Returns false if there is none, so that face (centre, from, to)
+// is open. Seen along the edge, the third corner is the steepest candidate on the right side of the
+// face. If all others are certainly below the facet, exact arithmetic is not necessary.
 bool VolumeStar::find_facet(const Edge& edge, Facet& facet) {
   const Point<3> a = inverse(edge.from), b = inverse(edge.to), along = difference(b, a);
   const Point<3> normal = cross(a, b), up = cross(along, normal);
@@ -289,14 +291,16 @@ bool VolumeStar::find_facet(const Edge& edge, Facet& facet) {
   return find_facet_exactly(edge, facet);
 }
 
-// Of places relative to the centre: where they do, all are in one plane, as often on flat surfaces.
+// Returns whether three points relative to the centre have a 0 in the same coordinate. They are
+// then in one plane with it, which is frequent on flat surfaces.
 bool VolumeStar::share_a_coordinate(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   for (std::size_t k = 0; k < 3; ++k)
     if (a[k] == 0 && b[k] == 0 && c[k] == 0) return true;
   return false;
 }
 
-// On which side of the face (centre, a, b) is c? `normal` is the face's after inversion.
+// Returns on which side of face (centre, a, b) the candidate c lies. `normal` is that of the face
+// after inversion.
 int VolumeStar::side(const Point<3>& normal, std::int32_t a, std::int32_t b, std::int32_t c) const {
   const double out = dot(normal, inverse(c));
   if (out > kRounding) return 1;
@@ -311,7 +315,7 @@ bool VolumeStar::surely_below(const Plane& plane, std::int32_t k) const {
   return dot(plane.normal, inverse(k)) - plane.offset < -kRounding;
 }
 
-// Is a candidate in the sphere of the facet?
+// Returns whether candidate k is inside the sphere of the facet.
 bool VolumeStar::beyond(const Facet& facet, std::int32_t k) const {
   if (surely_below(facet.plane, k)) return false;
   if (dot(facet.plane.normal, inverse(k)) - facet.plane.offset > kRounding) return true;
@@ -335,17 +339,18 @@ bool VolumeStar::find_facet_exactly(const Edge& edge, Facet& facet) const {
   return found;
 }
 
-// The search for places where nodes that are no candidates yet could change a star: in the spheres
-// of tetrahedra that are not proven, and behind open faces.
+// The search for nodes that are not candidates yet and can change the star. They are in the spheres
+// of tetrahedra that are not proven and behind open faces.
 
 namespace {
 
-constexpr double kBeyond = 1 + 1e-9;  // distances are rounded
+constexpr double kBeyond = 1 + 1e-9;  // Distances are rounded.
 
 }  // namespace
 
-// A place in the plane of the centre and two neighbours, between these and not as far out as they
-// are after inversion, is nothing that a sphere of an element can reach which holds neither.
+// Returns whether y lies in the plane of a shield face, between its two neighbours and closer to
+// the origin than the line through them after inversion. A sphere of an element that contains
+// neither neighbour cannot reach such a point.
 bool VolumeStar::is_shielded(const Point<3>& y) const {
   constexpr double kThin = 1e-3, kSlack = 1e-9, kMargin = 1e-6;
   if (unit_ < 0.01 * max_reach()) return false;
@@ -359,7 +364,7 @@ bool VolumeStar::is_shielded(const Point<3>& y) const {
   });
 }
 
-// Decided exactly: is x, which inversion takes to y, on the open side of the face?
+// Returns whether x, whose inverse is y, is on the open side of the face. The decision is exact.
 bool VolumeStar::in_front(const Face& face, const Point<3>& x, const Point<3>& y) const {
   if (face.common >= 0) {
     const auto k = static_cast<std::size_t>(face.common);
@@ -420,7 +425,7 @@ std::uint64_t VolumeStar::may_matter_bits(const std::array<const double*, 3>& x,
 
 bool VolumeStar::may_matter_in(const Box<3>& box) const {
   const Point<3> low = difference(box.low, centre_.x), high = difference(box.high, centre_.x);
-  double nearest = 0, farthest = 0;  // squares
+  double nearest = 0, farthest = 0;  // Squared distances.
   for (std::size_t k = 0; k < 3; ++k) {
     const double gap = std::max({low[k], -high[k], 0.0});
     nearest += gap * gap;
@@ -428,7 +433,7 @@ bool VolumeStar::may_matter_in(const Box<3>& box) const {
   }
   if (nearest > search_reach_ * search_reach_ * kBeyond) return false;
   if (nothing_found_) return true;
-  // Is normal * x > offset * |x|^2, in their unit of length, for the best x in the box?
+  // Returns whether normal * x > offset * |x|^2 for any x in the box, in the units of these two.
   const double slack = 1e-9 * farthest / unit_;
   const auto reaches = [&](const Point<3>& normal, double offset) {
     const double bend = std::max(offset, 0.0) / unit_;
@@ -447,12 +452,12 @@ bool VolumeStar::may_matter_in(const Box<3>& box) const {
                      [&](const Face& face) { return reaches(face.normal, 0); });
 }
 
-// The facets of a star that are elements, and the order in which they are handed out.
+// Selection of the facets that are elements, and the order of the results.
 
 namespace {
 
-// Sorts by key(value), no two of which are the same. Of a few, it is counted how many are less than
-// each, for all side by side: no branch can be guessed wrong.
+// Sorts by key(value). Keys must be distinct. For few values, the number of smaller keys is counted
+// for each, for all at the same time: this has no branches that can be mispredicted.
 template <class Value, class Key>
 void sort_by(std::vector<Value>& values, const Key& key) {
   const std::size_t n = values.size(), padded = (n + kGroup - 1) & ~(kGroup - 1);
@@ -481,7 +486,8 @@ bool VolumeStar::is_element(const Facet& facet) const {
   const auto& [a, b, c] = facet.corners;
   const VolumeNode &p = candidates_[index(a)], &q = candidates_[index(b)],
                    &r = candidates_[index(c)];
-  // What is far from the limit, and not flat, needs no common order of the corners.
+  // A tetrahedron that is not flat and far from the limit does not require a common order of the
+  // corners.
   constexpr double kSurelyNotFlat = 1e-4, kMargin = 1e-3;
   const Plane& plane = facet.plane;
   if (plane.offset > kSurelyNotFlat) {
@@ -505,8 +511,8 @@ void VolumeStar::find_neighbours() {
   sort_by(neighbours_, [this](std::int32_t k) { return candidates_[index(k)].id; });
 }
 
-// Three places are sorted as one number; of those that begin with either of them, the smallest
-// begins with the least.
+// Sorts each triangle as one number. Of its three rotations, the smallest number begins with the
+// smallest index.
 void VolumeStar::number_corners() {
   find_neighbours();
   place_.resize(candidates_.size());

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The star of a node in the Delaunay triangulation of all nodes of a volume. Inversion
-// x -> x / |x|^2 about the node makes it the part of a convex hull that does not see the node: of
-// the nodes nearby, walked facet by facet in plain doubles. What rounding could change is decided
-// exactly, ties by id, so that the stars of all nodes are together one triangulation, whatever
-// nodes besides those that matter were looked at, and in whatever order.
+// The star of a node in the Delaunay triangulation of all nodes of a volume. Inversion x -> x /
+// |x|^2 about the node transforms it to the part of a convex hull that does not face the node. The
+// hull of nearby nodes is walked facet by facet in double precision. Decisions that rounding could
+// change are exact, with ties broken by id. Therefore the stars of all nodes form one
+// triangulation, whichever other candidates were examined and in whatever order.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@
 
 namespace pnpbs {
 
-// Tests of many numbers side by side, a bit for each.
+// Sizes of groups of numbers that are tested at the same time, with one bit for each result.
 inline constexpr std::size_t kGroup = 8, kWord = 64;
 
-// Bits of those among the first n <= kWord numbers for which test(k) holds.
+// Returns the bits of the numbers k < n <= kWord for which test(k) holds.
 template <class Test>
 inline std::uint64_t bits_where(std::size_t n, const Test& test) {
   std::uint64_t bits = 0;
@@ -29,7 +29,8 @@ inline std::uint64_t bits_where(std::size_t n, const Test& test) {
   return bits;
 }
 
-// The same for those of n numbers from the first one on; tests are done in whole groups.
+// Returns the same for the n numbers from `first` on, at most kWord of them. Tests run in whole
+// groups.
 template <class Test>
 inline std::uint64_t bits_where(std::size_t first, std::size_t n, const Test& test) {
   const std::size_t left = std::min(kWord, n - first);
@@ -42,55 +43,59 @@ class VolumeStar {
  public:
   using Corners = std::array<std::int32_t, 3>;
 
-  // Begins with the node itself, and no candidates.
+  // Begins the star of `centre` without candidates.
   void start(const VolumeNode& centre);
-  // A candidate, once. Its number is how many there were.
+  // Adds a candidate, which must not be added twice. Candidates are numbered in the order of their
+  // addition.
   void add(const VolumeNode& candidate);
-  // An element that is there for sure, as the star of one of these three candidates has it; once,
-  // in positive orientation with the centre. Is it to be taken?
+  // Adds an element that is certain because the star of one of these candidates has it. It must be
+  // added once, in positive orientation with the centre. `taken` says whether it belongs to the
+  // star.
   void add_known(const Corners& corners, bool taken);
 
   const VolumeNode& centre() const { return centre_; }
   const std::vector<VolumeNode>& candidates() const { return candidates_; }
 
-  // Finds the tetrahedra that the candidates make with the centre. All nodes nearer to it than
-  // `reach` must be among them. Returns whether that is proof: then no other node can change the
-  // elements. If not, it still is if there is none that may_matter.
+  // Finds the tetrahedra of the candidates with the centre. All nodes within `reach` must be
+  // candidates. Returns whether no other node can change the elements. If false, the elements are
+  // still correct if may_matter is false for all other nodes.
   bool wrap(double reach);
-  // Are the known elements all around the centre? Then there is nothing to wrap.
+  // Returns whether the known elements surround the centre, so that wrap is unnecessary.
   bool all_known();
 
-  // Elements reach no farther than this from their corners.
+  // Returns the maximum distance between corners of an element.
   double max_reach() const { return 2 * kMaxRadius * centre_.d; }
-  // No node farther away than this may matter.
+  // Returns the distance beyond which no node may matter.
   double search_reach() const { return search_reach_; }
-  // Can a node that is no candidate change the elements?
+  // Returns whether a node that is not a candidate can change the elements.
   bool may_matter(const Point<3>& x) const;
-  // The same for n <= 64 nodes, whose coordinates are given, as bits: 0 only if surely not.
+  // Returns may_matter for n <= 64 nodes with these coordinates, as bits. A bit is 0 only if the
+  // node certainly does not matter.
   std::uint64_t may_matter_bits(const std::array<const double*, 3>& x, std::size_t n) const;
-  // The same for any node in the box: false only if surely not.
+  // Returns whether any node in the box may matter. It is false only if certainly none does.
   bool may_matter_in(const Box<3>& box) const;
 
-  // Takes the elements for which keep(corners), three candidates, holds, and numbers their corners.
-  // Of what is known, it has been decided already.
+  // Takes the elements for which keep(corners) holds, where `corners` are three candidates, and
+  // numbers their corners. Known elements have been decided before.
   template <class Keep>
   void finish(const Keep& keep);
   void finish() {
     finish([](const Corners&) { return true; });
   }
 
-  // --- then ---
-  // The candidates that are corners of elements taken, by id.
+  // --- results of finish ---
+
+  // Candidates that are corners of taken elements, in the order of their ids.
   const std::vector<std::int32_t>& neighbours() const { return neighbours_; }
-  // Three places among the neighbours for each element taken, so that the centre and these are of
-  // positive orientation; the least one first, and in order.
+  // Three indices into neighbours() for each taken element. They have positive orientation with the
+  // centre and begin with the smallest one. The triangles are sorted.
   const std::vector<Corners>& triangles() const { return triangles_; }
-  // Are the elements taken all around the centre?
+  // Returns whether the taken elements surround the centre.
   bool closed() const { return closed_; }
 
  private:
-  // The plane of a facet of the hull is normal * y = offset; of the places y with a larger product
-  // come the nodes that would change it.
+  // The plane of a facet of the hull, normal * y = offset. A node y with a larger product changes
+  // the facet.
   struct Plane {
     Point<3> normal;
     double offset;
@@ -106,16 +111,18 @@ class VolumeStar {
   struct Edge {
     std::int32_t from, to;
   };
-  // Face (centre, from, to), and its normal after inversion. Where all three have a coordinate in
-  // common, as on flat surfaces, another node's tells exactly on which side of the face it is.
+  // Face (centre, from, to) and its normal after inversion. If centre, from and to have equal
+  // coordinates on an axis, as on flat surfaces, that coordinate decides exactly on which side of
+  // the face a node lies.
   struct Face {
     Edge edge;
     Point<3> normal;
-    int common;  // -1: none
+    int common;  // Axis of the equal coordinates; -1 if none.
   };
 
-  // Inverted positions are at most 1 long, and each is wrong by at most 10 half ulps. Then products
-  // of three of them, or of their differences, with their own rounding, are wrong by less than 400.
+  // Rounding error of products. Inverted positions have a length of at most 1 and an error of at
+  // most 10 half ulps. Products of three of them or of their differences then have an error below
+  // 400 half ulps.
   static constexpr double kRounding = 0x1p-43;
 
   static std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
@@ -154,21 +161,23 @@ class VolumeStar {
 
   VolumeNode centre_{};
   std::vector<VolumeNode> candidates_;
-  std::vector<Point<3>> relative_;        // to the centre
-  std::array<std::vector<double>, 3> y_;  // inverted, in whole groups filled up with the origin
-  std::vector<double> slopes_;            // of as many
-  double unit_ = 1;                       // distance of the nearest candidate: 1 after inversion
-  std::vector<double> line_gaps_;         // after inversion: of lines to the nearest, squared
-  std::vector<Edge> waiting_;             // edges of facets whose other facet is to be found
-  std::vector<std::uint64_t> done_;       // for each candidate: edges from it that have a facet
+  std::vector<Point<3>> relative_;  // Candidates relative to the centre.
+  // Inverted positions, padded to whole groups with the origin.
+  std::array<std::vector<double>, 3> y_;
+  std::vector<double> slopes_;     // Scratch space of the same size.
+  double unit_ = 1;                // Distance of the nearest candidate, which is 1 after inversion.
+  std::vector<double> line_gaps_;  // Squared distances of lines to the nearest, after inversion.
+  std::vector<Edge> waiting_;      // Edges of facets whose other facet is to be found.
+  // For each candidate, bits of the edges from it that have a facet.
+  std::vector<std::uint64_t> done_;
   std::vector<Known> known_;
-  std::vector<Facet> facets_;    // besides
-  std::vector<Face> open_;       // with nothing behind, see add_open
-  std::vector<Face> shields_;    // all of these, and those of flat tetrahedra
-  std::vector<Plane> unproven_;  // of facets
+  std::vector<Facet> facets_;    // Facets in addition to known_.
+  std::vector<Face> open_;       // Faces with nothing behind them, see add_open.
+  std::vector<Face> shields_;    // All open faces and those of flat tetrahedra.
+  std::vector<Plane> unproven_;  // Planes of facets that are not proven.
   bool nothing_found_ = false;
   double search_reach_ = 0;
-  std::vector<std::uint64_t> used_;  // a bit for each candidate
+  std::vector<std::uint64_t> used_;  // One bit per candidate.
   std::vector<std::int32_t> neighbours_, place_;
   std::vector<std::int64_t> packed_;
   std::vector<Corners> triangles_;

@@ -14,19 +14,20 @@
 namespace pnpbs {
 namespace {
 
-// The elements found in the stars of a chunk's nodes, for those of its nodes that come later: an
-// element of one star is one of all its corners'.
+// The elements in the stars found so far of a chunk, for later nodes of the chunk: an element of
+// one star belongs to the stars of all its corners.
 class FoundElements {
  public:
   struct Element {
-    std::array<std::int32_t, 3> corners;  // nodes, in positive orientation with the one asked about
+    // Nodes, in positive orientation with the node of the star.
+    std::array<std::int32_t, 3> corners;
     bool in_domain;
   };
 
   FoundElements() { last_.fill(kNone); }
 
   void begin_at(std::int64_t first) { first_ = first; }
-  // Of the star of node i.
+  // Adds an element of the star of node i to the later ones among its corners.
   void add(std::int64_t i, const std::array<std::int32_t, 3>& corners, bool in_domain) {
     const auto [a, b, c] = corners;
     const auto node = static_cast<std::int32_t>(i);
@@ -34,7 +35,7 @@ class FoundElements {
     add_to(i, b, {{node, a, c}, in_domain});
     add_to(i, c, {{node, b, a}, in_domain});
   }
-  // Calls visit(element) for those of the star of node i that are known.
+  // Calls visit(element) for the known elements of the star of node i.
   template <class Visit>
   void for_elements(std::int64_t i, const Visit& visit) const {
     for (std::int32_t k = last_[place(i)]; k != kNone; k = all_[static_cast<std::size_t>(k)].before)
@@ -45,7 +46,7 @@ class FoundElements {
   static constexpr std::int32_t kNone = -1;
   struct Entry {
     Element element;
-    std::int32_t before;  // the one before of the same node
+    std::int32_t before;  // Previous entry of the same node.
   };
 
   std::size_t place(std::int64_t i) const { return static_cast<std::size_t>(i - first_); }
@@ -57,25 +58,25 @@ class FoundElements {
   }
 
   std::int64_t first_ = 0;
-  std::array<std::int32_t, VolumeStars::kChunk> last_;  // entry of each node of the chunk
+  std::array<std::int32_t, VolumeStars::kChunk> last_;  // Last entry of each node of the chunk.
   std::vector<Entry> all_;
 };
 
-// Numbers nodes as they are added. Found by their last bits, which nodes near each other have
-// mostly different.
+// Numbers nodes in the order of their addition. It is a hash table by the last bits of the index,
+// which usually differ for nodes near each other.
 class PlacesOfNodes {
  public:
   void clear() {
     count_ = 0;
     if (++round_ == 0) slots_.assign(slots_.size(), {});
   }
-  // -1: it has none.
+  // Returns the number of the node, or -1 if it has none.
   std::int32_t of(std::int32_t node) const {
     for (std::size_t k = first_slot(node); slots_[k].round == round_; k = next_slot(k))
       if (slots_[k].node == node) return slots_[k].place;
     return -1;
   }
-  // Of a node that has none yet.
+  // Adds a node that has no number yet.
   void add(std::int32_t node) {
     if (4 * static_cast<std::size_t>(count_ + 1) > slots_.size()) grow();
     put(node, count_++);
@@ -104,7 +105,7 @@ class PlacesOfNodes {
 
   std::uint32_t round_ = 1;
   std::int32_t count_ = 0;
-  std::vector<Slot> slots_ = std::vector<Slot>(256);  // those of other rounds are free
+  std::vector<Slot> slots_ = std::vector<Slot>(256);  // Slots of other rounds are free.
 };
 
 // Finds the stars of a chunk, one node after the other.
@@ -163,7 +164,7 @@ class StarWriter {
     });
   }
 
-  // Returns 0, or how far the nodes would have to be known.
+  // Returns 0, or the distance up to which nodes must be known.
   double find_star(std::int64_t i) {
     star_.start(node(i));
     candidates_.clear();
@@ -211,7 +212,7 @@ class StarWriter {
                             [&](std::int32_t cell) { return may_matter_in(cell); });
   }
 
-  // Among n nodes from the first one on.
+  // Examines n nodes from `first` on.
   void find_what_may_matter(std::int32_t first, std::int32_t n) {
     const auto& x = in_.nodes.x;
     std::uint64_t bits =
@@ -264,8 +265,8 @@ class StarWriter {
   ListedReach<3> reach_;
   VolumeStar star_;
   FoundElements found_elements_;
-  std::vector<std::int32_t> candidates_, found_;  // nodes
-  PlacesOfNodes places_;                          // of the candidates
+  std::vector<std::int32_t> candidates_, found_;  // Indices of nodes.
+  PlacesOfNodes places_;                          // Numbers of the candidates.
 };
 
 }  // namespace
@@ -313,8 +314,7 @@ void VolumeStars::copy_star(std::int64_t i, const std::vector<std::int32_t>& pla
   if (!star.wide) out.insert(out.end(), triangles, star.last);
 }
 
-// The stars of surfaces alone, written down: a header, the neighbours, then two nodes for each
-// triangle.
+// Stores the stars of surfaces alone as a header, the neighbours, and two nodes for each triangle.
 
 namespace {
 

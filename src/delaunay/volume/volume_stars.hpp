@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every node's star in the Delaunay triangulation of a volume's nodes, from its adjacency list and,
-// where that is not enough, the nodes farther away; so that each rank finds its own: ties are
-// broken by id, and all agree. A tetrahedron belongs to the domain by its centroid. Of surfaces
-// alone there are triangles instead.
+// The star of every node of a volume in the Delaunay triangulation of its nodes. It is found from
+// the adjacency list and, if that is not sufficient, from nodes farther away, so that each rank
+// finds those of its nodes. Ties are broken by id, so that the stars of all ranks form one
+// triangulation. The centroid decides whether a tetrahedron belongs to the domain. Surfaces alone
+// have triangles instead.
 #pragma once
 
 #include <algorithm>
@@ -22,26 +23,28 @@
 
 namespace pnpbs {
 
-// What the stars are found from; all for the same positions.
+// The data from which the stars are found, all for the same positions.
 struct VolumeStarInput {
   const Nodes<3>& nodes;
   const BackgroundTree<3>& tree;
   const Buckets<3>& buckets;
   const AdjacencyList<3>& lists;
   const KnownRegion<3>& known;
-  const FacetIndex<3>* facets = nullptr;  // of the boundary; none: everything is inside
-  // Does the list of node i hold all pairs within its radius, as the boundary hides none? Not set:
-  // that of every node does.
+  const FacetIndex<3>* facets = nullptr;  // Facets of the boundary; null if everything is inside.
+  // Returns whether the list of node i contains all nodes within its radius because the boundary
+  // hides none. If not set, all lists do.
   std::function<bool(std::int64_t)> complete = {};
-  // Of a free node, which is inside: no facet is nearer to it than this. Not set: that is not
+  // Returns a lower bound of the distance from a free node to the facets. If not set, none is
   // known.
   std::function<double(std::int64_t)> room = {};
-  // Do these four nodes, none of them free, lie on one surface, side by side? A flat tetrahedron of
-  // such is none of the domain if the surface is as well without it. Not set: they do not.
+  // Returns whether four nodes, none of them free, lie adjacent on one surface. A flat tetrahedron
+  // of such nodes is not part of the domain if the surface is equally good without it. If not set,
+  // none do.
   std::function<bool(const std::array<std::int64_t, 4>&)> on_one_surface = {};
-  // Are two nodes, none of them free, next to each other on a feature edge? Not set: none are.
+  // Returns whether two nodes, none of them free, are adjacent on a feature edge. If not set, none
+  // are.
   std::function<bool(std::int64_t, std::int64_t)> joined = {};
-  // The point of the surfaces nearest to x, if it is nearer than that. Where `joined` is set.
+  // Returns the point of the surfaces nearest to x within `reach`. It is set if `joined` is.
   std::function<NearestPoint<3>(const Point<3>& x, double reach)> nearest = {};
   const ChangedLabels* changed_labels = nullptr;
 };
@@ -51,21 +54,21 @@ class VolumeStars {
   using Corners = std::array<std::int32_t, 3>;
 
   void build(const VolumeStarInput& input);
-  // One after the other: none are there; those of the nodes for which wanted is set come to those
-  // that are there.
+  // Makes all stars empty, so that add can find some of them.
   void build_none(const VolumeStarInput& input);
+  // Finds the stars of the nodes for which `wanted` is set and leaves the others unchanged.
   void add(const VolumeStarInput& input, const std::vector<char>& wanted);
   void build(const SurfaceStarInput& input);
 
-  // Those of the nodes for which doubtful is set may not be right any more: they are to be found
-  // again.
+  // Marks the stars of the nodes for which `doubtful` is set as possibly wrong, so that they are
+  // found again.
   void doubt(const std::vector<char>& doubtful);
 
-  // Are they of these nodes, in the order that they have now?
+  // Returns whether the stars are of these nodes in their present order.
   bool are_of(const Nodes<3>& nodes) const { return arrangement_ == nodes.arrangement(); }
 
-  // The stars of the nodes for which changed is set are there, written anew: write(i, out) as it is
-  // told below.
+  // Replaces the stars of the nodes for which `changed` is set. write(i, out) appends the star in
+  // the format described below.
   template <class Write>
   void replace(const std::vector<char>& changed, const Write& write) {
     note_found(changed);
@@ -75,8 +78,8 @@ class VolumeStars {
         [&] { return write; });
   }
 
-  // Calls visit(j) for the neighbours of node i, the other corners of tetrahedra of the domain, or
-  // of triangles, around it, by increasing id.
+  // Calls visit(j) for the neighbours of node i in ascending order of ids. These are the other
+  // corners of tetrahedra of the domain, or of triangles, around it.
   template <class Visit>
   void for_neighbours(std::int64_t i, const Visit& visit) const {
     const Star star = star_of(i);
@@ -84,8 +87,8 @@ class VolumeStars {
       visit(static_cast<std::int64_t>(star.first[k]));
   }
 
-  // Calls visit(corners) for the tetrahedra of the domain around node i: their other corners, so
-  // that node i and these are of positive orientation; in an order that only ids decide.
+  // Calls visit(corners) for the tetrahedra of the domain around node i. Their other corners have
+  // positive orientation with it. The order depends on ids only.
   template <class Visit>
   void for_simplices(std::int64_t i, const Visit& visit) const {
     if (on_surfaces_) return;
@@ -95,8 +98,8 @@ class VolumeStars {
       visit(star.wide ? Corners{t[0], t[1], t[2]} : unpack(star, *t));
   }
 
-  // Calls visit(corners) for the triangles of surfaces alone around node i: their other corners,
-  // so that with node i before them they turn counter-clockwise.
+  // Calls visit(corners) for the triangles around node i if the domain consists of surfaces alone.
+  // The other corners follow node i counter-clockwise.
   template <class Visit>
   void for_triangles(std::int64_t i, const Visit& visit) const {
     if (!on_surfaces_) return;
@@ -106,46 +109,51 @@ class VolumeStars {
   }
   bool are_on_surfaces() const { return on_surfaces_; }
 
-  // Calls visit(places) for the tetrahedra around node i: places of their other corners among its
-  // neighbours. Of no more than kMaxPlaces neighbours.
+  // Calls visit(places) for the tetrahedra around node i, with the indices of their other corners
+  // among its neighbours. The node must have at most kMaxPlaces neighbours.
   template <class Visit>
   void for_triangles_of_places(std::int64_t i, const Visit& visit) const {
     const Star star = star_of(i);
     for (const std::int32_t* t = star.first + star.neighbours; t < star.last; ++t)
       visit(places_in(*t));
   }
-  // Is this one of them, for sure? The least place comes first.
+  // Returns whether the triangle is certainly in the star. The smallest index must come first.
+  // Returns false for a star of more than kMaxPlaces neighbours.
   bool has_triangle_of_places(std::int64_t i, const Corners& places) const {
     const Star star = star_of(i);
     return !star.wide &&
            std::find(star.first + star.neighbours, star.last, pack(places)) != star.last;
   }
-  // Writes the star of node i down for nodes in another order: node j is at place[j] now.
+  // Appends the star of node i to `out` for nodes in another order, in which node j has index
+  // place[j].
   void copy_star(std::int64_t i, const std::vector<std::int32_t>& place,
                  std::vector<std::int32_t>& out) const;
 
-  // The stars of nodes c * kChunk and those after it, so many, are needed no longer.
+  // Frees the stars of the kChunk nodes from c * kChunk on.
   void drop_chunk(std::int64_t c) { rows_.drop_chunk(c); }
 
-  // One after the other: has that of node i been asked for, and has it not been doubted since?
+  // Returns whether the star of node i has been requested and not been doubted since.
   bool found(std::int64_t i) const {
     return found_.empty() || found_[static_cast<std::size_t>(i)] != 0;
   }
-  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
+  // Returns 0 if the star of node i has been found. Otherwise returns the distance up to which all
+  // nodes around it must be known.
   double needs(std::int64_t i) const {
     return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
   }
 
   std::int32_t size(std::int64_t i) const { return star_of(i).neighbours; }
-  // Are there tetrahedra of the domain, or triangles, all around the node?
+  // Returns whether tetrahedra of the domain, or triangles, surround the node.
   bool closed(std::int64_t i) const { return star_of(i).closed; }
 
-  // So many stars are found one after the other, each with what the ones before it have found.
+  // Number of consecutive nodes whose stars are found one after the other. Each uses what the ones
+  // before it have found.
   static constexpr int kChunk = 512;
 
-  // --- how a star is written down: a header, the neighbours, the triangles ---
-  // Three places among the first neighbours fit into one number; of a larger star, triangles are
-  // written as three nodes.
+  // --- format of a star: a header, the neighbours, the triangles ---
+
+  // Three indices among at most kMaxPlaces neighbours are packed into one number. For larger stars,
+  // each triangle is stored as three nodes.
   static constexpr int kPlaceBits = 10;
   static constexpr std::int32_t kMaxPlaces = 1 << kPlaceBits;
   static std::int32_t header(std::size_t neighbours, bool closed) {
@@ -163,7 +171,7 @@ class VolumeStars {
   struct Star {
     std::int32_t neighbours;
     bool closed, wide;
-    const std::int32_t *first, *last;  // behind the header
+    const std::int32_t *first, *last;  // After the header.
   };
   Star star_of(std::int64_t i) const {
     const std::span<const std::int32_t> row = rows_.row(i);
@@ -181,9 +189,9 @@ class VolumeStars {
 
   ChunkedRows<std::int32_t, kChunk> rows_;
   bool on_surfaces_ = false;
-  std::int64_t arrangement_ = -1;  // of the nodes, when they were found
-  std::vector<double> needs_;      // of the nodes; empty where everything is known
-  std::vector<char> found_;        // of the nodes; empty where all are found at once
+  std::int64_t arrangement_ = -1;  // Arrangement of the nodes when the stars were found.
+  std::vector<double> needs_;      // One per node; empty if all nodes are known everywhere.
+  std::vector<char> found_;        // One per node; empty if all stars are found at once.
 };
 
 }  // namespace pnpbs

@@ -53,8 +53,8 @@ class ChainWalk {
 
   const std::vector<char>& is_break_;
   const std::vector<std::array<std::int32_t, 2>>& ends_;
-  std::vector<char> walked_;                      // edges
-  std::vector<std::array<std::int32_t, 2>> two_;  // edges of each vertex; of breaks some two
+  std::vector<char> walked_;                      // One per edge.
+  std::vector<std::array<std::int32_t, 2>> two_;  // Two edges of each vertex.
   std::vector<Chain> chains_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The edges of a planar graph as chains, each from one break to the next.
+// Decomposes the edges of a planar graph into chains between break vertices.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 namespace pnpbs {
 
 struct Chain {
-  std::vector<std::int32_t> vertices;  // one more than edges; closed ones end where they begin
+  std::vector<std::int32_t> vertices;  // One more than edges; equal ends if closed.
   std::vector<std::int32_t> edges;
-  bool closed = false;  // no break on it
+  bool closed = false;  // The chain contains no break.
 };
 
-// Every edge is in one chain. `is_break` has an entry for each vertex; those that do not end two
-// edges must be breaks. The chains, their begins and directions depend on the order of the edges
-// alone.
+// Returns chains that contain every edge exactly once. `is_break` has one entry per vertex. A
+// vertex whose number of edges is not two must be a break. The result depends on the order of the
+// edges only.
 std::vector<Chain> chains_between(const std::vector<char>& is_break,
                                   const std::vector<std::array<std::int32_t, 2>>& ends);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is asked of a facet, in the plane: an edge.
+// The geometric operations on a facet in the plane, which is an edge.
 #pragma once
 
 #include <algorithm>
@@ -11,24 +11,24 @@
 
 namespace pnpbs {
 
-// Does the way from p to q cross the edge? A vertex exactly on the line pq counts as lying to its
-// left, so a way through a vertex crosses none or both or one of its edges as it should. Not where
-// the way begins or ends on the edge.
+// Returns whether segment pq crosses the edge. A vertex exactly on the line pq counts as left of
+// it, so that a segment through a vertex crosses a consistent number of its edges. The segment must
+// not begin or end on the edge.
 inline bool crosses(const Point<2>& p, const Point<2>& q, const FacetCorners<2>& edge) {
   const auto& [a, b] = edge;
   if ((orientation(p, q, a) >= 0) == (orientation(p, q, b) >= 0)) return false;
   return orientation(a, b, p) * orientation(a, b, q) < 0;
 }
 
-// Has the way from p to q, its ends included, a point in common with the edge? Never says no where
-// it has; where all lie on a line, yes.
+// Returns whether closed segment pq and the edge intersect. It can return true without an
+// intersection if all points lie on a line, but never false with one.
 inline bool may_touch(const Point<2>& p, const Point<2>& q, const FacetCorners<2>& edge) {
   const auto& [a, b] = edge;
   return orientation(a, b, p) * orientation(a, b, q) <= 0 &&
          orientation(p, q, a) * orientation(p, q, b) <= 0;
 }
 
-// Is x exactly on the edge, its ends included?
+// Returns whether x lies exactly on the closed edge.
 inline bool on_facet(const FacetCorners<2>& edge, const Point<2>& x) {
   const auto& [a, b] = edge;
   for (int k = 0; k < 2; ++k)

@@ -11,12 +11,12 @@ namespace pnpbs {
 
 namespace {
 
-// An edge as it leaves a vertex.
+// An edge seen from one of its vertices.
 struct Leaving {
   std::int32_t edge;
   std::int32_t target;
   bool upward;
-  bool forward;  // the vertex is the edge's begin
+  bool forward;  // The vertex is the begin of the edge.
 
   Side left() const { return forward ? left_side(edge) : right_side(edge); }
   Side right() const { return forward ? right_side(edge) : left_side(edge); }
@@ -46,7 +46,8 @@ class Rings {
   const Leaving* end(std::int32_t vertex) const { return leaving_.data() + offsets_[vertex + 1]; }
 
  private:
-  // Counter-clockwise, from the direction of x: first what leads up, then what leads down.
+  // Sorts counter-clockwise from the x direction: first the edges that lead up, then those that
+  // lead down.
   void sort_around(std::int32_t vertex) {
     std::sort(leaving_.begin() + offsets_[vertex], leaving_.begin() + offsets_[vertex + 1],
               [this, vertex](const Leaving& a, const Leaving& b) {

@@ -9,14 +9,14 @@ namespace pnpbs {
 
 namespace {
 
-// 0 for directions in [0, 180) degrees from `centre`, 1 for the others.
+// Returns 0 for directions in [0, 180) degrees from `centre` and 1 for the others.
 int half(const Point<2>& centre, const Point<2>& x) {
   if (x[1] != centre[1]) return x[1] > centre[1] ? 0 : 1;
   return x[0] > centre[0] ? 0 : 1;
 }
 
-// Positive if direction a comes before b, counter-clockwise from the positive x axis, negative if
-// after, 0 if they are the same.
+// Returns a positive number if direction a comes before b, counter-clockwise from the positive x
+// axis, a negative one if after, and 0 if they are equal.
 int before(const Point<2>& centre, const Point<2>& a, const Point<2>& b) {
   const int half_a = half(centre, a), half_b = half(centre, b);
   return half_a != half_b ? half_b - half_a : orientation(centre, a, b);
@@ -30,7 +30,7 @@ void IncidentSectors::build(const BoundaryMesh<2>& boundary) {
   };
   offset_.assign(boundary.nodes.size() + 1, 0);
   for (const BoundaryEdge& e : boundary.facets) {
-    if (e.begin == e.end) continue;  // a fixed node
+    if (e.begin == e.end) continue;  // A fixed node has no sectors.
     ++offset_[static_cast<std::size_t>(e.begin) + 1];
     ++offset_[static_cast<std::size_t>(e.end) + 1];
   }
@@ -65,7 +65,8 @@ IncidentSectors::Sectors IncidentSectors::sectors_towards(const BoundaryMesh<2>&
                                                           std::int32_t node,
                                                           const Point<2>& x) const {
   const Point<2> centre = boundary.nodes[static_cast<std::size_t>(node)].position;
-  // The last edge not after the direction of x; before the first edge, the last one holds.
+  // Finds the last edge that is not after the direction of x. A direction before the first edge
+  // lies in the sector of the last one.
   std::int32_t sector = end(node) - 1;
   for (std::int32_t k = begin(node); k < end(node); ++k) {
     const Point<2>& far = boundary.nodes[static_cast<std::size_t>(edge(k).other)].position;

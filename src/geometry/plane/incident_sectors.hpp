@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary edges around each boundary node, counter-clockwise, and which of the sectors
+// The boundary edges around each boundary node in counter-clockwise order, and whether the sectors
 // between them lie inside the domain.
 #pragma once
 
@@ -11,9 +11,9 @@
 namespace pnpbs {
 
 struct SectorEdge {
-  std::int32_t other;  // boundary node at the far end
-  std::int32_t edge;   // index of the edge
-  bool inside_after;   // is the sector counter-clockwise of this edge inside?
+  std::int32_t other;  // Boundary node at the other end.
+  std::int32_t edge;   // Index of the edge.
+  bool inside_after;   // Whether the sector counter-clockwise of the edge is inside.
 };
 
 class IncidentSectors {
@@ -26,16 +26,19 @@ class IncidentSectors {
 
   bool joined(std::int32_t a, std::int32_t b) const;
 
-  // Does the way from boundary node `node` towards x start inside the domain (or along an edge)?
+  // Returns whether the direction from boundary node `node` to x leads into the domain or along an
+  // edge.
   bool leads_inside(const BoundaryMesh<2>& boundary, std::int32_t node, const Point<2>& x) const;
 
-  // May the straight way from x to y, on which the node lies exactly, go on past the node? Only if
-  // both directions lie in one sector inside the domain, or along its edges.
+  // Returns whether the domain contains segment xy near the node, which lies exactly on the
+  // segment. This requires that both directions lie in one sector inside the domain, or along its
+  // edges.
   bool lets_pass(const BoundaryMesh<2>& boundary, std::int32_t node, const Point<2>& x,
                  const Point<2>& y) const;
 
  private:
-  // The sector of a direction, named by the edge before it; two along an edge.
+  // The sector that contains a direction, given by the edge before it. A direction along an edge
+  // lies in two sectors; otherwise both members are equal.
   struct Sectors {
     std::int32_t after, before;
   };

@@ -34,8 +34,9 @@ class Sweep {
   }
 
  private:
-  // An edge that the sweep line cuts. The chain of edges through a vertex keeps one entry, whose
-  // place among the others stays the same: so the edge may change while it is in the set.
+  // An edge that intersects the sweep line. A chain of edges through vertices keeps one entry,
+  // because its position in the order does not change. Therefore the edge can be modified inside
+  // the set.
   struct Entry {
     mutable std::int32_t edge;
   };
@@ -54,12 +55,13 @@ class Sweep {
   const Point<2>& low(std::int32_t edge) const { return vertices_[directed_[edge][0]]; }
   const Point<2>& high(std::int32_t edge) const { return vertices_[directed_[edge][1]]; }
 
-  // > 0 if the vertex lies on the left of the edge.
+  // Returns > 0 if the vertex lies on the left of the edge.
   int side(std::int32_t edge, std::int32_t vertex) const {
     return orientation(low(edge), high(edge), vertices_[vertex]);
   }
 
-  // Both are cut by the sweep line: the one that begins higher is seen from the other.
+  // Returns whether edge a is on the left of b. Both intersect the sweep line. The lower end of the
+  // one that begins higher is compared to the other edge.
   bool is_left(std::int32_t a, std::int32_t b) const {
     if (a == b) return false;
     int sign = 0;
@@ -73,7 +75,7 @@ class Sweep {
     return sign != 0 ? sign > 0 : a < b;
   }
 
-  // Do two edges that the sweep line cuts meet other than in a common end?
+  // Returns whether two edges on the sweep line intersect in a point that is not a common end.
   bool conflict(std::int32_t a, std::int32_t b) const {
     const bool common_low = directed_[a][0] == directed_[b][0];
     const bool common_high = directed_[a][1] == directed_[b][1];
@@ -114,7 +116,7 @@ class Sweep {
     return order;
   }
 
-  // The edges that begin in the vertex, from left to right.
+  // Stores the edges that begin in the vertex, from left to right, in beginning_.
   void gather_beginning(std::int32_t vertex) {
     beginning_.assign(listed_[0].begin() + offsets_[0][vertex],
                       listed_[0].begin() + offsets_[0][vertex + 1]);
@@ -145,7 +147,8 @@ class Sweep {
     }
   }
 
-  // One edge ends and one begins: it takes its place.
+  // Handles a vertex where one edge ends and one begins: the entry of the first is reused for the
+  // second.
   void continue_chain(std::int32_t vertex) {
     const Line::iterator entry = place_[ending_[0]];
     on_line_[ending_[0]] = false;
@@ -174,7 +177,7 @@ class Sweep {
     settle(first ? line_.begin() : left, right);
   }
 
-  // Looks at all neighbours from `entry` to `last`.
+  // Tests all adjacent pairs from `entry` to `last` for conflicts.
   void settle(Line::iterator entry, Line::iterator last) {
     while (entry != last) {
       const auto next = std::next(entry);
@@ -192,12 +195,12 @@ class Sweep {
 
   const std::vector<Point<2>>& vertices_;
   const std::vector<VertexPair>& edges_;
-  std::vector<VertexPair> directed_;                  // low end, high end
-  std::array<std::vector<std::int32_t>, 2> offsets_;  // of the edges that begin [0] or end [1]
-  std::array<std::vector<std::int32_t>, 2> listed_;   // in each vertex
-  std::vector<std::int32_t> beginning_, ending_;      // in the vertex being passed
-  Line line_;                                         // the edges cut, from left to right
-  std::vector<Line::iterator> place_;                 // of each edge in line_
+  std::vector<VertexPair> directed_;                  // Low end, high end.
+  std::array<std::vector<std::int32_t>, 2> offsets_;  // Begin of each vertex in listed_.
+  std::array<std::vector<std::int32_t>, 2> listed_;   // Edges that begin [0] or end [1] there.
+  std::vector<std::int32_t> beginning_, ending_;      // Edges at the current vertex.
+  Line line_;                          // Edges that intersect the sweep line, from left to right.
+  std::vector<Line::iterator> place_;  // Entry of each edge in line_.
   std::vector<bool> on_line_;
   SweepResult result_;
 };

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sweep over straight edges, from low to high: finds edges that meet other than in a common
-// end, and tells what lies next to each vertex on its left. All decisions are exact.
+// A sweep over straight edges from low to high vertices. It finds pairs of edges that intersect in
+// a point other than a common end, and the edge on the left of each vertex. All decisions are
+// exact.
 //
-// Low and high: by y, then by x (a plane turned by an infinitely small angle, in which no edge
-// is horizontal). Left: towards smaller x. The method is that of M. I. Shamos and D. Hoey,
-// "Geometric intersection problems" (1976), which looks at edges only when they become
-// neighbours along the sweep line: O(n log n) however the edges lie.
+// Low and high are ordered by y, then by x, as in a plane that is rotated by an infinitesimal
+// angle, so that no edge is horizontal. Left is towards smaller x. The method is that of M. I.
+// Shamos and D. Hoey, "Geometric intersection problems" (1976). It compares edges only when they
+// become neighbours along the sweep line, and needs O(n log n) time for any arrangement of edges.
 #pragma once
 
 #include <array>
@@ -19,28 +20,29 @@ namespace pnpbs {
 
 using VertexPair = std::array<std::int32_t, 2>;
 
-// Is a below b?
+// Returns whether a is below b.
 inline bool is_lower(const Point<2>& a, const Point<2>& b) {
   return a[1] < b[1] || (a[1] == b[1] && a[0] < b[0]);
 }
 
 struct SweepConflict {
   std::int32_t edge;
-  std::int32_t other;   // crosses, touches or overlaps `edge`; or -1
-  std::int32_t vertex;  // if other is -1: lies inside `edge`
+  std::int32_t other;   // Edge that crosses, touches or overlaps `edge`; or -1.
+  std::int32_t vertex;  // If `other` is -1, the vertex that lies inside `edge`.
 };
 
 struct SweepResult {
-  // Per vertex: the edge next to it on its left, or -1. Edges that end in the vertex do not
-  // count. Meaningful if there are no conflicts.
+  // The next edge on the left of each vertex, or -1. Edges that end in the vertex are not
+  // considered. It is valid only without conflicts.
   std::vector<std::int32_t> left_edge;
-  // Of edges that meet, one takes no further part: all conflicts are found only by resolving
-  // these and sweeping again, but none are reported only if there are none.
+  // Of two edges that intersect, one is removed from the sweep, so the list is not complete. It is
+  // empty only if there are no conflicts. To find all, resolve the listed ones and sweep again.
   std::vector<SweepConflict> conflicts;
-  std::vector<VertexPair> coincident;  // vertices at the same place
+  std::vector<VertexPair> coincident;  // Pairs of vertices at the same point.
 };
 
-// Vertices without edges take part as mere points. The ends of an edge must differ.
+// Runs the sweep. Vertices without edges are included as isolated points. The ends of an edge must
+// differ.
 SweepResult sweep_plane(const std::vector<Point<2>>& vertices,
                         const std::vector<VertexPair>& edges);
 

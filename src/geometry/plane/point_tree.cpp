@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::int32_t kLeafSize = 8;
 
-// May some point of the box lie within reach of the segment? (Sometimes yes for no.)
+// Returns whether a point of the box may be within reach of the segment. It can return true if none
+// is, but never false if one is.
 bool may_be_near(const Box<2>& box, const Point<2>& a, const Point<2>& b, double reach) {
   for (const int k : {0, 1}) {
     if (std::max(a[k], b[k]) + reach < box.low[k]) return false;

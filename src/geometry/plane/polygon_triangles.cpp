@@ -10,15 +10,15 @@ namespace pnpbs {
 
 namespace {
 
-// A few seconds. A polygon with so many corners that point inwards that its ears take more is
-// refused; its flips just end.
-constexpr std::int64_t kMaxEarTests = 2'000'000'000;  // is a corner in an ear's box?
-constexpr std::int64_t kBoxTests = 20;                // so many for one in the ear itself
+// Limits of the work, which correspond to a few seconds. Ear clipping fails at its limit, which
+// only polygons with very many reflex corners reach. Flipping stops at its limit.
+constexpr std::int64_t kMaxEarTests = 2'000'000'000;  // [tests against the box of an ear]
+constexpr std::int64_t kBoxTests = 20;  // Cost of a test against the ear itself. [box tests]
 constexpr std::int64_t kMaxFlipTests = 50'000'000;
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
-// Across its edge k, from corner k to the next, lies another one, or -1.
+// A triangle. Across edge k, from corner k to the next, lies the triangle across[k]; -1 if none.
 struct Piece {
   std::array<std::int32_t, 3> corner;
   std::array<std::int32_t, 3> across;
@@ -28,7 +28,7 @@ class EarClipping {
  public:
   explicit EarClipping(const std::vector<Point<2>>& corners);
 
-  // Empty if it comes to where there is no ear.
+  // Returns the triangles, or nothing if no ear is found.
   std::vector<Piece> run();
 
  private:
@@ -39,11 +39,11 @@ class EarClipping {
   void link(std::int32_t piece, std::size_t edge, std::int32_t neighbor);
 
   const std::vector<Point<2>>& x_;
-  std::vector<std::int32_t> next_, previous_;  // of the corners that are left
-  std::vector<std::int32_t> behind_;           // the piece behind the edge to the next corner
-  std::vector<std::int32_t> reflex_;           // corners that were not convex
-  std::vector<char> may_block_;                // those of them that still are there and not convex
-  std::vector<char> is_no_ear_;                // as far as is known
+  std::vector<std::int32_t> next_, previous_;  // Neighbours in the remaining polygon.
+  std::vector<std::int32_t> behind_;           // Triangle behind the edge to the next corner.
+  std::vector<std::int32_t> reflex_;           // Corners that were reflex at some time.
+  std::vector<char> may_block_;                // Whether a corner still remains and is reflex.
+  std::vector<char> is_no_ear_;                // Cached; can be outdated after other cuts.
   std::vector<Piece> pieces_;
   std::int64_t tests_ = 0;
 };
@@ -73,8 +73,8 @@ void EarClipping::classify(std::int32_t i) {
   may_block_[at(i)] = blocks;
 }
 
-// Is the corner convex, and no other corner in or on the triangle that would be cut off? If there
-// is one, one that is not convex is there, too.
+// Returns whether the corner is convex and no other corner lies in or on the triangle that would be
+// cut off. Testing reflex corners is enough: if any corner lies there, a reflex one does, too.
 bool EarClipping::is_ear(std::int32_t i) {
   if (may_block_[at(i)]) return false;
   const std::int32_t before = previous_[at(i)], after = next_[at(i)];
@@ -93,7 +93,7 @@ bool EarClipping::is_ear(std::int32_t i) {
 
 void EarClipping::link(std::int32_t piece, std::size_t edge, std::int32_t neighbor) {
   pieces_[at(piece)].across[edge] = neighbor;
-  // Of an ear, the edge that was left to the polygon is the last.
+  // Edge 2 of an ear is the one that remained in the polygon.
   if (neighbor >= 0) pieces_[at(neighbor)].across[2] = piece;
 }
 
@@ -112,7 +112,8 @@ void EarClipping::cut_off(std::int32_t i) {
   }
 }
 
-// Every second corner first where it can: a round polygon then becomes no fan of needles.
+// Continues at the second next corner after each cut, so that a round polygon does not become a fan
+// of thin triangles.
 std::vector<Piece> EarClipping::run() {
   std::size_t left = x_.size();
   std::size_t misses = 0;
@@ -131,7 +132,7 @@ std::vector<Piece> EarClipping::run() {
     is_no_ear_[at(i)] = 1;
     i = next_[at(i)];
     if (++misses < left) continue;
-    // What blocked an ear may have been cut off itself.
+    // A corner that blocked an ear may itself be cut off by now, so cached results are reset once.
     if (second_look) return {};
     std::fill(is_no_ear_.begin(), is_no_ear_.end(), 0);
     misses = 0;
@@ -140,7 +141,7 @@ std::vector<Piece> EarClipping::run() {
   if (turn_at(i) <= 0) return {};
   const std::int32_t after = next_[at(i)];
   cut_off(i);
-  // The last one has a piece behind its third edge, too.
+  // The last triangle also has a neighbour across its third edge.
   link(static_cast<std::int32_t>(pieces_.size() - 1), 2, behind_[at(after)]);
   return std::move(pieces_);
 }
@@ -150,7 +151,8 @@ std::size_t edge_towards(const Piece& piece, std::int32_t neighbor) {
   return static_cast<std::size_t>(found - piece.across.begin());
 }
 
-// Flips edge k of a piece if the corner across it is inside the piece's circumcircle.
+// Flips edge k of a triangle if the corner across it is inside the circumcircle of the triangle.
+// Returns whether it did.
 bool flip(const std::vector<Point<2>>& x, std::vector<Piece>& pieces, std::int32_t index,
           std::size_t k) {
   Piece& here = pieces[at(index)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small plane geometry on straight segments.
+// Elementary operations on straight segments in the plane.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace pnpbs {
 
-// The point of segment ab nearest to x.
+// Returns the point of segment ab nearest to x.
 inline Point<2> nearest_on_segment(const Point<2>& a, const Point<2>& b, const Point<2>& x) {
   const double ux = b[0] - a[0], uy = b[1] - a[1];
   const double length2 = ux * ux + uy * uy;
@@ -24,7 +24,8 @@ inline double distance_to_segment(const Point<2>& a, const Point<2>& b, const Po
   return distance<2>(nearest_on_segment(a, b, x), x);
 }
 
-// May segment ab meet the closed box? Never says no where it does (rounding counts as meeting).
+// Returns whether segment ab may meet the closed box. Rounding can lead to true without an
+// intersection, but never to false with one.
 inline bool segment_may_meet_box(const Point<2>& a, const Point<2>& b, const Box<2>& box) {
   for (int k = 0; k < 2; ++k)
     if (std::max(a[k], b[k]) < box.low[k] || std::min(a[k], b[k]) > box.high[k]) return false;
@@ -36,7 +37,8 @@ inline bool segment_may_meet_box(const Point<2>& a, const Point<2>& b, const Box
   return offset <= reach * (1 + 1e-9) + 1e-13 * offset;
 }
 
-// Where the segments ab and cd, or nearly parallel lines through them, cross; rounded.
+// Returns the rounded intersection of lines ab and cd, clamped to segment ab. It is the middle of
+// ab if the lines are parallel.
 inline Point<2> crossing_point(const Point<2>& a, const Point<2>& b, const Point<2>& c,
                                const Point<2>& d) {
   const double ux = b[0] - a[0], uy = b[1] - a[1];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles by which is near.
+// Finds the nearest of many triangles in space.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ class NearestTriangles {
   struct Nearest {
     std::int32_t triangle = -1;
     TrianglePoint point;
-    double square = HUGE_VAL;  // of the distance
+    double square = HUGE_VAL;  // Squared distance.
   };
   Nearest nearest(const Point<3>& x) const {
     Nearest found;

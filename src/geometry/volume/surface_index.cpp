@@ -14,9 +14,10 @@ namespace pnpbs {
 
 namespace {
 
-// Is the triangle's plane surely farther from x than that? No is said, too, where rounding matters.
+// Returns whether the plane of the triangle is certainly farther from x than `reach`. Returns false
+// if rounding leaves it undecided.
 bool plane_is_beyond(const FacetCorners<3>& triangle, const Point<3>& x, double reach) {
-  constexpr double kTiny = 1e-10;  // a square no smaller is right to 1e-9
+  constexpr double kTiny = 1e-10;  // Larger squares have a relative error below 1e-9.
   const auto& [a, b, c] = triangle;
   const Point<3> ab = difference(b, a), ac = difference(c, a), ax = difference(x, a);
   const Point<3> normal = cross(ab, ac);
@@ -44,8 +45,8 @@ double SurfaceIndex::Slab::gap_to(const Point<3>& x) const {
   return std::max(height - high, low - height);
 }
 
-// Returns the slab across the mean normal of the facets. Cells of many facets have none, as their
-// normals differ too much.
+// Returns the slab across the mean normal of the facets. Cells of many facets have none, because
+// their normals differ too much.
 SurfaceIndex::Slab SurfaceIndex::slab_around(std::span<const std::int32_t> facets) const {
   constexpr std::size_t kMostFacets = 256;
   Slab slab;
@@ -65,7 +66,7 @@ SurfaceIndex::Slab SurfaceIndex::slab_around(std::span<const std::int32_t> facet
 }
 
 NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
-  constexpr double kRounding = 1 + 1e-12;  // lest one equally near is missed
+  constexpr double kRounding = 1 + 1e-12;  // Facets at the same distance must not be skipped.
   constexpr double kSurely = 1 + 1e-8;
   NearestPoint<3> best{reach};
   boxes_.for_near(
@@ -84,8 +85,8 @@ NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
 
 namespace {
 
-// Does the segment from x along `way`, up to this part of it, meet the box? Where rounding decides,
-// it does.
+// Returns whether the segment from x to x + until * way meets the box. Returns true if rounding
+// leaves it undecided.
 bool may_meet(const Box<3>& box, const Point<3>& x, const Point<3>& way, double until) {
   constexpr double kRounding = 1e-9;
   double from = 0, to = until;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is asked of the surfaces of a volume, which may be far finer than d, or coarser: inside and
-// outside, the nearest point.
+// Geometric queries about the surfaces of a volume, whose triangles can be finer or coarser than d
+// by any factor: inside or outside, nearest point, first intersection of a ray.
 #pragma once
 
 #include <memory>
@@ -15,40 +15,41 @@ namespace pnpbs {
 class SurfaceIndex {
  public:
   SurfaceIndex() = default;
-  // The mesh must outlive it.
+  // Indexes the facets of a mesh, which must outlive this object.
   SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds);
 
-  // Is x strictly inside the domain? (On a facet: no.) Exact.
+  // Returns whether x is strictly inside the domain, so not on a facet. The result is exact.
   bool inside(const Point<3>& x) const { return sides_.inside(x); }
   const FacetIndex<3>& sides() const { return sides_; }
 
-  // The nearest point of the facets, if it is nearer to x than `reach`; else its gap is `reach`. Of
-  // facets equally near, that of the least index.
+  // Returns the nearest point of the facets if it is closer to x than `reach`. Otherwise the gap is
+  // `reach` and the facet -1. Of facets at the same distance, the one with the smallest index is
+  // returned.
   NearestPoint<3> nearest(const Point<3>& x, double reach) const;
-  // Its gap alone.
+  // Returns the gap of nearest().
   double clearance(const Point<3>& x, double reach) const { return nearest(x, reach).gap; }
 
-  // The first facet that the straight way from x by `way` crosses, other than `from`.
+  // The first facet other than `from` that the segment from x to x + way crosses.
   struct Hit {
-    double along;  // share of the way
+    double along;  // Fraction of the segment.
     std::int32_t facet = -1;
   };
   Hit first_hit(const Point<3>& x, const Point<3>& way, std::int32_t from) const;
 
  private:
-  // Two planes between which the facets in a cell of boxes lie. Across a curved surface the slab
-  // between them is far thinner than the box, which stands out by as much as the cell is wide.
+  // Two parallel planes that enclose the facets in a cell of boxes. Along a curved surface the slab
+  // is much thinner than the bounding box, whose height is comparable to the width of the cell.
   struct Slab {
-    Point<3> normal{};  // unit, or 0 where the cell has none
+    Point<3> normal{};  // Unit vector, or 0 if the cell has no slab.
     double low = 0, high = 0;
 
     double gap_to(const Point<3>& x) const;
   };
   Slab slab_around(std::span<const std::int32_t> facets) const;
 
-  FacetIndex<3> sides_;      // cells that hold few facets each, whatever d is
-  BoxTree<3> boxes_;         // of the facets
-  std::vector<Slab> slabs_;  // of the cells of boxes
+  FacetIndex<3> sides_;      // Cells with few facets each, whatever d is.
+  BoxTree<3> boxes_;         // Boxes of the facets.
+  std::vector<Slab> slabs_;  // One per cell of boxes_.
 };
 
 }  // namespace pnpbs

@@ -15,14 +15,14 @@ namespace pnpbs {
 
 namespace {
 
-// Without coordinate k, the others in cyclic order.
+// Projects a point along axis k. The remaining coordinates are in cyclic order.
 Point<2> shadow(int k, const Point<3>& x) { return {x[(k + 1) % 3], x[(k + 2) % 3]}; }
 
 struct FlatTriangle {
-  std::array<Point<2>, 3> corners;  // counter-clockwise
+  std::array<Point<2>, 3> corners;  // Counter-clockwise.
 };
 
-// The axis along which a triangle's shadow has an area.
+// Returns an axis along which the projection of the triangle has an area.
 int shadow_axis(const FacetCorners<3>& triangle) {
   for (int k = 0; k < 2; ++k)
     if (orientation(shadow(k, triangle[0]), shadow(k, triangle[1]), shadow(k, triangle[2])) != 0)
@@ -59,14 +59,16 @@ bool on_one_side(int a, int b, int c) {
   return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
 }
 
-// The side of d, as orientation() has it. Often all are in a plane across an axis.
+// Returns orientation(a, b, c, d). The frequent case of points in a plane across an axis is tested
+// first.
 int side_of_plane(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
   for (int k = 0; k < 3; ++k)
     if (a[k] == b[k] && a[k] == c[k] && a[k] == d[k]) return 0;
   return orientation(a, b, c, d);
 }
 
-// The triangles have the edge ab: do c and d lie on the same side of it in one plane?
+// Returns whether two triangles with the common edge ab lie in one plane with c and d on the same
+// side of the edge.
 bool folded_over(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
   if (side_of_plane(a, b, c, d) != 0) return false;
   const int k = shadow_axis({a, b, c});
@@ -74,8 +76,8 @@ bool folded_over(const Point<3>& a, const Point<3>& b, const Point<3>& c, const 
   return orientation(u, v, shadow(k, c)) == orientation(u, v, shadow(k, d));
 }
 
-// Seen along an axis, does a line through the common corner and along an edge of one triangle
-// divide the two? Quickly found, and so for most neighbours.
+// Returns whether a line through the common corner and along an edge of one triangle separates the
+// two triangles in a projection. The test is fast and succeeds for most neighbours.
 bool a_line_divides(const FacetCorners<3>& a, const FacetCorners<3>& b) {
   const Point<3> normal = cross(difference(a[1], a[0]), difference(a[2], a[0]));
   int k = 0;
@@ -91,7 +93,7 @@ bool a_line_divides(const FacetCorners<3>& a, const FacetCorners<3>& b) {
   return divides(u, v, x, y) || divides(v, u, x, y) || divides(x, y, u, v) || divides(y, x, u, v);
 }
 
-// Are all corners that are not common strictly on one side of the other's plane?
+// Returns whether all corners of b that are not common lie strictly on one side of the plane of a.
 bool plane_divides(const FacetCorners<3>& a, const FacetCorners<3>& b, int common) {
   int side = 0;
   for (int k = common; k < 3; ++k) {
@@ -102,7 +104,7 @@ bool plane_divides(const FacetCorners<3>& a, const FacetCorners<3>& b, int commo
   return true;
 }
 
-// Common corners first, in the same order in both.
+// Moves common corners to the front, in the same order in both triangles. Returns their number.
 int bring_common_first(FacetCorners<3>& a, std::array<std::int32_t, 3> vertices_a,
                        FacetCorners<3>& b, std::array<std::int32_t, 3> vertices_b) {
   int common = 0;
@@ -119,7 +121,7 @@ int bring_common_first(FacetCorners<3>& a, std::array<std::int32_t, 3> vertices_
   return common;
 }
 
-// Strictly on different sides of the triangle's plane?
+// Returns whether p and q lie strictly on different sides of the plane of the triangle.
 bool ends_are_apart(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {
   const auto& [a, b, c] = triangle;
   return orientation(a, b, c, p) * orientation(a, b, c, q) < 0;
@@ -133,7 +135,7 @@ Point<3> crossing_point(const Point<3>& p, const Point<3>& q, const FacetCorners
   return shifted(p, from + to > 0 ? from / (from + to) : 0.5, difference(q, p));
 }
 
-// A corner of one that is on the other, unless both have it.
+// Returns a corner of one triangle that lies on the other and is not a corner of it.
 std::optional<Point<3>> corner_in_contact(const FacetCorners<3>& a, const FacetCorners<3>& b) {
   for (const auto& [own, other] : {std::pair(a, b), std::pair(b, a)})
     for (const Point<3>& x : own)
@@ -141,9 +143,10 @@ std::optional<Point<3>> corner_in_contact(const FacetCorners<3>& a, const FacetC
   return {};
 }
 
-constexpr double kTouching = 1e-9;  // in lengths of the edge: rounding, not a gap
+constexpr double kTouching = 1e-9;  // Largest gap due to rounding. [length of the edge]
 
-// A corner of one only, or where edges that have no corner in common meet; else a common corner.
+// Returns a corner of only one triangle, or a point where edges without a common corner intersect;
+// if there is neither, a common corner.
 Point<3> place_of_contact(const FacetCorners<3>& a, const FacetCorners<3>& b) {
   if (const auto corner = corner_in_contact(a, b)) return *corner;
   const auto common = std::find_first_of(a.begin(), a.end(), b.begin(), b.end());
@@ -185,8 +188,8 @@ bool segment_runs_into(const Point<3>& q, const FacetCorners<3>& triangle) {
          flat_segments_meet(shadow(k, a), shadow(k, q), shadow(k, b), shadow(k, c));
 }
 
-// What two triangles with a common corner have in common is convex: if it is more than the corner,
-// the opposite edge of one of them meets the other.
+// The intersection of two triangles with a common corner is convex. If it is more than the corner,
+// the opposite edge of one triangle meets the other triangle.
 bool triangles_meet(const FacetCorners<3>& given_a, const std::array<std::int32_t, 3>& vertices_a,
                     const FacetCorners<3>& given_b, const std::array<std::int32_t, 3>& vertices_b) {
   FacetCorners<3> a = given_a, b = given_b;
@@ -205,7 +208,8 @@ Point<3> nearest_on_segment(const SegmentEnds& segment, const Point<3>& x) {
   return nearest_on({segment[0], segment[1], segment[1]}, x);
 }
 
-// Where lines that are not parallel are nearest, if that is on both, or else an end of one.
+// The candidates are the ends of both segments and, for lines that are not parallel, the point of s
+// where the two lines are nearest.
 Point<3> nearest_to_segment(const SegmentEnds& s, const SegmentEnds& t) {
   const auto gap = [&](const Point<3>& x) {
     return squared_distance<3>(x, nearest_on_segment(t, x));

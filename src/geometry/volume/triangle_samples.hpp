@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Sample points of a triangle for distance measurements.
 #pragma once
 
 #include <array>
@@ -7,8 +8,7 @@
 
 namespace pnpbs {
 
-// The points of a triangle at which its distance from something else is measured: its centroid and
-// the middles of its sides.
+// Returns the centroid of the triangle and the middles of its sides.
 inline std::array<Point<3>, 4> triangle_samples(const std::array<Point<3>, 3>& corners) {
   constexpr double kWeights[][3] = {
       {1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};

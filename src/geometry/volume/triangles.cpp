@@ -11,7 +11,7 @@ namespace pnpbs {
 
 namespace {
 
-// Without coordinate k, the others in cyclic order.
+// Projects a point along axis k. The remaining coordinates are in cyclic order.
 Point<2> along(int k, const Point<3>& x) {
   return {x[static_cast<std::size_t>((k + 1) % 3)], x[static_cast<std::size_t>((k + 2) % 3)]};
 }
@@ -43,8 +43,8 @@ SegmentPoint nearest_on_segment(const Point<3>& a, const Point<3>& b, const Poin
   return nearest;
 }
 
-// A closed box and the convex hull of points, all seen from the middle of the box: is there a gap
-// between them along `axis`, by more than what rounding can make of it?
+// Returns whether the projections of a closed box and of the convex hull of points onto `axis` are
+// disjoint by more than the rounding error. Positions are relative to the middle of the box.
 template <std::size_t N>
 bool apart_along(const Point<3>& axis, const Point<3>& half, const std::array<Point<3>, N>& points,
                  double farthest) {
@@ -62,8 +62,8 @@ bool apart_along(const Point<3>& axis, const Point<3>& half, const std::array<Po
   return low > reach || high < -reach;
 }
 
-// By all axes along which two convex bodies can be apart: normals of faces, and those of an edge of
-// each (Gottschalk 1996).
+// Tests all axes along which two convex bodies can be separated: normals of faces, and cross
+// products of an edge of each (Gottschalk 1996).
 template <std::size_t N>
 bool hull_may_meet_box(std::array<Point<3>, N> points, const Box<3>& box) {
   Point<3> half, middle;
@@ -98,7 +98,7 @@ bool hull_may_meet_box(std::array<Point<3>, N> points, const Box<3>& box) {
 
 }  // namespace
 
-// The determinant's derivative by the shift is (q - p) x (b - a).
+// The derivative of the determinant by the shift is (q - p) x (b - a).
 int side_of_line(const Point<3>& p, const Point<3>& q, const Point<3>& a, const Point<3>& b) {
   int side = orientation(p, q, a, b);
   for (int k = 0; k < 3 && side == 0; ++k)
@@ -107,14 +107,14 @@ int side_of_line(const Point<3>& p, const Point<3>& q, const Point<3>& a, const 
 }
 
 bool may_touch(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {
-  if (boxes_are_apart(p, q, triangle)) return false;  // most are
+  if (boxes_are_apart(p, q, triangle)) return false;  // Excludes most triangles.
   const auto& [a, b, c] = triangle;
   if (orientation(a, b, c, p) * orientation(a, b, c, q) > 0) return false;
   const std::initializer_list<int> sides{orientation(p, q, a, b), orientation(p, q, b, c),
                                          orientation(p, q, c, a)};
   if (!all_on_one_side(sides)) return false;
   if (std::any_of(sides.begin(), sides.end(), [](int side) { return side != 0; })) return true;
-  for (int k = 0; k < 3; ++k) {  // all in a plane: the shadows may lie beside each other
+  for (int k = 0; k < 3; ++k) {  // All in one plane: the projections can be disjoint.
     const Point<2> from = along(k, p), to = along(k, q);
     const int beside = orientation(from, to, along(k, a));
     if (beside != 0 && beside == orientation(from, to, along(k, b)) &&
@@ -124,10 +124,10 @@ bool may_touch(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& tria
   return true;
 }
 
-// In its plane and, along each axis, in its shadow; where that is a segment it is no more than its
-// own box.
+// Requires x to lie in the plane of the triangle and in its projection along each axis. A
+// projection to a segment excludes no more than its bounding box.
 bool on_facet(const FacetCorners<3>& triangle, const Point<3>& x) {
-  if (boxes_are_apart(x, x, triangle)) return false;  // most are
+  if (boxes_are_apart(x, x, triangle)) return false;  // Excludes most points.
   const auto& [a, b, c] = triangle;
   if (orientation(a, b, c, x) != 0) return false;
   for (int k = 0; k < 3; ++k) {
@@ -146,7 +146,8 @@ bool segment_may_meet_box(const Point<3>& a, const Point<3>& b, const Box<3>& bo
   return hull_may_meet_box(std::array{a, b}, box);
 }
 
-// The foot on the triangle's plane if it lies in the triangle, else the nearest point of the edges.
+// Returns the projection of x onto the plane of the triangle if it lies in the triangle, otherwise
+// the nearest point of the edges.
 TrianglePoint nearest_triangle_point(const FacetCorners<3>& triangle, const Point<3>& x) {
   const auto& [a, b, c] = triangle;
   const Point<3> ab = difference(b, a), ac = difference(c, a), ax = difference(x, a);

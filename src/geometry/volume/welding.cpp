@@ -13,8 +13,9 @@ namespace pnpbs {
 
 namespace {
 
-// Cells so large that few points are near a border, so small that few points share one.
-constexpr double kCell = 1024;  // in tolerances
+// Width of a cell of the hash grid. [tolerances] It is large enough that few points are near a
+// border, and small enough that few points share a cell.
+constexpr double kCell = 1024;
 
 struct CellHash {
   std::size_t operator()(const std::array<std::int64_t, 3>& cell) const {
@@ -24,7 +25,7 @@ struct CellHash {
   }
 };
 
-// Points that have joined none, by cells.
+// A hash grid of the points that are not merged.
 class Places {
  public:
   Places(std::span<const Point<3>> points, double tolerance)
@@ -40,7 +41,8 @@ class Places {
     entry->second = p;
   }
 
-  // The nearest within the tolerance, of several the first; or -1.
+  // Returns the nearest point within the tolerance, the first one if there are several, or -1 if
+  // none.
   std::int32_t nearest(std::int32_t p) const {
     const std::array<std::int64_t, 3> low = cell_of(points_[p], -tolerance_),
                                       high = cell_of(points_[p], tolerance_);
@@ -78,7 +80,7 @@ class Places {
   Point<3> low_;
 };
 
-// Of each point the first that is at exactly its place.
+// Returns for each point the first point with exactly the same position.
 std::vector<std::int32_t> first_at_place(std::span<const Point<3>> points) {
   std::vector<std::int32_t> order(points.size()), first(points.size());
   std::iota(order.begin(), order.end(), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points at the same place become one.
+// Merges points that coincide within a tolerance.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace pnpbs {
 
-// Of each point the one it joins: the nearest point before it within the tolerance that has joined
-// none itself, or else itself; points at exactly the same place join the same. In n log n time, as
-// long as not too many of them crowd within a thousand tolerances.
+// Returns for each point the index of the point that it is merged into. This is the nearest
+// preceding point within the tolerance that is not merged itself, or the point itself if there is
+// none. Points at exactly the same position are merged into the same point. The time is O(n log n)
+// if not too many of them lie within a thousand tolerances of each other.
 std::vector<std::int32_t> weld_points(std::span<const Point<3>> points, double tolerance);
 
 }  // namespace pnpbs

@@ -15,11 +15,12 @@ namespace pnpbs {
 namespace {
 
 constexpr std::int32_t kCellTriangles = 4;
-// A cell farther than so many of its radii counts as one.
+// Distance from which on a cell is replaced by its series. [radius of the cell]
 constexpr double kFar = 2.5;
 constexpr double kSphere = 4 * std::numbers::pi;
 
-// atan2(y, x), of small angles by its series, to 1e-9: most triangles are seen at such.
+// Returns atan2(y, x), by its series with an error of 1e-9 for small angles. Most triangles are
+// seen under small angles.
 double angle_of(double y, double x) {
   if (!(std::fabs(y) < 0.2 * x)) return std::atan2(y, x);
   const double t = y / x, q = t * t;
@@ -69,7 +70,7 @@ void WindingNumber::describe(Cell& cell) const {
       cell.radius = std::max(cell.radius, distance<3>(corner, cell.middle));
 }
 
-// In two halves, across the longest side of the box of the triangles' middles.
+// Splits a cell into halves across the longest side of the bounding box of the centroids.
 void WindingNumber::split(std::size_t c) {
   const auto [begin, end] = std::pair(cells_[c].begin, cells_[c].end);
   if (end - begin <= kCellTriangles) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How often triangles wind around a point: 1 inside of a closed surface and 0 outside; where the
-// surface has holes something between, and where bodies overlap their sum. (Jacobson, Kavan and
-// Sorkine-Hornung 2013.)
+// The winding number of triangles around a point. It is 1 inside a closed surface and 0 outside,
+// between the two if the surface has holes, and a sum where bodies overlap (Jacobson, Kavan and
+// Sorkine-Hornung 2013).
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace pnpbs {
 
-// The solid angle of a triangle as x sees it, over that of a sphere: positive if x is on the side
-// that its normal points away from. (Van Oosterom and Strackee 1983.)
+// Returns the solid angle of a triangle seen from x over that of a sphere. It is positive if x is
+// on the side opposite to the normal (Van Oosterom and Strackee 1983).
 double winding_of(const FacetCorners<3>& triangle, const Point<3>& x);
 
-// Of many triangles, by a tree: of what is far two terms of a series count (Barill and others
-// 2018), so that it is within some 0.01 of the sum over all triangles. Never mutates: any thread
-// may ask.
+// The winding number of many triangles. A tree replaces far triangles by two terms of a multipole
+// series (Barill and others 2018), so that the result is within about 0.01 of the sum over all
+// triangles. The call operator can be called by several threads at the same time.
 class WindingNumber {
  public:
   WindingNumber() = default;
@@ -28,19 +28,19 @@ class WindingNumber {
 
  private:
   struct Cell {
-    Point<3> middle{};                  // of the areas
-    Point<3> area{};                    // sum of area times normal, the dipole
-    std::array<Point<3>, 3> moments{};  // of the areas' places about the middle
-    double radius = 0;                  // of the ball around the middle that holds all
-    std::int32_t begin, end;            // of triangles_
-    std::int32_t child = -1;            // the first of two, or none
+    Point<3> middle{};                  // Area-weighted mean of the centroids.
+    Point<3> area{};                    // Sum of the area normals, the dipole.
+    std::array<Point<3>, 3> moments{};  // Moments of the area normals about the middle.
+    double radius = 0;        // Radius of a ball around the middle that contains all triangles.
+    std::int32_t begin, end;  // Range in triangles_.
+    std::int32_t child = -1;  // Index of the first of two children, or -1.
   };
 
   void describe(Cell& cell) const;
   void split(std::size_t cell);
   double of_cell(std::int32_t cell, const Point<3>& x) const;
 
-  std::vector<FacetCorners<3>> triangles_;  // by cells
+  std::vector<FacetCorners<3>> triangles_;  // Ordered by cells.
   std::vector<Cell> cells_;
 };
 
