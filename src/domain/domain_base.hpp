@@ -14,6 +14,7 @@
 
 namespace pnpbs {
 
+// A node that the user prescribes and that does not move.
 template <int Dim>
 struct FixedNode {
   Point<Dim> position;
@@ -35,6 +36,7 @@ struct RegionPoint {
   bool is_hole() const { return tag == 0; }
 };
 
+// Stores what the user gives; check() of the derived class resolves it.
 template <int Dim>
 class DomainBase {
  public:

@@ -11,6 +11,7 @@
 
 namespace pnpbs {
 
+// Throws Error(ErrorKind::domain) if the domain is smaller than kSmallestDomain.
 inline void require_domain_size(double size) {
   if (size < kSmallestDomain)
     reject_domain("the domain's size is " + number_text(size) + ", less than " +

@@ -10,6 +10,7 @@
 
 namespace pnpbs {
 
+// Adds a planar straight-line graph with its holes and regions, as .poly files have them.
 void add_poly(PlaneDomain& domain, const PolyGraph& graph);
 
 // Adds a mesh in a plane of constant z. Lines, and edges that bound triangles and quadrangles,

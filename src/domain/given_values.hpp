@@ -41,6 +41,8 @@ void require_points(const std::string& name, std::int64_t n, const double* coord
   }
 }
 
+// Returns n points from an array of Dim * n coordinates. Throws as require_points() does, and if
+// the array is null.
 template <int Dim>
 std::vector<Point<Dim>> read_points(const char* name, std::int64_t n, const double* coordinates) {
   require_array(name, coordinates, n);

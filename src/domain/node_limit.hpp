@@ -14,6 +14,7 @@ namespace pnpbs {
 // 246, rounded up for ghosts.
 inline constexpr double kBytesPerNode = 260;
 
+// The largest numbers of nodes and bytes that a run may use.
 struct NodeLimit {
   NodeLimit(std::int64_t nodes, double bytes = std::numeric_limits<double>::infinity())
       : max_nodes(nodes), max_bytes(bytes) {}

@@ -19,6 +19,7 @@ struct RegionFacet {
   std::array<std::int32_t, 2> tags;  // tags of the regions on both sides
 };
 
+// A spatial index of the facets between regions.
 template <int Dim>
 class RegionIndex {
  public:

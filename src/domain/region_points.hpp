@@ -15,6 +15,7 @@
 
 namespace pnpbs {
 
+// Returns the name and the position of a region point for messages.
 template <int Dim>
 MessageText name_and_place(const RegionPoint<Dim>& point) {
   return point.name + " at " + point_text(point.point);

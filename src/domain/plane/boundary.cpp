@@ -169,7 +169,7 @@ class Layer {
     return track(edge).is_straight(begin_station(edge), end_station(edge));
   }
 
-  // ------------------------------------------------------------ do edges divide as the curves do?
+  // ------------------------------------------------------------ check of the edges
   // Returns the edges that cross others or that have nodes on the wrong side.
   std::vector<std::int32_t> edges_that_mislead() const {
     const SweepResult sweep = sweep_plane(positions_, ends_);

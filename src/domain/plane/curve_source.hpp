@@ -15,6 +15,7 @@ namespace pnpbs {
 // Evaluates the curve at n parameters t. Throws Error on failure.
 using CurveFunction = std::function<void(std::int64_t n, const double* t, Point<2>* xy)>;
 
+// How a curve relates to the domain.
 enum class CurveRole {
   boundary,  // separates inside and outside
   inner      // nodes lie on it, and both sides are inside

@@ -47,6 +47,7 @@ double domain_size(const std::vector<CurveSource>& sources);
 DomainGraph join_sources(const std::vector<CurveSource>& sources,
                          const std::vector<FixedNode<2>>& fixed_nodes, double size);
 
+// Returns the name of a vertex for messages.
 std::string vertex_name(const GraphVertex& vertex, const std::vector<CurveSource>& sources,
                         const std::vector<FixedNode<2>>& fixed_nodes);
 

@@ -8,6 +8,7 @@
 
 namespace pnpbs {
 
+// Points of a curve and their parameters.
 struct CurveSamples {
   std::vector<double> parameters;
   std::vector<Point<2>> points;

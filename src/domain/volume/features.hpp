@@ -34,6 +34,7 @@ struct CurveDirection {
   bool operator==(const CurveDirection&) const = default;
 };
 
+// All features of a mesh, and the patches between them.
 struct Features {
   // The facet across edge k (from corner k to the next); -1 at a feature. Facets that are segments
   // of inner curves have -1 at all edges.

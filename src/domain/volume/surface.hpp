@@ -28,6 +28,7 @@ struct SurfacePlace {
   std::int32_t index;
 };
 
+// A mesh with its features, and queries that nodes on it need.
 class Surface {
  public:
   // `mesh` and `features` must outlive this object.

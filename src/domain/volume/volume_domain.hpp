@@ -71,7 +71,7 @@ struct ResolvedVolume {
   std::vector<FixedNode<3>> fixed_nodes;
   std::vector<Warning> warnings;
   RepairDistances repair;
-  // True if the boundary triangles, as oriented in the input, have winding number 1 (or all -1)
+  // True if the boundary triangles, as oriented in the input, have winding number 1 or -1
   // inside and 0 outside. A body within another one makes it false; a cavity oriented against its
   // surroundings does not.
   bool wound_once = true;

@@ -283,9 +283,8 @@ class Resolver {
   }
 
   // ------------------------------------------------------------ the inside
-  // Returns true if the boundary triangles have winding number 1 inside and 0 outside, up to a
-  // common sign per body. The winding number behind a triangle is one more than that in front of
-  // it.
+  // Returns true if the boundary triangles have winding number 1 or -1 inside and 0 outside. The
+  // winding number behind a triangle is one more than that in front of it.
   bool is_wound_once() const {
     constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> beside(inside_.size());
