@@ -20,8 +20,8 @@ struct SurfacePoint {
   Point<3> position;
 };
 
-// What a node on a surface lies on: a facet, a feature edge or a corner. `index` refers to the
-// mesh's facets, to the feature edges or to Features::corners.
+// The part of a surface that carries a node: a facet, a feature edge or a corner. `index` refers to
+// the mesh's facets, to the feature edges or to Features::corners.
 struct SurfacePlace {
   enum class On : std::int8_t { facet, edge, corner };
   On on;

@@ -19,8 +19,8 @@ namespace pnpbs {
 // Returns the nodes in the cells of this rank, patch by patch. They keep a distance from features,
 // which have nodes of their own. A closed patch without features has at least four nodes. The union
 // over all ranks depends only on the surface and on d.
-// Collective. Throws Error(ErrorKind::spacing) on all ranks if there would be more nodes than the
-// limit allows.
+// Collective. Throws Error(ErrorKind::spacing) or Error(ErrorKind::memory) on all ranks if there
+// would be more nodes or pieces than the limit allows.
 std::vector<SurfacePoint> surface_fill(const Communicator& comm, const Surface& surface,
                                        const SpacingEvaluator<3>& spacing, const NodeLimit& limit,
                                        const RankCells& cells);

@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::int64_t kBatch = 1 << 16;  // most points in one evaluation of d
 constexpr double kMaxThatAddUp = 9e18;    // bound on a sum over all ranks, as it has 64 bits
-// Log2(3): one of the two halves of a needle is as long as the needle.
+// Exponent of a bound on the number of pieces: log2(3), because one half of a needle-shaped
+// triangle is as long as the whole.
 constexpr double kNeedlePower = 1.585;
 // Memory of a piece while it is divided and sorted. [bytes]
 constexpr double kBytesPerPiece = 2 * sizeof(SurfacePiece) + 4 * sizeof(FacetCorners<3>);

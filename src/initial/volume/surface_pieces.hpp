@@ -52,8 +52,8 @@ struct PatchPieces {
 // rank, and the pieces do not depend on the distribution of cells. Evaluates d at the centres, in
 // batches. In a closed patch without features d is reduced until there is room for four nodes, the
 // fewest of a closed triangulation.
-// Collective. Throws Error(ErrorKind::spacing) on all ranks if there would be more nodes than the
-// limit allows.
+// Collective. Throws Error(ErrorKind::spacing) or Error(ErrorKind::memory) on all ranks if there
+// would be more nodes or pieces than the limit allows.
 std::vector<PatchPieces> cut_to_pieces(const Communicator& comm, const Surface& surface,
                                        const SpacingEvaluator<3>& spacing, const NodeLimit& limit,
                                        const RankCells& cells);
