@@ -13,27 +13,27 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kMaxStep = 0.25;         // between samples, in units of d
-constexpr double kMaxRatio = 2;           // of d at neighbouring samples ...
-constexpr double kSmallestStep = 1e-3;    // ... but where d jumps
-constexpr int kMinIntervals = 8;          // on a curve, however large d is
-constexpr double kMaxParts = 64;          // of an interval in one round
-constexpr std::int64_t kBatch = 1 << 16;  // points asked in one call
+constexpr double kMaxStep = 0.25;         // largest distance between neighbouring samples [d]
+constexpr double kMaxRatio = 2;           // largest ratio of d at neighbouring samples
+constexpr double kSmallestStep = 1e-3;    // intervals below this are not divided for kMaxRatio [d]
+constexpr int kMinIntervals = 8;          // least number of intervals on a curve
+constexpr double kMaxParts = 64;          // most parts of an interval in one round
+constexpr std::int64_t kBatch = 1 << 16;  // most points in one call of the evaluator
 
-// d along one curve.
+// Samples of d along one curve.
 struct Profile {
   std::vector<double> stations;
-  std::vector<double> d;
-  std::vector<char> open;  // of the intervals: may have to be divided
+  std::vector<double> d;   // 0 where d is not evaluated yet
+  std::vector<char> open;  // nonzero for intervals that may have to be divided
 };
 
-// Integral of ds/d over a step h, d going from a to b linearly.
+// Returns the integral of ds/d over a step of length h in which d varies linearly from a to b.
 double integral(double h, double a, double b) {
   const double x = (b - a) / a;
   return x == 0 ? h / a : h / a * (std::log1p(x) / x);
 }
 
-// The fraction of the step in which that fraction of its integral lies.
+// Returns the fraction of the step at which the integral of ds/d reaches `fraction` of its total.
 double inverse(double fraction, double a, double b) {
   const double x = (b - a) / a;
   return x == 0 ? fraction : std::expm1(fraction * std::log1p(x)) / x;
@@ -60,7 +60,6 @@ class Profiles {
   }
 
  private:
-  // Unknown values of d are 0.
   static Profile first_profile(const Track& track) {
     const std::vector<double>& vertices = track.vertex_stations();
     const auto segments = static_cast<int>(std::min<std::size_t>(vertices.size() - 1, 1 << 20));
@@ -141,7 +140,7 @@ class Profiles {
     return max > kMaxRatio * min && h > kSmallestStep * min ? 2 : 1;
   }
 
-  // False if all intervals are short enough.
+  // Divides the open intervals that are too long. Returns false if there are none.
   static bool divide(Profile& profile) {
     if (std::find(profile.open.begin(), profile.open.end(), 1) == profile.open.end()) return false;
     Profile finer;
@@ -169,8 +168,8 @@ class Profiles {
   const SpacingEvaluator<kDim>& spacing_;
   std::int64_t max_nodes_;
   std::vector<Profile> profiles_;
-  std::vector<Point<kDim>> points_;  // asked in this round
-  double min_ = HUGE_VAL;            // value of d so far
+  std::vector<Point<kDim>> points_;  // evaluated in this round
+  double min_ = HUGE_VAL;            // smallest d so far
   Point<kDim> min_point_{};
 };
 

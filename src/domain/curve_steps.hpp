@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Equal steps of the integral of ds/d along curves.
+// Places nodes along curves at equal steps of the integral of ds/d, where s is the arc length.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,16 @@
 
 namespace pnpbs {
 
-// Every rank holds all nodes on curves, and numbers them in 32 bits: these many, corners, and those
-// that rounding adds.
+// Largest number of nodes on all curves together. Every rank stores these nodes and numbers them in
+// 32 bits; the limit leaves room below 2^31 for corners and for rounding.
 inline constexpr std::int64_t kMaxNodesOnCurves = 2'000'000'000;
 
-// The stations of each curve's nodes, its two ends included: n = max(1, round(integral)) steps
-// (3 at least on closed curves). d is asked in large batches, for all curves together, at points
-// less than a quarter of d apart; it is taken to be linear between them. Throws
-// Error(ErrorKind::spacing) if that makes more than `max_nodes` nodes, or more than every rank can
-// hold. A track is a CurveTrack of the plane or a PolylineTrack<3>.
+// Returns for each curve the stations (arc lengths) of its nodes, both ends included. A curve has n
+// = max(1, round(integral of ds/d)) steps, and at least 3 if it is closed.
+// Evaluates d in large batches, for all curves together, at samples less than d/4 apart, and
+// interpolates it linearly between them. `Track` is CurveTrack in the plane or PolylineTrack<3>.
+// Throws Error(ErrorKind::spacing) if there would be more than `max_nodes` or kMaxNodesOnCurves
+// nodes.
 template <class Track>
 std::vector<std::vector<double>> lay_equal_steps(const std::vector<Track>& tracks,
                                                  const SpacingEvaluator<Track::kDim>& spacing,

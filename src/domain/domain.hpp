@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What users describe, in the plane and in space.
+// The type of the user's domain in the plane and in space, and its area or volume.
 #pragma once
 
 #include <type_traits>
@@ -12,7 +12,7 @@ namespace pnpbs {
 template <int Dim>
 using Domain = std::conditional_t<Dim == 2, PlaneDomain, VolumeDomain>;
 
-// Area or volume of the inside; surfaces alone have none.
+// Returns the area or volume of the inside; 0 for surfaces alone. Requires a checked domain.
 inline double measure_of(const PlaneDomain& domain) { return domain.area(); }
 inline double measure_of(const VolumeDomain& domain) { return domain.volume(); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What users give of a domain in the plane and in space alike, and whether it has been checked
-// since.
+// The part of a user's domain that is the same in the plane and in space: fixed nodes, holes,
+// region points and names of groups.
 #pragma once
 
 #include <cstdint>
@@ -14,41 +14,43 @@
 
 namespace pnpbs {
 
+// A node that the user prescribes and that does not move.
 template <int Dim>
 struct FixedNode {
   Point<Dim> position;
   std::int32_t tag;
-  std::string name;  // for messages: "fixed node 3"
+  std::string name;  // for messages, such as "fixed node 3"
 };
 
-// A point that stands for the region around it, up to the next curves or surfaces: which is taken
-// out, or gets a tag.
+// A point inside a region, which extends up to the next curves or surfaces. A hole removes that
+// region from the domain; any other region point gives it a tag.
 template <int Dim>
 struct RegionPoint {
   Point<Dim> point;
-  std::string name;      // for messages: "hole 0", "region 2"
-  std::int32_t tag = 0;  // 0 of holes
-  // A file's: where it lies in no region of the domain, or in one with another tag, it does not
-  // count, with a warning. Others are errors then.
+  std::string name;      // for messages, such as "hole 0" or "region 2"
+  std::int32_t tag = 0;  // 0 for holes
+  // True if the point was read from a file. If such a point lies outside the domain, or in a region
+  // that has another tag, it is ignored with a warning. For other points this is an error.
   bool from_file = false;
 
   bool is_hole() const { return tag == 0; }
 };
 
+// Stores what the user gives; check() of the derived class resolves it.
 template <int Dim>
 class DomainBase {
  public:
-  // They throw Error(ErrorKind::argument) naming the argument and its value, and leave the domain
-  // as it was. Without tags (null), all are 1.
+  // The add functions throw Error(ErrorKind::argument), with the argument and its value, and then
+  // leave the domain unchanged. If `tags` is null, all tags are 1.
   void add_fixed_nodes(std::int64_t n, const double* coordinates, const std::int32_t* tags);
-  // Takes out what lies around the point, up to the next curves or surfaces.
+  // Removes the region around the point, up to the next curves or surfaces.
   void add_hole(const Point<Dim>& point);
-  // Gives a tag to the same.
+  // Gives `tag` to the region around the point, up to the next curves or surfaces.
   void add_region(const Point<Dim>& point, std::int32_t tag);
-  // Add points of a file, with a name for messages: see RegionPoint.
+  // Add a point that was read from a file; `name` appears in messages (see RegionPoint).
   void add_hole_of_file(const Point<Dim>& point, std::string name);
   void add_region_of_file(const Point<Dim>& point, std::int32_t tag, std::string name);
-  // To be told with those that check() finds.
+  // Stores a warning that check() passes on with those of its own.
   void add_warning(Warning warning) {
     given_warnings_.push_back(std::move(warning));
     checked_ = false;
@@ -66,7 +68,7 @@ class DomainBase {
 
  private:
   GroupNames names_;
-  std::int64_t holes_given_ = 0, regions_given_ = 0;  // one by one
+  std::int64_t holes_given_ = 0, regions_given_ = 0;  // those added one by one, not from files
 };
 
 }  // namespace pnpbs

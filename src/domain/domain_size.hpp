@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How small a domain may be, and how far from the origin. Its size is the longest side of its
-// bounding box.
+// Checks of the size of a domain and of its distance from the origin. The size is the longest side
+// of the bounding box.
 #pragma once
 
 #include <cmath>
@@ -11,13 +11,15 @@
 
 namespace pnpbs {
 
+// Throws Error(ErrorKind::domain) if the domain is smaller than kSmallestDomain.
 inline void require_domain_size(double size) {
   if (size < kSmallestDomain)
     reject_domain("the domain's size is " + number_text(size) + ", less than " +
                   number_text(kSmallestDomain));
 }
 
-// Of a small domain far from the origin the coordinates have too few digits left.
+// Throws Error(ErrorKind::domain) if the domain is so far from the origin for its size that its
+// coordinates have too few significant digits.
 template <int Dim>
 void require_near_origin(double size, const Point<Dim>& x) {
   for (const double coordinate : x)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The facets by which a background tree tells inside from outside: in the plane the edges between
-// the nodes laid for a spacing, in space the surfaces as they are given.
+// The facets by which a background tree distinguishes inside from outside. In the plane they are
+// the edges between boundary nodes placed for a spacing, in space the surfaces as given.
 #pragma once
 
 #include "domain/domain.hpp"

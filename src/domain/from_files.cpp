@@ -13,7 +13,8 @@ namespace pnpbs {
 
 namespace {
 
-// Runs work that adds to a domain what a file holds: what is wrong with it is the file's fault.
+// Runs `work`, which adds the contents of a file to a domain. Rethrows its argument errors as
+// errors of that file.
 template <class Work>
 void as_of_file(const std::string& name, const Work& work) {
   try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What files describe, added to domains. The functions throw Error and then leave the domain as it
-// was.
+// Adds the contents of mesh and geometry files to domains. If a function throws Error, it leaves
+// the domain unchanged.
 #pragma once
 
 #include "domain/plane/plane_domain.hpp"
@@ -10,16 +10,17 @@
 
 namespace pnpbs {
 
+// Adds a planar straight-line graph with its holes and regions, as .poly files have them.
 void add_poly(PlaneDomain& domain, const PolyGraph& graph);
 
-// A mesh in a plane of constant z: its lines, and what bounds its triangles and quadrangles, as
-// curves on the boundary or inside; points in physical groups as fixed nodes; physical groups of
-// elements as regions; the names of groups.
+// Adds a mesh in a plane of constant z. Lines, and edges that bound triangles and quadrangles,
+// become boundary or inner curves. Points in physical groups become fixed nodes, and physical
+// groups of elements become regions. Names of groups are kept. `corner_angle` is in degrees.
 void add_msh(PlaneDomain& domain, const MshMesh& mesh, double corner_angle);
 
-// A mesh in space: its triangles and quadrangles as surfaces, on the boundary or inside; lines in
-// physical groups as inner curves, points in such as fixed nodes, volumes as regions; the names of
-// groups.
+// Adds a mesh in space. Triangles and quadrangles become boundary or inner surfaces, and lines in
+// physical groups become inner curves. Points in physical groups become fixed nodes, and groups of
+// volumes become regions. Names of groups are kept. `feature_angle` is in degrees.
 void add_msh(VolumeDomain& domain, const MshMesh& mesh, double feature_angle);
 
 }  // namespace pnpbs

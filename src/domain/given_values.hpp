@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the user gives, looked at argument by argument: each check throws
-// Error(ErrorKind::argument) naming the argument and its value.
+// Checks of single arguments of the user. Each check throws Error(ErrorKind::argument) with the
+// name of the argument and its value.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace pnpbs::given_values {
 
 [[noreturn]] void reject(const MessageText& message);
 
-// "name[3]"
+// Returns the name of an element of an array, such as "name[3]".
 std::string indexed(const std::string& name, std::int64_t index);
 
 void require_number(const std::string& name, double value);
@@ -30,8 +30,8 @@ void require_point(const std::string& name, const Point<Dim>& x) {
   for (int k = 0; k < Dim; ++k) require_number(indexed(name, k), x[k]);
 }
 
-// Throws Error(ErrorKind::argument) that names index and value of the first coordinate that is no
-// number up to 1e60.
+// Throws Error(ErrorKind::argument), with index and value, at the first coordinate that is not a
+// number between -1e60 and 1e60.
 template <int Dim>
 void require_points(const std::string& name, std::int64_t n, const double* coordinates) {
   for (std::int64_t i = 0; i < n; ++i) {
@@ -41,6 +41,8 @@ void require_points(const std::string& name, std::int64_t n, const double* coord
   }
 }
 
+// Returns n points from an array of Dim * n coordinates. Throws as require_points() does, and if
+// the array is null.
 template <int Dim>
 std::vector<Point<Dim>> read_points(const char* name, std::int64_t n, const double* coordinates) {
   require_array(name, coordinates, n);
@@ -53,10 +55,10 @@ std::vector<Point<Dim>> read_points(const char* name, std::int64_t n, const doub
   return points;
 }
 
-// All 1 where none are given.
+// Returns the n tags, or n times 1 if `tags` is null. Throws if a tag is 0.
 std::vector<std::int32_t> read_tags(const char* name, std::int64_t n, const std::int32_t* tags);
 
-// Of a polyline, whose segments must have a length.
+// Throws if two consecutive vertices of a polyline coincide, since segments must have a length.
 template <int Dim>
 void require_distinct_neighbours(const std::vector<Point<Dim>>& points, bool closed) {
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {

@@ -10,7 +10,7 @@ namespace pnpbs {
 
 namespace {
 
-// Three digits, in the unit that suits.
+// Returns the number with three digits and a suitable unit, such as "1.23 GiB".
 std::string bytes_text(double bytes) {
   const char* const units[] = {" bytes", " KiB", " MiB", " GiB", " TiB"};
   int unit = 0;

@@ -20,7 +20,7 @@ Point<2> normal_of(const FacetCorners<2>& edge) {
 }
 Point<3> normal_of(const FacetCorners<3>& triangle) { return area_normal(triangle); }
 
-// How far in the first direction x is from the plane of the facet.
+// Returns the distance from x to the plane of the facet along the first axis.
 template <int Dim>
 double way_to(const FacetCorners<Dim>& facet, const Point<Dim>& x) {
   const Point<Dim> normal = normal_of(facet);
@@ -29,7 +29,7 @@ double way_to(const FacetCorners<Dim>& facet, const Point<Dim>& x) {
   return dot(normal, to) / normal[0];
 }
 
-// 0 where the first of its sides is, 1 where the other is.
+// Returns 0 if x lies on the first side of the facet, else 1.
 std::size_t side_of(const FacetCorners<2>& edge, const Point<2>& x) {
   return orientation(edge[0], edge[1], x) > 0 ? 0 : 1;
 }
@@ -53,7 +53,7 @@ RegionIndex<Dim>::RegionIndex(std::vector<RegionFacet<Dim>> facets) : facets_(st
   tree_ = BoxTree<Dim>(std::move(boxes));
 }
 
-// The first facet on the way to one side tells it.
+// Casts a ray along the first axis. The first facet that it crosses determines the region.
 template <int Dim>
 std::int32_t RegionIndex<Dim>::tag_at(const Point<Dim>& x) const {
   Point<Dim> end = x;

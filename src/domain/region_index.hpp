@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In which region of the domain a point lies, by the facets that bound regions.
+// Finds the region of the domain in which a point lies, from the facets that bound regions.
 #pragma once
 
 #include <array>
@@ -11,22 +11,23 @@
 
 namespace pnpbs {
 
-// A facet, and what is on its two sides: first on the left of an edge, or in front of a triangle.
+// A facet and the regions on its two sides. Side 0 is left of an edge, or in front of a triangle.
 template <int Dim>
 struct RegionFacet {
   FacetCorners<Dim> corners;
-  std::array<bool, 2> inside;        // the domain
-  std::array<std::int32_t, 2> tags;  // of the regions
+  std::array<bool, 2> inside;        // per side: is it in the domain?
+  std::array<std::int32_t, 2> tags;  // tags of the regions on both sides
 };
 
+// A spatial index of the facets between regions.
 template <int Dim>
 class RegionIndex {
  public:
   explicit RegionIndex(std::vector<RegionFacet<Dim>> facets);
 
-  // The tag of the region that x lies in; where that is outside the domain, as the middle of an
-  // element can be beside a curved boundary, of the region behind the nearest facet. Any thread may
-  // ask.
+  // Returns the tag of the region that contains x. If x is outside the domain, as the centroid of
+  // an element beside a curved boundary may be, returns the tag behind the nearest boundary facet.
+  // Local and thread-safe.
   std::int32_t tag_at(const Point<Dim>& x) const;
 
  private:
@@ -34,7 +35,7 @@ class RegionIndex {
 
   std::vector<RegionFacet<Dim>> facets_;
   BoxTree<Dim> tree_;
-  double beyond_ = 0;  // in the first direction all facets end before it
+  double beyond_ = 0;  // first coordinate beyond all facets
 };
 
 extern template class RegionIndex<2>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What region points say of the parts into which curves, or surfaces in space, divide the domain.
+// Applies region points to the parts into which curves, or surfaces in space, divide the domain.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,14 @@
 
 namespace pnpbs {
 
+// Returns the name and the position of a region point for messages.
 template <int Dim>
 MessageText name_and_place(const RegionPoint<Dim>& point) {
   return point.name + " at " + point_text(point.point);
 }
 
-// Takes the parts with holes out of those that are inside. part_of(k): where the k-th point lies.
+// Marks the parts that contain holes as outside. part_of(k) returns the part in which point k lies.
+// Throws Error(ErrorKind::domain) if a hole lies outside, or if nothing of the domain is left.
 template <int Dim, class PartOf>
 void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& part_of,
                   std::vector<char>& inside, std::vector<Warning>& warnings) {
@@ -51,8 +53,9 @@ void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& par
     reject_domain("the holes leave nothing of the domain");
 }
 
-// Of each part its tag, 0 where no point gives it one; empty if none does anywhere. Points of files
-// come behind the user's. `inside`: without the holes.
+// Returns the tag of each part, 0 where no point gives one; empty if no point does. `inside` must
+// already exclude the holes. Points of the user take precedence over those of files. Throws
+// Error(ErrorKind::domain) for a point of the user outside the domain or with a conflicting tag.
 template <int Dim, class PartOf>
 std::vector<std::int32_t> tags_of_parts(const std::vector<RegionPoint<Dim>>& points,
                                         const PartOf& part_of, const std::vector<char>& inside,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// d(x) as those see it who only ask for it.
+// Functions that evaluate the spacing d(x).
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,13 @@
 
 namespace pnpbs {
 
-// Fills d[n] at x[n]; throws Error if a value is bad. Collective in a placement over several ranks.
+// Evaluates d at n points x. Throws Error if a value is not valid. Collective in a placement over
+// several ranks.
 template <int Dim>
 using SpacingEvaluator = std::function<void(std::int64_t n, const Point<Dim>* x, double* d)>;
 
-// The same of a spacing that a rank may ask by itself. No other one becomes such unless it is said.
+// An evaluator that a rank may call on its own. The constructor is explicit because most evaluators
+// are collective.
 template <int Dim>
 class LocalSpacingEvaluator {
  public:

@@ -16,15 +16,14 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kCosCorner = 0.93969262078590838;  // 20 degrees: by less, curves only bend
-// In units of the resolution.
-constexpr double kOnePoint = 1e-6;         // vertices so near each other are one
-constexpr double kCornerTolerance = 1e-5;  // of f at a corner, as a distance
+constexpr double kCosCorner = 0.93969262078590838;  // 20 degrees; the curve is smooth below this
+constexpr double kOnePoint = 1e-6;         // distance below which vertices coincide [resolution]
+constexpr double kCornerTolerance = 1e-5;  // largest |f| at a corner [resolution]
 
 Point<2> flat(const Point<3>& x) { return {x[0], x[1]}; }
 Point<3> raised(const Point<2>& x, double z) { return {x[0], x[1], z}; }
 
-// The side of a lattice square, by its middle in half steps of the lattice.
+// Returns the key of a side of a lattice square: its midpoint in half steps of the lattice.
 std::uint64_t side_between(const LatticePlace& a, const LatticePlace& b) {
   return LevelSetLattice::key({a[0] + b[0], a[1] + b[1], 0});
 }
@@ -35,7 +34,7 @@ std::array<LatticePlace, 2> ends_of_side(std::uint64_t side) {
           LatticePlace{(middle[0] + 1) / 2, (middle[1] + 1) / 2, 0}};
 }
 
-// Counterclockwise.
+// Returns the corners in counter-clockwise order.
 std::array<LatticePlace, 4> corners_of_square(const LatticePlace& at) {
   return {LatticePlace{at[0], at[1], 0}, LatticePlace{at[0] + 1, at[1], 0},
           LatticePlace{at[0] + 1, at[1] + 1, 0}, LatticePlace{at[0], at[1] + 1, 0}};
@@ -43,14 +42,14 @@ std::array<LatticePlace, 4> corners_of_square(const LatticePlace& at) {
 
 // ------------------------------------------------------------------ marching squares -----------
 
-// A piece of the curve within a square, from side to side, the region on its left.
+// A piece of a curve inside a square, from side to side, with the region on its left.
 struct Piece {
   std::uint64_t from, to;
   Box<2> square;
 };
 
-// Pieces of the squares that the curve goes through. Where it does so twice, each piece goes around
-// a corner in the region, which so ends before the middle of the square.
+// Returns the pieces of the curves in all crossed squares. If a curve crosses a square twice, each
+// piece goes around one corner that is in the region; the centre is then outside the region.
 std::vector<Piece> pieces_in_squares(const LevelSetLattice& lattice) {
   std::vector<Piece> pieces;
   for (const LatticePlace& square : lattice.crossed()) {
@@ -60,7 +59,7 @@ std::vector<Piece> pieces_in_squares(const LevelSetLattice& lattice) {
     const auto side = [&](std::size_t k) { return side_between(corners[k], corners[(k + 1) % 4]); };
     for (std::size_t leaving = 0; leaving < 4; ++leaving) {
       if (!in[leaving] || in[(leaving + 1) % 4]) continue;
-      std::size_t entering = (leaving + 3) % 4;  // back around all corners that are in
+      std::size_t entering = (leaving + 3) % 4;  // go back past all corners that are in the region
       while (in[entering]) entering = (entering + 3) % 4;
       pieces.push_back({side(leaving),
                         side(entering),
@@ -72,7 +71,7 @@ std::vector<Piece> pieces_in_squares(const LevelSetLattice& lattice) {
 
 // ------------------------------------------------------------------ corners --------------------
 
-// f where it is asked, and the straight line on which it would be 0 by its slope.
+// The value and the gradient of f at a point. They define a line on which the linearised f is 0.
 struct Tangent {
   Point<2> at;
   double f;
@@ -94,12 +93,13 @@ std::optional<Point<2>> crossing(const Tangent& a, const Tangent& b) {
   return Point<2>{(c * h[1] - d * g[1]) / determinant, (g[0] * d - h[0] * c) / determinant};
 }
 
-// Where the curve turns between two of its points.
+// The search for a corner between two consecutive points of a curve.
 struct CornerSearch {
+  // Index of the piece between the two points.
   std::size_t piece;
-  std::array<Point<2>, 2> from;  // the points
-  Box<2> square;                 // that they are in, and the corner, lest pieces cross
-  Point<2> x{};                  // the corner, as far as it is known
+  std::array<Point<2>, 2> from;  // the two points
+  Box<2> square;  // contains the points and must contain the corner, so that pieces do not cross
+  Point<2> x{};   // current estimate of the corner
 };
 
 class CurveCorners {
@@ -107,9 +107,9 @@ class CurveCorners {
   CurveCorners(const LevelSet& set, std::vector<CornerSearch> open)
       : set_(set), z_(set.box().low[2]), open_(std::move(open)) {}
 
-  // Of each piece its corner.
+  // Returns the corner of each piece, if it has one.
   std::vector<std::optional<Point<2>>> run(std::size_t pieces) {
-    // Where the sides bend, the tangents from closer by tell better.
+    // If the sides are curved, tangents nearer to the corner are more accurate.
     for (const double share : {1.0, 0.1, 0.01}) approach(share);
     std::vector<std::optional<Point<2>>> corners(pieces);
     std::vector<Point<3>> at;
@@ -122,7 +122,8 @@ class CurveCorners {
   }
 
  private:
-  // Of the way from the corner back to the points; what does not turn there goes.
+  // Evaluates tangents at a fraction of the distance from the corner to the points. Drops searches
+  // at which the curve does not turn.
   void approach(double share) {
     std::vector<Point<3>> at;
     for (const CornerSearch& search : open_)
@@ -153,7 +154,7 @@ class CurveCorners {
   std::vector<CornerSearch> open_;
 };
 
-// ------------------------------------------------------------------ from piece to piece --------
+// ------------------------------------------------------------------ loops of pieces --------
 
 class CurveWalk {
  public:
@@ -196,13 +197,14 @@ class CurveWalk {
     bool corner;
   };
 
-  // The piece that goes on where this one ends: one begins on each side that one ends on.
+  // Returns the piece that continues this one. Exactly one piece begins on each side on which one
+  // ends.
   std::size_t next(std::size_t p) const {
     const auto found = std::ranges::lower_bound(pieces_, pieces_[p].to, {}, &Piece::from);
     return static_cast<std::size_t>(found - pieces_.begin());
   }
 
-  // Of two that are one a corner stays.
+  // Appends a vertex. Of two coincident vertices it keeps the one that is a corner.
   void add(const Vertex& vertex, std::vector<Vertex>& loop) const {
     if (loop.empty() || distance<2>(loop.back().x, vertex.x) > one_)
       loop.push_back(vertex);
@@ -235,8 +237,8 @@ class CurveWalk {
     return curves;
   }
 
-  std::vector<Piece> pieces_;  // by the side that they begin on
-  std::vector<Point<2>> x_;    // where each begins
+  std::vector<Piece> pieces_;  // ordered by the side on which they begin
+  std::vector<Point<2>> x_;    // begin of each piece
   std::vector<std::optional<Point<2>>> corners_;
   double one_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curves that bound a region of the plane given by a function: marching squares, with vertices
-// put into the corners.
+// Curves that bound a region of the plane given by a function: marching squares, with vertices put
+// into the corners of the region.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,16 @@
 
 namespace pnpbs {
 
-// A part of a loop, straight between its points; the region is on the left.
+// A polyline along the boundary of the region, which lies on its left.
 struct LevelCurve {
   bool closed;  // else it leads from a corner to a corner
   std::vector<Point<2>> points;
 };
 
-// By loops: those of where f < 0, in a box that has no extent in z. Vertices are where f = 0, in
-// distances of about the resolution; a corner is where the gradient of f jumps by more than 20
-// degrees, but sharp ones may lose so much of their tips as fits between points of the lattice.
+// Returns the boundary curves of the region where f < 0, as closed loops of curves. The box of
+// `set` must have no extent in z. Vertices lie at f = 0, about a resolution apart. A corner is a
+// point at which the gradient of f turns by more than 20 degrees; sharp corners may lose a part of
+// their tip that fits between lattice points.
 // Throws Error(ErrorKind::domain) if f is negative nowhere, or on the border of the box.
 std::vector<std::vector<LevelCurve>> level_curves(const LevelSet& set);
 

@@ -12,11 +12,12 @@
 namespace pnpbs {
 namespace {
 
-constexpr std::size_t kBatch = std::size_t{1} << 16;  // points asked for at a time
-// Beyond where f is 0 by its slope; then twice as far, and so on.
+constexpr std::size_t kBatch = std::size_t{1} << 16;  // most points in one evaluation of f
+// Factor of the first search step over the distance to f = 0 estimated from the slope. Further
+// steps double.
 constexpr double kFirstStep = 1.25;
 
-// A point on its way to where the sign of f is another.
+// A search along a line for a point at which f has the other sign.
 struct Search {
   std::size_t point;
   double f;
@@ -137,21 +138,22 @@ std::vector<char> LevelSet::project(std::span<Point<3>> x, double reach) const {
 
 namespace {
 
+// Most steps of the iteration.
 constexpr int kMaxSteps = 60;
-constexpr double kEndTolerance = 1e-10;  // of a segment
+constexpr double kEndTolerance = 1e-10;  // [length of the segment]
 
-// What is left of a segment, in parts of its way.
+// The remaining part of a segment; a and b are fractions of its length.
 struct Bracket {
   std::size_t segment;
   Point<3> way;
   double a, b, fa, fb;
-  int last = 0;  // the end that moved last
+  int last = 0;  // the end that moved last: 1 for a, 2 for b
 };
 
 }  // namespace
 
-// By the rule of false position in the Illinois form, which never leaves the two places between
-// which f changes sign.
+// Uses false position in the Illinois form, which always keeps the two points between which f
+// changes sign.
 std::vector<Point<3>> zeros_on(const LevelSet& set, const std::vector<CrossedSegment>& segments) {
   std::vector<Bracket> open;
   for (std::size_t i = 0; i < segments.size(); ++i) {

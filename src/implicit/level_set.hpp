@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A body that is given by a function: it is where f < 0.
+// A body given by a function f: the points where f < 0.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,23 @@
 
 namespace pnpbs {
 
-// Fills values[n] with f at x[n]; throws Error on failure.
+// Evaluates f at n points x. Throws Error on failure.
 using LevelSetFunction = std::function<void(std::int64_t n, const Point<3>* x, double* values)>;
 
-// What f is like at a point.
+// Value and finite differences of f at a point.
 struct LevelSetSlope {
-  Point<3> x;  // the point, or the nearest one of the box
+  Point<3> x;  // the point, moved into the box if it is outside
   double f;
   Point<3> gradient;
-  double kink;  // differences of the slopes to either side, over the slope: small where f is smooth
+  double kink;  // largest difference of one-sided slopes over |gradient|; small if f is smooth
 
-  Point<3> normal() const;  // unit; 0 where there is no slope
+  Point<3> normal() const;  // unit; 0 if the gradient is 0
 };
 
+// A function f on a box, and the length scale at which it is resolved.
 class LevelSet {
  public:
-  // `name` is for messages. f is asked in the box only. Features of the body that are thinner than
+  // `name` is used in messages. f is evaluated only inside the box. Features thinner than
   // `resolution` may be lost.
   LevelSet(std::string name, LevelSetFunction f, const Box<3>& box, double resolution);
 
@@ -35,24 +36,25 @@ class LevelSet {
   const Box<3>& box() const { return box_; }
   double resolution() const { return resolution_; }
 
-  // f at these points. Throws Error(ErrorKind::domain) where it is not finite.
+  // Returns f at the points. Throws Error(ErrorKind::domain) if a value is not finite.
   std::vector<double> values(std::span<const Point<3>> x) const;
 
-  // By differences to either side. Their error is of second order in `step`, which is in units of
-  // the resolution; at a kink they are of no use.
+  // Returns central differences of f. `step` is in units of the resolution; the error is of second
+  // order in it. Differences across a kink are meaningless.
   std::vector<LevelSetSlope> slopes(std::span<const Point<3>> x, double step = kSlopeStep) const;
-  // A third of the digits of f are lost to rounding, and as many to the bend of f, at a resolution
-  // of a hundredth of the size.
+  // Default step. [resolution] If the resolution is a hundredth of the size, rounding and curvature
+  // each cost about a third of the digits of f.
   static constexpr double kSlopeStep = 1e-4;
 
-  // Estimates the distance of each point from where f = 0, along a unit direction or against it, by
-  // the slope of f in that direction. It takes less than half of the values that slopes() takes.
+  // Estimates the distance of each point from the zero of f along a unit direction, in either
+  // sense, from the slope of f in that direction. Needs less than half of the evaluations of
+  // slopes().
   std::vector<double> ways_along(std::span<const Point<3>> x,
                                  std::span<const Point<3>> directions) const;
 
-  // Moves points to where f = 0, along the gradient of f that is found by differences. One that
-  // does not come there within `reach` stays. What becomes of a point depends on it alone. Returns
-  // for each point whether f = 0 there now.
+  // Moves points along the gradient of f to f = 0. A point that does not reach f = 0 within `reach`
+  // stays. Each result depends on its own point only. Returns for each point whether f = 0 there
+  // now.
   std::vector<char> project(std::span<Point<3>> x, double reach) const;
 
  private:
@@ -64,13 +66,13 @@ class LevelSet {
   double resolution_;
 };
 
-// f is negative at one end alone.
+// A segment with f < 0 at exactly one end.
 struct CrossedSegment {
   Point<3> begin, end;
   double f_begin, f_end;
 };
 
-// A point of each where f = 0, or where it changes its sign.
+// Returns for each segment a point at which f is 0 or changes its sign.
 std::vector<Point<3>> zeros_on(const LevelSet& set, const std::vector<CrossedSegment>& segments);
 
 }  // namespace pnpbs

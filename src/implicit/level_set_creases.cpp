@@ -24,18 +24,19 @@
 namespace pnpbs {
 namespace {
 
-// The triangulation of a level set's surface is cut where the surface has edges: as in the
-// extended marching cubes of Kobbelt and others (2001), vertices come onto the edges and corners,
-// but the vertices next to them are moved there, so that no needles are left.
+// A triangulation that is cut along the edges of the surface. As in the extended marching cubes of
+// Kobbelt and others (2001), vertices lie on edges and corners; here, however, nearby vertices are
+// moved there, so that no needle-shaped triangles arise.
 struct CutSurface {
   std::vector<Point<3>> vertices;  // those of the smooth surface first
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::int32_t> origins;  // of each the triangle of the smooth surface
-  std::vector<char> on_crease;        // of the vertices
+  // Triangle of the smooth surface from which each triangle came.
+  std::vector<std::int32_t> origins;
+  std::vector<char> on_crease;  // of each vertex
 };
 
-// Care to be taken at vertices of the smooth surface: 0, and vertices move; 1, they stay, but edges
-// that end there are cut; kLeftAlone, nothing is done there.
+// Levels of care at vertices of the smooth surface, raised where cutting fails. 0: vertices may
+// move. 1: vertices stay, but edges that end there are cut. kLeftAlone: nothing is changed there.
 constexpr char kLeftAlone = 2;
 
 using Triangle = std::array<std::int32_t, 3>;
@@ -77,7 +78,7 @@ class CreaseCutter {
     triangles_[index(t)][0] = -1;
   }
 
-  // The triangle that has the edge from a to b, or -1.
+  // Returns the triangle that has the directed edge from a to b, or -1.
   std::int32_t triangle_at(std::int32_t a, std::int32_t b) const {
     for (const std::int32_t t : triangles_at_[index(a)])
       for (std::size_t k = 0; k < 3; ++k)
@@ -86,9 +87,9 @@ class CreaseCutter {
   }
 
   // ------------------------------------------------------------ corners
-  // In place of the triangles around it come those from the corner to the edges around them.
+  // Replaces the triangles around a corner by a fan from the corner to the edges around them.
   void insert(const SurfaceCorner& corner) {
-    constexpr double kAround = 0.6, kWider = 1;  // resolutions
+    constexpr double kAround = 0.6, kWider = 1;  // [resolution]
     const bool careful = std::any_of(corner.vertices.begin(), corner.vertices.end(),
                                      [&](std::int32_t v) { return care_[index(v)] > 0; });
     const double around = (careful ? kWider : kAround) * resolution_;
@@ -122,12 +123,13 @@ class CreaseCutter {
     });
   }
 
-  // The edges around the hole, by their begins, once it has been widened until all of them turn
-  // around the corner, as seen from above; empty if that does not come about.
+  // Returns the edges around the hole, keyed by their first vertex. Widens the hole until all these
+  // edges turn around the corner as seen from above. Returns an empty map if this fails.
   std::map<std::int32_t, std::int32_t> rim_seen_from(const SurfaceCorner& corner,
                                                      std::set<std::int32_t>& hole) const {
     constexpr int kMaxRounds = 20;
-    constexpr double kWide = 0.05;  // sine of the angle between an edge and the way to it
+    // Least sine of the angle between an edge and the direction to it.
+    constexpr double kWide = 0.05;
     for (int round = 0; round < kMaxRounds; ++round) {
       std::map<std::int32_t, std::int32_t> rim;
       std::vector<std::int32_t> more;
@@ -160,7 +162,7 @@ class CreaseCutter {
     return steps == rim.size() && at == rim.begin()->first;
   }
 
-  // ------------------------------------------------------------ vertices that move
+  // ------------------------------------------------------------ moved vertices
   static double shape(const Point<3>& twice_area, const std::array<Point<3>, 3>& corners) {
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -168,7 +170,8 @@ class CreaseCutter {
     return longest > 0 ? length(twice_area) / longest : 0;
   }
 
-  // Do the triangles around v still look upwards if it goes there, and none becomes much thinner?
+  // Returns true if after moving v the triangles around it still face upwards and none becomes much
+  // thinner.
   bool may_move(std::int32_t v, const Point<3>& to, const Point<3>& up) const {
     constexpr double kThin = 0.02, kThinner = 0.5;  // height over the longest edge
     const std::vector<std::int32_t>& star = triangles_at_[index(v)];
@@ -187,10 +190,12 @@ class CreaseCutter {
     });
   }
 
-  // The nearest first, so far as they are much nearer than the other end.
+  // Moves vertices that are near crossings onto them, in ascending order of their distance. Only
+  // the end that is clearly nearer to a crossing may move there.
   void move_to_edges() {
-    constexpr double kNear = 0.3;    // of the way from end to end
-    constexpr double kThere = 1e-4;  // resolutions
+    constexpr double kNear = 0.3;  // largest fraction of the edge
+    // Distance at which a vertex is already on the edge [resolution]
+    constexpr double kThere = 1e-4;
     std::vector<std::tuple<double, std::size_t, std::size_t>> moves;
     for (std::size_t e = 0; e < crossings_.edges.size(); ++e)
       for (const std::size_t end : {0, 1})
@@ -218,17 +223,18 @@ class CreaseCutter {
     return from + to > 0 ? from / (from + to) : 0;
   }
 
-  // ------------------------------------------------------------ vertices that come
-  // Not where an end has come onto an edge or a corner of the surface.
+  // ------------------------------------------------------------ new vertices
+  // Returns true if the crossing still needs a vertex. It does not if a vertex at its ends lies on
+  // an edge or a corner of the surface.
   bool is_cut(const CreaseCrossing& edge) const {
     const auto& [a, b] = edge.vertices;
-    if (triangle_at(a, b) < 0) return false;  // a corner is there now
+    if (triangle_at(a, b) < 0) return false;  // replaced by a corner
     return std::none_of(edge.vertices.begin(), edge.vertices.end(), [&](std::int32_t v) {
       return care_[index(v)] >= kLeftAlone || on_crease(v);
     });
   }
 
-  // Do edges lead from v to sides other than those that meet there?
+  // Returns true if v has a crossing between other sides than those that meet at `at`.
   bool has_other_sides(std::int32_t v, const CreasePoint& at) const {
     const auto& edges = edges_at_.at(v);
     return std::any_of(edges.begin(), edges.end(), [&](std::size_t e) {
@@ -296,8 +302,9 @@ class CreaseCutter {
     }
   }
 
-  // Of a quadrilateral abcd of which a and b are on one side: is it better cut from b to d than
-  // from a to c? So that the triangles look where f does there; if both do, along the shorter one.
+  // Decides the diagonal of a quadrilateral abcd whose vertices a and b lie on one side of the
+  // surface. Returns true for bd, false for ac. Prefers the diagonal whose triangles agree better
+  // with the normal of f, and the shorter one if both do.
   bool first_diagonal(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
     constexpr double kMatters = 0.05;
     const Point<3> up =
@@ -316,10 +323,10 @@ class CreaseCutter {
   const std::vector<char>& care_;
   double resolution_;
   CutSurface cut_;
-  std::vector<Triangle> triangles_;  // with corners; of one that is gone, the first vertex is -1
+  std::vector<Triangle> triangles_;  // with corners; the first vertex of a removed triangle is -1
   std::vector<std::int32_t> origins_;
-  std::vector<std::vector<std::int32_t>> triangles_at_;        // of the vertices
-  std::map<std::int32_t, std::vector<std::size_t>> edges_at_;  // crossed, of vertices
+  std::vector<std::vector<std::int32_t>> triangles_at_;        // per vertex
+  std::map<std::int32_t, std::vector<std::size_t>> edges_at_;  // crossed edges of each vertex
   std::map<Edge, std::int32_t> vertex_on_;
 };
 
@@ -333,17 +340,18 @@ Point<3> twice_area(const CutSurface& cut, const Triangle& t) {
   return cross(difference(cut.vertices[index(t[1])], a), difference(cut.vertices[index(t[2])], a));
 }
 
-// ------------------------------------------------------------------ what is wrong with it ------
+// ------------------------------------------------------------------ check of the result -------
 
+// Detects triangles that cutting has made invalid.
 class CutCheck {
  public:
-  // Of the vertices, those from `first_new` on have come.
+  // Vertices from `first_new` on are new.
   CutCheck(std::int32_t first_new, const LevelSetCrossings& crossings, const CutSurface& cut,
            double resolution)
       : first_new_(first_new), crossings_(crossings), cut_(cut), resolution_(resolution) {}
 
-  // Triangles of the smooth surface out of which such came that look the wrong way, cross, or are
-  // lines.
+  // Returns the triangles of the smooth surface from which invalid triangles came: those that face
+  // the wrong way, cross others, or have hardly any height.
   std::vector<std::int32_t> wrong() {
     std::vector<Box<3>> boxes;
     for (const Triangle& t : cut_.triangles) {
@@ -391,12 +399,13 @@ class CutCheck {
                      squared_distance<3>(x[2], x[0])});
   }
   bool is_line(std::int32_t t) const {
-    constexpr double kLeastHeight = 1e-5;  // resolutions
+    constexpr double kLeastHeight = 1e-5;  // [resolution]
     return length(twice_area(cut_, cut_.triangles[index(t)])) <=
            kLeastHeight * resolution_ * std::sqrt(squared_longest(t));
   }
 
-  // From all sides on which it has vertices; of a thin one that says nothing.
+  // Returns true if the triangle faces away from the normals at all its vertices off creases. Thin
+  // triangles are not judged, because their normals are inaccurate.
   bool looks_away(std::int32_t t) const {
     constexpr double kThin = 0.02;
     const Triangle& v = cut_.triangles[index(t)];
@@ -425,9 +434,9 @@ class CreaseFinder {
   CreaseFinder(const LevelSet& set, const LevelSetCrossings& crossings, const CutSurface& cut)
       : set_(set), crossings_(crossings), cut_(cut) {}
 
-  // Edges between vertices on creases, across which f turns.
+  // Returns the edges between vertices on creases at which the normal of f turns.
   std::vector<SurfaceCrease> run() {
-    constexpr double kTurn = 0.75 * kKinkAngle;  // less than at the edge: sides may bend
+    constexpr double kTurn = 0.75 * kKinkAngle;  // below kKinkAngle, because sides may be curved
     struct Side {
       std::array<std::int32_t, 2> edge;
       bool backward;
@@ -456,7 +465,7 @@ class CreaseFinder {
   }
 
  private:
-  // Of f: at a vertex off all creases, or in the middle.
+  // Returns the normal of f on each triangle: at a vertex off all creases, or at the centroid.
   std::vector<Point<3>> normals_of(const std::vector<std::int32_t>& triangles) const {
     std::vector<Point<3>> normals(triangles.size()), middles;
     std::vector<std::size_t> of_middles;
@@ -481,7 +490,7 @@ class CreaseFinder {
   const CutSurface& cut_;
 };
 
-// At the vertices of these triangles, and of those around if they are to be widened, more care.
+// Raises the care at the vertices of these triangles, and with `widen` also of their neighbours.
 void take_care(const SurfaceSource& surface, const std::vector<std::int32_t>& triangles, bool widen,
                std::vector<char>& care) {
   std::vector<char> wrong(care.size(), 0);
@@ -514,7 +523,7 @@ void warn_of_rounded(const LevelSetCrossings& crossings, const std::vector<char>
         rounded);
 }
 
-// Cuts the surface where that makes no triangles cross; says whether it came about.
+// Cuts the surface where no triangles cross as a result. Returns false if this fails.
 bool cut_where_it_can_be(const LevelSet& set, std::int32_t first_new,
                          const LevelSetCrossings& crossings, SurfaceSource& surface) {
   constexpr int kMaxRounds = 10, kRoundsBeforeWidening = 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The edges and corners of a level set's surface, where the gradient of f jumps, put into its
+// Inserts the edges and corners of a level set's surface, where the gradient of f jumps, into its
 // triangulation.
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace pnpbs {
 
-// Where triangles would turn over or cross, the surface stays rounded, with a warning.
+// Cuts the triangles of the surface along its edges. Where triangles would turn over or cross, the
+// surface stays rounded, with a warning.
 void add_creases(const LevelSet& set, SurfaceSource& surface);
 
 }  // namespace pnpbs

@@ -24,7 +24,7 @@ class CrossingFinder {
 
   LevelSetCrossings run(bool third_sides) {
     find_normals(vertices_at_bends());
-    constexpr int kSplits = 3;  // in a row
+    constexpr int kSplits = 3;  // most rounds of splitting
     for (int k = 0; find_edges() > 0 && third_sides && k < kSplits; ++k)
       if (!split_missed()) break;
     if (!found_.edges.empty()) {
@@ -39,10 +39,11 @@ class CrossingFinder {
   const Point<3>& normal(std::int32_t v) const { return found_.normals[index(v)]; }
 
   // ------------------------------------------------------------ normals
-  // f is asked only around vertices whose triangles turn. Thin ones say nothing: beside the bend of
-  // a smooth surface between vertices they may look anywhere.
+  // Returns the vertices near those whose triangles turn; f is evaluated only there. Thin triangles
+  // are ignored, because beside a bend of a smooth surface they may face anywhere.
   std::vector<char> vertices_at_bends() const {
-    constexpr double kBend = 10 * std::numbers::pi / 180, kThin = 0.05;  // height over longest edge
+    // Height over the longest edge.
+    constexpr double kBend = 10 * std::numbers::pi / 180, kThin = 0.05;
     std::vector<Point<3>> first(smooth_.vertices.size());
     std::vector<char> bends(smooth_.vertices.size(), 0), near(bends);
     for (const auto& t : smooth_.triangles) {
@@ -81,8 +82,10 @@ class CrossingFinder {
     take_sides(on_kink);
   }
 
-  // A vertex on an edge counts to a side on which one of its triangles lies, near it.
+  // A vertex on an edge of the surface gets the normal of a side on which one of its triangles
+  // lies.
   void take_sides(std::vector<char>& on_kink) {
+    // Distance at which the side is sampled. [resolution]
     constexpr double kAside = 0.01;
     for (const auto& t : smooth_.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -99,12 +102,13 @@ class CrossingFinder {
   }
 
   // ------------------------------------------------------------ edges
-  // Looks at those that were not yet looked at, and returns how many are missed.
+  // Searches edges that have new vertices. Returns the number at which the surface turns but no
+  // crossing was found.
   std::size_t find_edges() {
     std::vector<Edge> edges;
     for (const auto& t : smooth_.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t a = t[k], b = t[(k + 1) % 3];  // of the other triangle it is b, a
+        const std::int32_t a = t[k], b = t[(k + 1) % 3];  // the other triangle has b, a
         const Point<3>&p = normal(a), &q = normal(b);
         if (a < b && std::max(a, b) >= first_new_ && p != Point<3>{} && q != Point<3>{} &&
             !turn_less(p, q, kKinkAngle / 2))
@@ -121,7 +125,7 @@ class CrossingFinder {
     return missed_.size();
   }
 
-  // Keeps what is found, and returns the others.
+  // Stores the crossings found and returns the edges without one.
   template <class SearchOf>
   std::vector<Edge> search(const std::vector<Edge>& edges, const SearchOf& search_of) {
     std::vector<CreaseSearch> searches;
@@ -142,8 +146,9 @@ class CrossingFinder {
     return {{x(e[0]), x(e[1])}, shifted(normal(e[0]), 1, normal(e[1]))};
   }
 
-  // Again with the mean of the normals at the creases, which from one edge to the next changes less
-  // than that of the normals at vertices: then points come along a crease as the edges do.
+  // Repeats the search with the mean of the normals at the crossings as `up`. This mean changes
+  // less from edge to edge than that of the vertices' normals, so crossings follow the surface's
+  // edge more evenly.
   void look_from_above(std::size_t begin) {
     std::vector<CreaseSearch> searches;
     for (std::size_t k = begin; k < found_.edges.size(); ++k) {
@@ -156,14 +161,15 @@ class CrossingFinder {
       if (points[k]) found_.edges[begin + k].at = *points[k];
   }
 
-  // At right angles to the crease: where the edge runs along it, the other search fails.
+  // Returns a search perpendicular to the surface's edge. It succeeds where the triangulation's
+  // edge is nearly parallel to that edge and the search along it fails.
   CreaseSearch across(const Edge& e) const {
-    constexpr double kAside = 0.25, kInside = 0.1;  // parts of the edge
+    constexpr double kAside = 0.25, kInside = 0.1;  // fractions of the edge's length
     const Point<3>&p = normal(e[0]), &q = normal(e[1]);
     const Point<3> up = unit_vector(shifted(p, 1, q)), way = difference(x(e[1]), x(e[0]));
     Point<3> aside = unit_vector(cross(cross(p, q), up));
     if (dot(aside, way) < 0) aside = shifted({}, -1, aside);
-    // Where the planes meet, from the first end in units of the way to the second.
+    // The fraction of the edge at which the tangent planes of its ends meet.
     const double sine = dot(p, aside) * dot(q, up) - dot(p, up) * dot(q, aside);
     const double part = -dot(p, up) * dot(q, way) / (sine * dot(aside, way));
     const double inside = part > kInside ? std::min(part, 1 - kInside) : kInside;
@@ -173,8 +179,8 @@ class CrossingFinder {
   }
 
   // ------------------------------------------------------------ third sides
-  // Where those missed pass under a side that looks elsewhere than both ends, a vertex is put onto
-  // it. Returns whether there was any.
+  // Puts a vertex onto each third side that a missed edge skips, where the normal differs from
+  // those at both ends. Returns true if there is any.
   bool split_missed() {
     std::vector<CrossedSegment> segments;
     std::vector<std::size_t> of;
@@ -202,7 +208,7 @@ class CrossingFinder {
     return !vertex_on.empty();
   }
 
-  // From the missed edge straight up, or down, to where f has the other sign.
+  // Adds segments that go up or down from the missed edge to points where f has the other sign.
   void add_segments(std::size_t m, std::vector<CrossedSegment>& segments,
                     std::vector<std::size_t>& of) const {
     const Edge& e = missed_[m];
@@ -221,7 +227,7 @@ class CrossingFinder {
     }
   }
 
-  // Edge by edge, and of each its triangles in their order.
+  // Splits the triangles at the given edges, edge by edge and in ascending order of triangles.
   void split(const std::map<Edge, std::int32_t>& vertex_on) {
     std::map<Edge, std::vector<std::size_t>> triangles_at;
     for (std::size_t t = 0; t < smooth_.triangles.size(); ++t)
@@ -243,8 +249,8 @@ class CrossingFinder {
     }
   }
 
-  // The part beyond the vertex, seen around the triangle, is the new triangle that is returned; its
-  // first corner is the vertex.
+  // Splits triangle t at a vertex on its edge. Returns the new triangle, whose first corner is the
+  // vertex and which has the second end of the edge.
   std::size_t split(std::size_t t, const Edge& edge, std::int32_t vertex) {
     auto& v = smooth_.triangles[t];
     std::size_t k = 0;
@@ -272,7 +278,7 @@ class CrossingFinder {
         crossings_at_[index(v)].push_back(static_cast<std::int32_t>(e));
   }
 
-  // Those to which edges lead from v within a distance, v first.
+  // Returns v and the vertices connected to it within a distance.
   std::vector<std::int32_t> around(std::int32_t v, double reach) const {
     std::vector<std::int32_t> found{v};
     for (std::size_t k = 0; k < found.size(); ++k)
@@ -283,9 +289,9 @@ class CrossingFinder {
     return found;
   }
 
-  // Three edges or more come together: looked for ever farther around.
+  // Searches for corners, where three edges or more meet, in neighbourhoods of increasing size.
   void find_corners() {
-    constexpr double kReaches[] = {0.5, 0.75, 1.1, 1.5}, kSame = 0.6;  // in resolutions
+    constexpr double kReaches[] = {0.5, 0.75, 1.1, 1.5}, kSame = 0.6;  // [resolution]
     const double h = set_.resolution();
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(smooth_.vertices.size()); ++v) {
       if (crossings_at_[index(v)].empty()) continue;
@@ -298,7 +304,7 @@ class CrossingFinder {
   }
 
   bool add_corner(std::int32_t v, std::vector<std::int32_t> near) {
-    constexpr double kOne = 0.1;  // resolutions between corners: less is one
+    constexpr double kOne = 0.1;  // corners closer than this are one [resolution]
     std::vector<CornerSide> sides = sides_around(near);
     if (sides.size() < 3) return false;
     Point<3> up{};
@@ -315,7 +321,7 @@ class CrossingFinder {
   }
 
   std::vector<CornerSide> sides_around(const std::vector<std::int32_t>& near) const {
-    constexpr double kBeside = 0.2;  // of the way to a vertex
+    constexpr double kBeside = 0.2;  // fraction of the distance to a vertex
     std::vector<CornerSide> sides;
     const auto is_new = [&](const Point<3>& n) {
       return std::all_of(sides.begin(), sides.end(), [&](const CornerSide& side) {
@@ -335,7 +341,7 @@ class CrossingFinder {
         side->samples.push_back(place);
     };
     for (const std::int32_t v : near) add(normal(v), x(v));
-    // Beside the creases: a side may have no vertex here.
+    // Samples beside the crossings are needed because a side may have no vertex here.
     for (const std::int32_t v : near)
       for (const std::int32_t e : crossings_at_[index(v)])
         for (const std::size_t end : {0, 1}) {
@@ -347,14 +353,14 @@ class CrossingFinder {
     return sides;
   }
 
-  static constexpr double kSmooth = 0.01;  // LevelSetSlope::kink of what is
+  static constexpr double kSmooth = 0.01;  // LevelSetSlope::kink of smooth points is less
 
   const LevelSet& set_;
   SurfaceSource& smooth_;
   LevelSetCrossings found_;
-  std::vector<Edge> missed_;    // over which the surface turns, but no point of a crease is known
-  std::int32_t first_new_ = 0;  // vertex: edges between those before were looked at
-  std::vector<std::size_t> begin_;  // of each vertex in next_
+  std::vector<Edge> missed_;        // the surface turns across them, but no crossing was found
+  std::int32_t first_new_ = 0;      // edges between lower vertices were searched already
+  std::vector<std::size_t> begin_;  // first index of each vertex in next_
   std::vector<std::int32_t> next_;
   std::vector<std::vector<std::int32_t>> crossings_at_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the triangulation of a level set's surface leaps over its edges and corners: triangles with
-// vertices on two sides or more.
+// Finds the edges and corners of a level set's surface that its smooth triangulation misses:
+// triangles there have vertices on two sides or more.
 #pragma once
 
 #include <algorithm>
@@ -13,31 +13,33 @@
 
 namespace pnpbs {
 
-// The edge between two vertices, the lower one first.
+// Returns the edge between two vertices, the lower one first.
 inline std::array<std::int32_t, 2> edge_of(std::int32_t a, std::int32_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// An edge between triangles over which the surface has an edge.
+// A point at which an edge of the surface crosses an edge of the triangulation.
 struct CreaseCrossing {
   std::array<std::int32_t, 2> vertices;  // ascending
-  CreasePoint at;                        // its normals are of the sides of these vertices
+  CreasePoint at;                        // its normals are those of the sides of these vertices
 };
 
+// A corner of the surface.
 struct SurfaceCorner {
   Point<3> position;
-  Point<3> up;                         // unit: all sides look there
-  std::vector<std::int32_t> vertices;  // next to it, nearest first
+  Point<3> up;                         // unit; all sides face this direction
+  std::vector<std::int32_t> vertices;  // vertices near it, nearest first
 };
 
+// All edges and corners found, and normals of f.
 struct LevelSetCrossings {
-  std::vector<Point<3>> normals;  // unit, of f at the vertices; 0 where no edge is near
+  std::vector<Point<3>> normals;  // unit, at the vertices; 0 if no edge is near
   std::vector<CreaseCrossing> edges;
   std::vector<SurfaceCorner> corners;
 };
 
-// If `third_sides`, adds vertices where an edge between triangles leaps over a third side, as
-// beside corners.
+// Finds the crossings. With `third_sides`, adds vertices to `smooth` where an edge of the
+// triangulation skips a third side of the surface, as happens beside corners.
 LevelSetCrossings find_crossings(const LevelSet& set, SurfaceSource& smooth, bool third_sides);
 
 }  // namespace pnpbs

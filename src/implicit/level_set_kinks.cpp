@@ -11,12 +11,12 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kNearer = 0.1;  // from round to round
-constexpr double kFarther = 2.5;
-constexpr int kMaxRounds = 24;        // of an edge: five are usual
-constexpr double kMinSine = 0.05;     // of the angle at which two sides cut
-constexpr double kFarthest = 4;       // from the points between which it is searched, in their gap
-constexpr double kStepOfReach = 0.1;  // differences for slopes stay on one side of the meet
+constexpr double kNearer = 0.1;       // factor of the reach if both sides were sampled
+constexpr double kFarther = 2.5;      // factor of the reach if only one side was sampled
+constexpr int kMaxRounds = 24;        // for an edge; five are usual
+constexpr double kMinSine = 0.05;     // least sine of the angle between two sides
+constexpr double kFarthest = 4;       // largest distance from the starting points [their distance]
+constexpr double kStepOfReach = 0.1;  // step of differences, which must stay on one side [reach]
 
 double differences_at(double reach, const LevelSet& set) {
   return std::clamp(kStepOfReach * reach / set.resolution(), kStepOfReach * kKinkReach,
@@ -25,7 +25,7 @@ double differences_at(double reach, const LevelSet& set) {
 
 // ------------------------------------------------------------------ edges ----------------------
 
-// A tangent plane as it is cut by the plane of a search.
+// A tangent plane, intersected with the plane of a search.
 struct Line {
   Point<2> x;
   double f;
@@ -54,7 +54,7 @@ class KinkFinder {
 
   enum class State { open, found, none };
 
-  // Takes the slopes at the two points asked for.
+  // Processes the slopes at the two points of next().
   State take(const LevelSetSlope& low, const LevelSetSlope& high) {
     const std::array<Line, 2> lines{line_of(low), line_of(high)};
     bool both = true;
@@ -73,7 +73,7 @@ class KinkFinder {
       return State::none;
     if (both && reach_ <= least_) return is_kink() ? State::found : State::none;
     if (round_ == kMaxRounds) return State::none;
-    // Where both are on one side, the other one is known from too far away.
+    // If both points were on one side, the other side is known only from too far away.
     reach_ = both ? std::max(kNearer * reach_, least_) : std::min(kFarther * reach_, gap_);
     next_ = {in_space(beside(0)), in_space(beside(1))};
     return State::open;
@@ -95,7 +95,7 @@ class KinkFinder {
   }
 
   bool is_kink() const {
-    constexpr double kAside = 3;  // reaches, from where sides are known to where they meet
+    constexpr double kAside = 3;  // largest distance from a sample to the meeting point [reach]
     return !turn_less(sides_[0].normal, sides_[1].normal, kKinkAngle) &&
            std::max(distance<2>(meet_, sides_[0].x), distance<2>(meet_, sides_[1].x)) <
                kAside * least_;
@@ -105,7 +105,8 @@ class KinkFinder {
     return shifted(shifted(origin_, x[0], along_), x[1], up_);
   }
 
-  // Where both lines are 0.
+  // Computes the intersection of both lines. Returns false if they are nearly parallel or if it is
+  // too far away.
   bool meet() {
     const auto& [a, b] = sides_;
     const double sine = cross_2d(a.gradient, b.gradient);
@@ -121,8 +122,8 @@ class KinkFinder {
     return meet_[0] > -gap_ && meet_[0] < 2 * gap_ && std::fabs(meet_[1]) < kFarthest * gap_;
   }
 
-  // On one side of the meet, along its tangent: there the other line is less if f is the larger of
-  // both, else greater.
+  // Returns the point at distance reach_ from the intersection on one side, along its tangent. The
+  // other line is negative there if f is the larger of both, else positive.
   Point<2> beside(std::size_t side) const {
     const Line& line = sides_[side];
     const Line& other = sides_[1 - side];
@@ -154,7 +155,7 @@ std::vector<std::optional<CreasePoint>> find_crease_points(
   std::vector<std::optional<CreasePoint>> found(searches.size());
   std::vector<KinkFinder> open;
   for (std::size_t i = 0; i < searches.size(); ++i) open.emplace_back(i, searches[i], set);
-  // Those that look equally far are asked for together.
+  // Searches with the same step of differences are evaluated together.
   while (!open.empty()) {
     std::vector<KinkFinder> farther;
     std::stable_sort(open.begin(), open.end(), [&](const KinkFinder& a, const KinkFinder& b) {
@@ -184,12 +185,14 @@ namespace {
 
 struct Plane {
   Point<3> x, normal;
-  double gap;  // of x from it
+  double gap;  // distance of x from the plane
 };
 
-// The point with the least sum of squared gaps to the planes; nothing where they leave it open.
+// Returns the point with the least sum of squared distances to the planes, or nothing if they do
+// not determine it.
 std::optional<Point<3>> common_point(const std::vector<Plane>& planes) {
-  constexpr double kMinVolume = 0.01;  // of the cube that normals at right angles span, squared
+  // Least squared volume spanned by the normals, which is 1 for orthogonal ones.
+  constexpr double kMinVolume = 0.01;
   std::array<Point<3>, 3> rows{};
   Point<3> right{};
   const Point<3>& origin = planes.front().x;
@@ -201,7 +204,7 @@ std::optional<Point<3>> common_point(const std::vector<Plane>& planes) {
   const double volume = dot(rows[0], cross(rows[1], rows[2]));
   if (!(volume > kMinVolume)) return {};
   Point<3> x{};
-  for (std::size_t k = 0; k < 3; ++k)  // rows are columns
+  for (std::size_t k = 0; k < 3; ++k)  // the matrix is symmetric
     x = shifted(x, right[k] / volume, cross(rows[(k + 1) % 3], rows[(k + 2) % 3]));
   return shifted(origin, 1, x);
 }
@@ -212,7 +215,7 @@ class CornerFinder {
       : set_(set), near_(x), sides_(std::move(sides)) {}
 
   std::optional<Point<3>> run() {
-    constexpr double kFirstReach = 0.1, kFarthestCorner = 1.8;  // in resolutions
+    constexpr double kFirstReach = 0.1, kFarthestCorner = 1.8;  // [resolution]
     const double h = set_.resolution();
     std::vector<Plane> planes;
     for (const CornerSide& side : sides_)
@@ -234,7 +237,7 @@ class CornerFinder {
   }
 
  private:
-  // Ways from x into the side: to the middle of its samples, and to each.
+  // Returns directions from x into the side: to the middle of its samples, then to each sample.
   std::vector<Point<3>> ways(const CornerSide& side, const Point<3>& x) const {
     std::vector<Point<3>> ways{{}};
     for (const Point<3>& sample : side.samples) {
@@ -246,7 +249,8 @@ class CornerFinder {
     return ways;
   }
 
-  // One of each side whose normal is found at that distance from x.
+  // Returns a tangent plane of each side at distance `reach` from x. Stops at the first side whose
+  // normal is not found.
   std::vector<Plane> planes_around(const Point<3>& x, double reach) {
     std::vector<Plane> planes;
     for (CornerSide& side : sides_) {

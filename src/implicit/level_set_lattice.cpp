@@ -13,14 +13,14 @@ namespace pnpbs {
 
 namespace {
 
-constexpr int kFirstCells = 32;  // in the longest direction, from which the octree begins
+constexpr int kFirstCells = 32;  // cells of the coarsest lattice along the longest direction
 constexpr std::size_t kMaxCells = std::size_t{1} << 27;
-// A cell may have f = 0 in it if f in its centre is no more than this times the largest difference
-// to a corner. Of a linear f 1 is enough, and so it is of a distance.
+// A cell may contain f = 0 if |f| at its centre is at most this times the largest difference to a
+// corner. 1 is enough for linear functions and for distances.
 constexpr double kMargin = 1.5;
 
-// Parts of a cell by which the lattice is shifted in each direction, so that its planes and points
-// are not where people put surfaces: cells at the ends of the box are shorter.
+// Shift of the lattice in each direction [cell], so that its planes do not coincide with surfaces
+// at round coordinates. Cells at the ends of the box are shorter.
 constexpr Point<3> kShift{0.38196601125, 0.27639320225, 0.44721359550};
 
 bool negative(double f) { return f < 0; }
@@ -80,7 +80,7 @@ LatticePlace LevelSetLattice::centre(const LatticePlace& cell, int depth) const 
   return at;
 }
 
-// ------------------------------------------------------------------ from depth to depth --------
+// ------------------------------------------------------------------ refinement -----------------
 
 LevelSetLattice::Depth LevelSetLattice::coarsest() const {
   Depth first{0, {}, {}, {}};
@@ -112,7 +112,7 @@ LevelSetLattice::Depth LevelSetLattice::next(const Depth& coarser) const {
   return finer;
 }
 
-// Those that were not judged yet.
+// Evaluates the new cells.
 void LevelSetLattice::judge(Depth& at) {
   const std::size_t begin = at.crossed.size();
   if (begin == 0) samples_.clear();
@@ -133,7 +133,7 @@ void LevelSetLattice::judge(Depth& at) {
   }
 }
 
-// Along the surface: across every face in which signs differ there is a cell.
+// Follows the surface: adds the neighbour across every face with different signs.
 void LevelSetLattice::flood(Depth& at) {
   std::unordered_set<std::uint64_t> there(at.cells.begin(), at.cells.end());
   for (std::size_t begin = 0; begin < at.cells.size();) {
@@ -159,7 +159,7 @@ void LevelSetLattice::flood(Depth& at) {
   }
 }
 
-// A face of the border is not: there f is nowhere negative.
+// A face on the border is never crossed, since f is nowhere negative there.
 bool LevelSetLattice::face_crossed(const LatticePlace& cell, int depth, std::size_t axis,
                                    bool high) const {
   int below = 0;
@@ -169,7 +169,7 @@ bool LevelSetLattice::face_crossed(const LatticePlace& cell, int depth, std::siz
   return below > 0 && below < 4;
 }
 
-// ------------------------------------------------------------------ asking f -------------------
+// ------------------------------------------------------------------ evaluation of f -----------
 
 void LevelSetLattice::sample(int depth, std::span<const std::uint64_t> cells) {
   std::vector<std::uint64_t> wanted;

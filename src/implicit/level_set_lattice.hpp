@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of a lattice that the surface of a level set goes through. They are found on an octree:
-// cells are cut in eight where the signs of f at corners and centre differ, where the differences
-// of f there say that it may be 0 between, and next to a face in which signs differ. So f is asked
-// near the surface only, and small bodies far from others can be missed where f does not fall
-// towards them. Where the box has no extent in z, they are squares of a lattice in the plane.
+// Finds the cells of a lattice that the surface of a level set crosses, by an octree. A cell is
+// divided if f has different signs at its corners and centre, if their differences indicate that f
+// may be 0 inside, or next to a face with different signs. So f is evaluated only near the surface.
+// Small bodies far from others can be missed if f does not decrease towards them. If the box has no
+// extent in z, cells are squares of a plane lattice.
 #pragma once
 
 #include <array>
@@ -17,33 +17,35 @@
 
 namespace pnpbs {
 
-// Coordinates of a lattice point, or of a cell by its lowest corner.
+// Index triple of a lattice point, or of a cell by its lowest corner.
 using LatticePlace = std::array<std::int32_t, 3>;
 
+// The crossed cells of the lattice, with f at their corners.
 class LevelSetLattice {
  public:
-  // Throws Error(ErrorKind::domain) if f is negative nowhere, or on the border of the box.
+  // Evaluates f. Throws Error(ErrorKind::domain) if f is negative nowhere, or on the border of the
+  // box.
   explicit LevelSetLattice(const LevelSet& set);
 
-  // Those of the finest cells that have corners with f < 0 and others, in a fixed order.
+  // Returns the finest cells with f < 0 at some corners but not at all, in a fixed order.
   const std::vector<LatticePlace>& crossed() const { return crossed_; }
   Point<3> position(const LatticePlace& place) const;
-  // At a corner of a crossed cell.
+  // Returns f at a corner of a crossed cell.
   double value(const LatticePlace& place) const { return samples_.at(key(place)); }
 
-  // Distinct for places with coordinates from 0 to 2^20.
+  // Returns a key that is unique for indices from 0 to 2^20.
   static std::uint64_t key(const LatticePlace& place) {
     return std::uint64_t(place[2]) << 42 | std::uint64_t(place[1]) << 21 | std::uint64_t(place[0]);
   }
   static LatticePlace place(std::uint64_t key);
 
  private:
-  // Of the cells of one depth, whose sides are 2^depth lattice steps: but for those at the far ends
-  // of the box, which it may cut off.
+  // The cells of one depth. Their sides have 2^depth lattice steps, except where the far end of the
+  // box cuts them.
   struct Depth {
     int depth;
     std::vector<std::uint64_t> cells;
-    std::vector<char> crossed, near;  // near: f may be 0 in it
+    std::vector<char> crossed, near;  // near: f may be 0 in the cell
   };
 
   bool is_flat(std::size_t axis) const;
@@ -59,7 +61,7 @@ class LevelSetLattice {
   void reject_border(const LatticePlace& place) const;
 
   const LevelSet& set_;
-  LatticePlace cells_;  // in each direction
+  LatticePlace cells_;  // number of cells in each direction
   std::unordered_map<std::uint64_t, double> samples_;
   std::size_t asked_ = 0;
   std::vector<LatticePlace> crossed_;

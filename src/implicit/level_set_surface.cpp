@@ -16,11 +16,12 @@ namespace pnpbs {
 
 namespace {
 
-// In units of the resolution: vertices so near a lattice point are one. Where the surface goes
-// through it they are at the same place, but for rounding.
+// Distance within which vertices at a lattice point are joined. [resolution] Where the surface
+// passes through the point, they coincide up to rounding.
 constexpr double kOneVertex = 1e-6;
 
-// A lattice edge with f < 0 at one end only, by its middle in half steps of the lattice.
+// Returns the key of a lattice edge with f < 0 at one end: its midpoint in half steps of the
+// lattice.
 std::uint64_t edge_key(const LatticePlace& a, const LatticePlace& b) {
   return LevelSetLattice::key({a[0] + b[0], a[1] + b[1], a[2] + b[2]});
 }
@@ -40,8 +41,8 @@ struct CellTetrahedron {
   std::array<bool, 4> negative;
 };
 
-// Calls visit(tetrahedron) for the six of each crossed cell: from its lowest corner to its highest,
-// one axis after the other, in every order of the axes.
+// Calls visit(tetrahedron) for the six tetrahedra of each crossed cell. Each goes from the lowest
+// corner to the highest along the three axes in one of their orders.
 template <class Visit>
 void for_tetrahedra(const LevelSetLattice& lattice, const Visit& visit) {
   constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
@@ -60,9 +61,11 @@ void for_tetrahedra(const LevelSetLattice& lattice, const Visit& visit) {
     }
 }
 
-using Polygon = std::vector<std::uint64_t>;  // of vertices on edges, as seen from outside
+// Keys of edges, counter-clockwise as seen from outside.
+using Polygon = std::vector<std::uint64_t>;
 
-// Where the surface cuts a tetrahedron: in three edges, in four or not at all.
+// Returns the polygon in which the surface cuts a tetrahedron: with three or four vertices, or
+// empty.
 Polygon cut(const CellTetrahedron& t) {
   std::vector<std::size_t> in, out;
   for (std::size_t k = 0; k < 4; ++k) (t.negative[k] ? in : out).push_back(k);
@@ -72,7 +75,7 @@ Polygon cut(const CellTetrahedron& t) {
   int inversions = 0;
   for (std::size_t a = 0; a < 4; ++a)
     for (std::size_t b = a + 1; b < 4; ++b) inversions += order[a] > order[b] ? 1 : 0;
-  if (inversions % 2 == 1)  // right-handed again, within those of one sign
+  if (inversions % 2 == 1)  // restores right-handedness among corners of one sign
     in.size() < 3 ? std::swap(order[2], order[3]) : std::swap(order[0], order[1]);
   const auto edge = [&](std::size_t a, std::size_t b) {
     return edge_key(t.corners[order[a]], t.corners[order[b]]);
@@ -84,7 +87,7 @@ Polygon cut(const CellTetrahedron& t) {
 
 // ------------------------------------------------------------------ vertices -------------------
 
-// The zeros of f on edges of the lattice, and which of them are one vertex.
+// The zeros of f on edges of the lattice, with zeros near a common lattice point joined.
 class EdgeVertices {
  public:
   EdgeVertices(const LevelSet& set, const LevelSetLattice& lattice,
@@ -106,7 +109,7 @@ class EdgeVertices {
   }
   const std::vector<Point<3>>& positions() const { return positions_; }
 
-  // No longer one: those that were joined to these vertices. Says whether there were any.
+  // Separates zeros that were joined into these vertices. Returns true if there were any.
   bool take_apart(const std::vector<std::int32_t>& vertices) {
     const std::size_t before = apart_.size();
     for (const std::int32_t v : vertices) {
@@ -119,12 +122,12 @@ class EdgeVertices {
   }
 
  private:
-  // The first of those that are one counts.
+  // Numbers the vertices. A joined vertex has the position of its first zero.
   void join() {
     of_.clear();
     positions_.clear();
     point_of_.clear();
-    std::unordered_map<std::uint64_t, std::int32_t> at;  // lattice points
+    std::unordered_map<std::uint64_t, std::int32_t> at;  // vertex at each lattice point
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       auto vertex = static_cast<std::int32_t>(positions_.size());
       Point<3> zero = zeros_[e];
@@ -143,7 +146,7 @@ class EdgeVertices {
     }
   }
 
-  // As far along the edge as vertices must be that are not one.
+  // Returns the zero moved along its edge to the least distance of vertices that are not joined.
   Point<3> moved_off(const LatticePlace& end, std::size_t e) const {
     const auto [low, high] = ends_of(edges_[e]);
     const Point<3> from = lattice_.position(end);
@@ -154,10 +157,10 @@ class EdgeVertices {
   const LevelSetLattice& lattice_;
   const std::vector<std::uint64_t>& edges_;
   double near_;
-  std::vector<Point<3>> zeros_;                               // of each edge
-  std::unordered_set<std::uint64_t> apart_;                   // lattice points
-  std::unordered_map<std::int32_t, std::uint64_t> point_of_;  // of vertices, where they were joined
-  std::vector<std::int32_t> of_;                              // of each edge
+  std::vector<Point<3>> zeros_;              // per edge
+  std::unordered_set<std::uint64_t> apart_;  // lattice points at which zeros are not joined
+  std::unordered_map<std::int32_t, std::uint64_t> point_of_;  // lattice point of each joined vertex
+  std::vector<std::int32_t> of_;                              // vertex of each edge
   std::vector<Point<3>> positions_;
 };
 
@@ -174,14 +177,15 @@ Triangles triangles_on(const LevelSetLattice& lattice, const EdgeVertices& verte
     for (const std::uint64_t edge : cut(t))
       if (v.empty() || v.back() != vertex(edge)) v.push_back(vertex(edge));
     if (v.size() > 1 && v.front() == v.back()) v.pop_back();
-    if (v.size() == 4 && gap(v[1], v[3]) < gap(v[0], v[2]))  // along the shorter diagonal
+    if (v.size() == 4 && gap(v[1], v[3]) < gap(v[0], v[2]))  // divide along the shorter diagonal
       std::rotate(v.begin(), v.begin() + 1, v.end());
     for (std::size_t k = 2; k < v.size(); ++k) triangles.push_back({v[0], v[k - 1], v[k]});
   });
   return triangles;
 }
 
-// The ends of sides that are not of two triangles which turn against each other.
+// Returns the vertices of sides that do not belong to exactly two triangles of consistent
+// orientation.
 std::vector<std::int32_t> ends_of_bad_sides(const Triangles& triangles) {
   std::vector<std::array<std::int32_t, 2>> sides;
   for (const auto& t : triangles)
@@ -209,8 +213,7 @@ SurfaceSource level_set_surface(const LevelSet& set, std::int32_t tag) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   EdgeVertices vertices(set, lattice, edges);
   SurfaceSource surface;
-  // Where only some of the vertices about a lattice point are near enough to be one, the surface
-  // may be pinched.
+  // If only some of the zeros around a lattice point are joined, the surface may be pinched there.
   do {
     surface.triangles = triangles_on(lattice, vertices);
   } while (vertices.take_apart(ends_of_bad_sides(surface.triangles)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface of a level set as triangles, closed and two-sided: each crossed cell of the lattice
-// is cut into six tetrahedra around its diagonal, which conform from cell to cell, and these are
-// cut where f = 0.
+// Triangulates the surface of a level set; the result is closed and two-sided. Each crossed cell of
+// the lattice is divided into six tetrahedra around its diagonal, which conform between cells, and
+// the tetrahedra are cut at f = 0.
 #pragma once
 
 #include "implicit/level_set.hpp"
@@ -9,8 +9,9 @@
 
 namespace pnpbs {
 
-// Vertices are where f = 0, triangles within the order of the resolution squared of it. Sharp edges
-// are cut off: see level_set_creases.hpp. Throws Error(ErrorKind::domain).
+// Returns triangles with vertices at f = 0. They are within the order of the squared resolution of
+// the surface, but cut off sharp edges, which level_set_creases.hpp restores. Throws
+// Error(ErrorKind::domain).
 SurfaceSource level_set_surface(const LevelSet& set, std::int32_t tag);
 
 }  // namespace pnpbs

@@ -36,13 +36,13 @@ using TriangleList = std::vector<FacetCorners<3>>;
 using Nearest = NearestTriangles::Nearest;
 
 struct Sample {
-  Point<3> x, normal;  // unit, of the triangle
-  double area;         // that it stands for; 0 of corners
+  Point<3> x, normal;  // unit normal of the triangle
+  double area;         // area that the sample represents; 0 for corners
 };
 
 double area_of(const FacetCorners<3>& triangle) { return length(area_normal(triangle)); }
 
-// The middles of pieces no longer than `apart`, made by halving the longest edge.
+// Adds the centroids of pieces with edges of at most `apart`, made by halving the longest edge.
 void add_middles(const FacetCorners<3>& triangle, const Point<3>& normal, double apart,
                  std::vector<Sample>& samples) {
   std::array<double, 3> square;  // of the edge from corner k to the next
@@ -78,12 +78,12 @@ struct PointHash {
   }
 };
 
-// Finds the nearest point of the triangles for each sample. A corner is a sample of every triangle
-// around it, and is searched for once.
+// Returns the nearest point of the triangles for each sample. A corner is a sample of every
+// triangle around it but is searched for once.
 std::vector<Nearest> nearest_to(const std::vector<Sample>& samples,
                                 const NearestTriangles& triangles) {
   std::vector<Point<3>> points;
-  std::vector<std::size_t> point_of;  // of each sample
+  std::vector<std::size_t> point_of;  // per sample
   std::unordered_map<Point<3>, std::size_t, PointHash> corners;
   for (const Sample& sample : samples) {
     const bool is_new = sample.area > 0 || corners.try_emplace(sample.x, points.size()).second;
@@ -107,10 +107,10 @@ TriangleList triangles_of(const SurfaceSource& surface) {
   return triangles;
 }
 
-// Does the way to the nearest point run along the surface rather than off it? So it does where a
-// hole is closed: what is nearest lies beside.
+// Returns true if the vector to the nearest point is closer to the surface than to its normal. The
+// new surface closes a hole there, because the nearest given point lies beside it.
 bool closes_a_hole(const Sample& sample, const Nearest& nearest, double resolution) {
-  constexpr double kNoWay = 1e-3;  // resolutions: rounding has no direction
+  constexpr double kNoWay = 1e-3;  // [resolution]; shorter vectors have no direction
   if (nearest.square < kNoWay * kNoWay * resolution * resolution) return false;
   const Point<3> way = difference(nearest.point.x, sample.x);
   const double off = dot(way, sample.normal);
@@ -143,7 +143,7 @@ void measure_given(const std::vector<Sample>& samples, const std::vector<Nearest
   found.lost = all > 0 ? lost / all : 0;
 }
 
-// Measures the distances between a repaired body and the triangles it was made from.
+// Measures the distances between a repaired body and the triangles from which it was made.
 RepairDistances distances_of_repair(const NearestTriangles& given, const SurfaceSource& made,
                                     double resolution) {
   RepairDistances found{.resolution = resolution};
@@ -155,24 +155,25 @@ RepairDistances distances_of_repair(const NearestTriangles& given, const Surface
   return found;
 }
 
-// A closed piece of a surface.
+// A closed component of a surface.
 struct ClosedPiece {
-  std::int32_t first = -1;  // of its vertices
+  std::int32_t first = -1;  // first of its vertices
   double volume = 0, area = 0;
 
   double thickness() const { return 2 * std::fabs(volume) / area; }
 };
 
-// Takes out the pieces, bodies and cavities, that are thinner than `least` in the mean, by twice
-// their volume over their area; with a warning. The lattice of a level set finds such ones here and
-// not there: they are crumbs of sheets that enclose nothing.
+// Removes components, bodies or cavities, whose mean thickness is less than `least`, with a
+// warning. The mean thickness is twice the volume over the area. Such components are fragments of
+// open sheets, which the lattice of a level set finds only in parts.
 void remove_thin_pieces(SurfaceSource& surface, double least) {
   UnionFind<std::int32_t> joined(surface.vertices.size());
   for (const auto& [a, b, c] : surface.triangles) {
     joined.join(a, b);
     joined.join(b, c);
   }
-  // Seen from a vertex of its own: far from the origin volumes would round away.
+  // Volumes are relative to a vertex of the component, because rounding would dominate far from the
+  // origin.
   std::vector<ClosedPiece> pieces(surface.vertices.size());
   for (const auto& [a, b, c] : surface.triangles) {
     ClosedPiece& piece = pieces[index(joined.root(a))];
@@ -218,10 +219,10 @@ bool is_none(const SurfaceTriangle& triangle) {
   return a == b || b == c || c == a;
 }
 
-// The triangles over common vertices: those within the tolerance of each other are one. What
-// thereby has no area left is gone, and of triangles with the same corners, whichever way they
-// turn, the first stays: a second one would hide at its edges who is next to whom, and one that
-// turns the other way would cancel the first.
+// Returns the triangles over common vertices: vertices within the tolerance are welded, and
+// triangles without area are removed. Of triangles with the same corners, in any orientation, only
+// the first is kept. A second one would hide the neighbours at its edges, and one of opposite
+// orientation would cancel the first.
 Triangulation joined_soup(const std::vector<SurfaceSource>& given, double tolerance) {
   Triangulation surface = join_surfaces(given);
   weld(surface, tolerance);
@@ -234,15 +235,15 @@ Triangulation joined_soup(const std::vector<SurfaceSource>& given, double tolera
   return surface;
 }
 
-// In units of the resolution: nearer than that to triangles, their sides tell what is inside.
+// Distance from triangles within which their sides determine the inside. [resolution]
 constexpr double kNear = 2;
-// Vertices that are so near are one: scanners and converters leave seams of rounding, across which
-// triangles would not know their neighbours.
+// Distance within which vertices are welded. [resolution] Scanners and converters leave seams of
+// rounding, across which triangles would not be neighbours.
 constexpr double kWelded = 1e-3;
-// Pieces thinner than that are none: no lattice of this resolution finds them as they are.
+// Least mean thickness of components. [resolution] A lattice does not resolve thinner ones.
 constexpr double kThin = 0.5;
 
-// Around what their triangles use.
+// Returns a box around the vertices that triangles use.
 Box<3> box_around(const std::vector<SurfaceSource>& surfaces) {
   Box<3> box = empty_box<3>();
   for (const SurfaceSource& surface : surfaces)
@@ -259,12 +260,12 @@ std::vector<FacetCorners<3>> corners_of(const Triangulation& surface) {
   return triangles;
 }
 
-// Negative where the triangles wind around a point more than half a time, whichever way. It is the
-// distance from them, signed, as long as they are closed; where there is a hole it fades out
-// towards the place where they wind half a time around, so that it has no jump there.
+// A function that is negative where the absolute winding number exceeds 1/2. Near closed parts it
+// is the signed distance to the triangles. Near a hole it decreases to 0 where the winding number
+// is 1/2, so it has no jump there.
 class RepairFunction {
  public:
-  // Nearer than `near` the sides of triangles count where they are known.
+  // Within `near` of a triangle, its side determines the sign if it is known.
   RepairFunction(const Triangulation& surface, const SurfaceEdges& edges, double near)
       : nearest_(corners_of(surface)),
         winding_(nearest_.triangles()),
@@ -319,8 +320,8 @@ SurfaceSource surface_of(const LevelSet& set, std::int32_t tag) {
   return surface;
 }
 
-// The surface is well inside of it: beyond the triangles' convex hull they wind less than half a
-// time around.
+// Returns the box with a margin. The surface lies well inside, because the winding number is less
+// than 1/2 outside the convex hull of the triangles.
 Box<3> roomy(Box<3> box, double resolution) {
   for (std::size_t k = 0; k < 3; ++k) {
     box.low[k] -= 2 * resolution;

@@ -10,25 +10,26 @@ namespace pnpbs {
 
 namespace {
 
-// A leaf is at most four d wide, and at least two where d allows: then cells are half to one d.
+// Number of cells across a leaf. Leaves are at most 4 d wide, and at least 2 d where d allows this,
+// so cells are d/2 to d wide.
 constexpr int kCellsAcross = 4;
 template <int Dim>
 constexpr int kCellsPerLeaf = 1 << (2 * Dim);
 
-// Two bits of the place in Morton order, from bit k on: where the cell is along axis k.
+// Returns the coordinate along axis k of a cell, from its index in Morton order.
 template <int Dim>
 int column_of(int place, int k) {
   return ((place >> k) & 1) | (((place >> (k + Dim)) & 1) << 1);
 }
 
-// No lattice of one d fits such a leaf.
+// Returns true if d varies too much in the leaf for a lattice of constant spacing.
 template <int Dim>
 bool is_steep(const SizedTree<Dim>& map, std::int32_t leaf) {
   return !map.leaf_outside(leaf) &&
          map.leaf_max_spacing(leaf) > method::kPatchVariation * map.leaf_min_spacing(leaf);
 }
 
-// In units of 2^-32.
+// Returns the number of nodes that d requires in a cell. [2^-32]
 template <int Dim>
 std::int64_t wanted_in_cell(double side, double d) {
   double wanted = Lattice<Dim>::kDensity;
@@ -36,7 +37,8 @@ std::int64_t wanted_in_cell(double side, double d) {
   return fixed_point(wanted);
 }
 
-// The n-th of `count` places in a cell: its centre, or along its diagonal.
+// Returns node n of `count` in a cell. Nodes are evenly spaced on its diagonal; a single one is at
+// the centre.
 template <int Dim>
 Point<Dim> on_diagonal(double side, const Point<Dim>& centre, int n, int count) {
   const double off = side * ((n + 0.5) / count - 0.5);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Initial inner nodes where d grows so fast that no lattice fits: leaves of the background tree are
-// cut into cells of about d, and along their Morton order a node comes wherever the sum of the
-// nodes that d asks for passes a whole number. So the density is right from cell to cell, which the
-// population control would take long to mend; the distances settle in a few steps.
+// Places initial inner nodes where d grows too fast for a lattice. Leaves of the background tree
+// are divided into cells about as wide as d. The number of nodes that d requires is summed over the
+// cells in Morton order, and a node is placed where the sum passes an integer. The density is then
+// right cell by cell, which population control would need long to correct; distances settle in a
+// few steps.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +14,20 @@
 
 namespace pnpbs {
 
+// A fill of the leaves in which d varies too much for a lattice.
 template <int Dim>
 class GradedFill {
  public:
-  // Of the leaves that lattice_fill leaves out, as d varies too much in them, and for which
-  // wanted(leaf) holds.
+  // Divides those leaves that lattice_fill() omits and for which wanted(leaf) is true.
   GradedFill(const SizedTree<Dim>& map, const std::function<bool(std::int32_t)>& wanted);
 
-  // The centres of the cells in the domain, and d there, which is asked by the caller.
+  // Returns the centres of the cells in the domain. The caller evaluates d there.
   const std::vector<Point<Dim>>& centres() const { return centres_; }
-  // Nodes wanted in each leaf of the tree, in units of 2^-32: sums of these that come out the same
-  // in any order. Their sums over the leaves before a leaf are what `place` begins with.
+  // Returns the number of nodes wanted in each leaf of the tree, in units of 2^-32, so that sums do
+  // not depend on their order. `d` has the values at centres().
   std::vector<std::int64_t> wanted_nodes(const std::vector<double>& d) const;
+  // Returns the nodes. `before` has for each leaf the sum of wanted nodes over all leaves before
+  // it, over all ranks.
   std::vector<Point<Dim>> place(const std::vector<double>& d,
                                 const std::vector<std::int64_t>& before) const;
 
@@ -32,7 +35,7 @@ class GradedFill {
   struct Leaf {
     std::int32_t leaf;
     double cell_side;
-    std::size_t first, end;  // its cells
+    std::size_t first, end;  // range of its cells in centres_
   };
 
   const SizedTree<Dim>& map_;

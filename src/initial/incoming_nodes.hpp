@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes on their way into a level.
+// Nodes that a new level takes over.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace pnpbs {
 
-// A node as the user gives it, as a fill lays it, or as it comes from an earlier level.
+// A node given by the user, created by a fill, or taken from an earlier level.
 template <int Dim>
 struct IncomingNode;
 
 template <>
 struct IncomingNode<2> {
   Point<2> position;
-  std::int64_t id;         // -1: give it one
-  bool inner = true;       // a boundary node is laid afresh; one that was there keeps its id
-  std::int32_t leaf = -1;  // of the level, once found
-  double d = 0;            // spacing it was placed for; 0 if not known
+  std::int64_t id;         // -1: to be assigned
+  bool inner = true;       // false for boundary nodes, which are placed anew but keep their ids
+  std::int32_t leaf = -1;  // leaf of the level's tree; -1: not yet known
+  double d = 0;            // spacing that it was placed for; 0: not known
 
   bool is_inner() const { return inner; }
 };
@@ -31,7 +31,7 @@ struct IncomingNode<3> {
   Point<3> position;
   std::int64_t id;
   Carrier carrier = Carrier::free;
-  std::int32_t boundary_node = -1;  // see Ground<3>
+  std::int32_t boundary_node = -1;  // see LevelGeometry<3>
   std::int32_t tag = 0;
   std::int32_t leaf = -1;
   double d = 0;
@@ -39,8 +39,8 @@ struct IncomingNode<3> {
   bool is_inner() const { return carrier == Carrier::free; }
 };
 
-// Leaves the entries of a vector of a given size as they are: all threads write them, and so share
-// the cost of touching new memory, which is most of the cost of such a vector.
+// An allocator that leaves new entries uninitialized. Threads then write them in parallel and share
+// the cost of first touching the memory, which dominates for such vectors.
 template <class T>
 struct UnsetAllocator : std::allocator<T> {
   template <class U>

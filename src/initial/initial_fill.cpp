@@ -14,11 +14,11 @@
 namespace pnpbs {
 namespace {
 
-// The lattice that fills the plane: rows of nodes d apart, every second one shifted by half a step.
+// The hexagonal lattice of the plane: rows of nodes d apart, with every second row shifted by d/2.
 class HexagonalRows {
  public:
-  // Anchored in the corner of the box. One lattice for the whole domain is stretched a little so
-  // that rows end on its box.
+  // The origin is the low corner of the box. If one lattice fills the whole domain, it is stretched
+  // slightly so that rows end at the sides of the box.
   HexagonalRows(double d, const Box<2>& bounds, bool whole)
       : low_(bounds.low), step_(d), row_(d * std::sqrt(0.75)) {
     if (!whole) return;
@@ -26,7 +26,7 @@ class HexagonalRows {
     row_ = fitted(row_, bounds.high[1] - bounds.low[1]);
   }
 
-  // Calls visit(x) for all nodes in the box, and some next to it.
+  // Calls visit(x) for all nodes in the box and for some beside it.
   template <class Visit>
   void for_nodes(const Box<2>& box, const Visit& visit) const {
     const auto first_row = static_cast<std::int64_t>(std::ceil((box.low[1] - low_[1]) / row_)) - 1;
@@ -50,8 +50,8 @@ class HexagonalRows {
   }
 
   Point<2> low_;
-  double step_;  // between nodes of a row
-  double row_;   // between rows
+  double step_;  // distance between nodes of a row
+  double row_;   // distance between rows
 };
 
 template <int Dim>
@@ -92,7 +92,7 @@ class Fill {
   }
 
  private:
-  // Children in Morton order; `patch` is the lattice of the patch we are in, if any.
+  // Visits the children in Morton order. `patch` is the lattice of the enclosing patch, or null.
   void descend(std::int32_t c, const FillLattice<Dim>* patch) {
     const BackgroundTree<Dim>& tree = map_.tree();
     const SpacingSummary<Dim>& own = cells_[static_cast<std::size_t>(c)];
@@ -102,7 +102,7 @@ class Fill {
     if (!patch && nearly_constant(own)) patch = &begin_patch(lattice, own.spacing(), c == 0);
     if (leaf) {
       const std::int32_t here = tree.cell(c).leaf;
-      if (patch && wanted_(here)) fill_leaf(here, *patch);  // others are graded_fill's
+      if (patch && wanted_(here)) fill_leaf(here, *patch);  // GradedFill fills the other leaves
     } else {
       for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k)
         descend(tree.cell(c).first_child + k, patch);
@@ -115,8 +115,9 @@ class Fill {
     if constexpr (Dim == 3) return lattice.emplace(d, bounds_, whole, stretched_);
   }
 
-  // Whose a node on the border of two leaves is, fine_box_holds alone decides: by the arithmetic
-  // of leaf_at, which numbers the nodes and gives them their ranks. The box differs in last digits.
+  // Only fine_box_holds() decides to which leaf a node on a common border belongs. It uses the same
+  // arithmetic as leaf_at(), which determines ids and ranks of nodes; the floating-point box may
+  // differ in the last digits.
   void fill_leaf(std::int32_t leaf, const FillLattice<Dim>& lattice) {
     const BackgroundTree<Dim>& tree = map_.tree();
     const Box<Dim> fine_box = tree.fine_box(leaf);
@@ -130,7 +131,7 @@ class Fill {
     });
   }
 
-  // May a facet come that near to a point of the leaf?
+  // Returns true if a facet may come within `reach` of a point of the leaf.
   bool facets_near(std::int32_t leaf, double reach) const {
     constexpr double kRoom = 1 + 1e-6;
     const std::int32_t c = map_.tree().leaf_cell(leaf);

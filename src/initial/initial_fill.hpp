@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Initial inner nodes (section 2.1 of the paper): a lattice, in the plane of rhombic cells of 60
-// and 120 degrees, in space of cubic cells. Where d varies, patches of the background tree over
-// which it is nearly constant each have their own lattice, all of one orientation and anchored in
-// one point.
+// Places initial inner nodes (section 2.1 of the paper) on a lattice: rhombic cells of 60 and 120
+// degrees in the plane, cubic cells in space. Where d varies, each patch of the background tree in
+// which d is nearly constant has its own lattice. All lattices have the same orientation and
+// origin.
 #pragma once
 
 #include <cstdint>
@@ -15,32 +15,35 @@
 
 namespace pnpbs {
 
-// d in a cell of the tree, put together from its leaves.
+// The spacing in a cell of the tree, accumulated over its leaves.
 template <int Dim>
 struct SpacingSummary {
   double min = std::numeric_limits<double>::infinity();
   double max = 0;
-  // Area or volume of the leaves in the domain, and their nodes in units of 1 per d^Dim.
+  // Area or volume of the leaves in the domain, and the number of nodes there in units of 1 per
+  // d^Dim.
   double measure = 0, nodes = 0;
 
   void add(const SpacingSummary& part);
+  // Returns the constant spacing that gives the same number of nodes.
   double spacing() const { return root<Dim>(measure / nodes); }
 };
 
-// What is known of a leaf at which the tree ends before it is fine enough.
+// The spacing in a leaf at which the local tree ends before it is fine enough.
 template <int Dim>
 struct LeafSummary {
   std::int32_t leaf;
   SpacingSummary<Dim> spacing;
 };
 
-// Of every cell of the tree, from the leaves up.
+// Returns the summaries of all cells of the tree, accumulated from the leaves upwards.
 template <int Dim>
 std::vector<SpacingSummary<Dim>> spacing_summaries(const SizedTree<Dim>& map,
                                                    const std::vector<LeafSummary<Dim>>& unrefined);
 
-// Of the leaves for which wanted(leaf) holds and that are not steep, in their Morton order. In
-// space the lattice is stretched to fit the domain's box, or else is as dense as d says.
+// Returns lattice nodes in the leaves for which wanted(leaf) is true and in which d does not vary
+// too much, in Morton order of the leaves. In space, a single lattice is stretched to fit `bounds`
+// if `stretched`, else it has exactly the density that d requires.
 template <int Dim>
 std::vector<Point<Dim>> lattice_fill(const SizedTree<Dim>& map, const Box<Dim>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,

@@ -23,13 +23,13 @@ namespace {
 using given_values::reject;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-// The resolution, unless given, in units of the least d. In space nodes are put where f = 0; in the
-// plane they lie on chords.
+// Default resolution. [smallest d] It is finer in the plane, where nodes lie on chords of the level
+// curves; in space nodes are projected to f = 0.
 template <int Dim>
 constexpr double kFineness = Dim == 2 ? 0.125 : 0.5;
-constexpr double kRoom = 2;  // beyond the body, in units of the resolution
-// Smaller loops in the plane hold no particle, or several that are too close together: in units of
-// d, and of the resolution.
+constexpr double kRoom = 2;  // margin of the box around the body [resolution]
+// Smallest extent of loops in the plane. [d, resolution] Smaller ones have room for no particle, or
+// only for particles that are too close.
 constexpr double kSmallestLoop = 0.5, kSmallestLoopOnLattice = 2;
 
 template <int Dim>
@@ -63,7 +63,7 @@ class OffsetFunction {
     resolution_ = offset_.resolution > 0 ? offset_.resolution : suitable_resolution(least);
   }
 
-  // Negative between the limits, and where they are not far nearly a distance.
+  // Evaluates f: negative between the limits, and approximately a distance near them.
   void operator()(std::int64_t n, const Point<Dim>* x, double* f) const {
     const std::vector<double> d = spacing_at(n, x);
     for_each_if_started("pnpbs::shape::offset", n, [&](std::int64_t i) {
@@ -75,7 +75,7 @@ class OffsetFunction {
 
   double resolution() const { return resolution_; }
 
-  // Is what lies in this box large enough?
+  // Returns true if a loop with this bounding box is large enough.
   bool is_worth_keeping(const Box<Dim>& box) const {
     double smallest = kSmallestLoopOnLattice * resolution_;
     const Point<Dim> middle = middle_of<Dim>(box.low, box.high);
@@ -83,7 +83,7 @@ class OffsetFunction {
     return size_of(box) >= smallest;
   }
 
-  // In which the body lies, with some room about it.
+  // Returns a box that contains the offset body, with a margin.
   Box<Dim> box() const {
     const double room = kRoom * resolution_;
     if (offset_.high <= 0) return widened(distance_->bounds(), room);
@@ -99,7 +99,7 @@ class OffsetFunction {
   }
 
  private:
-  // least: d at the boundary.
+  // Returns the default resolution. `least` is the smallest d at the boundary.
   double suitable_resolution(double least) const {
     if (offset_.spacing) return kFineness<Dim> * least;
     least = kNoLimit;
@@ -116,7 +116,7 @@ class OffsetFunction {
     return d;
   }
 
-  // Of the pieces that bound the body.
+  // Returns d at the corners of the boundary pieces.
   std::vector<double> spacing_at_corners() const {
     std::vector<Point<Dim>> corners;
     for (const ShapePiece<Dim>& piece : distance_->shape())
@@ -126,7 +126,7 @@ class OffsetFunction {
 
   std::shared_ptr<const SignedDistance<Dim>> distance_;
   Offset<Dim> offset_;
-  double most_, resolution_;  // d at the boundary
+  double most_, resolution_;  // largest d at the boundary, and resolution of the level set
 };
 
 Box<2> box_of(const std::vector<LevelCurve>& loop) {
@@ -150,7 +150,7 @@ void add_offset(PlaneDomain& domain, const PlaneDomain& body, const Offset<2>& o
         f(n, flat.data(), values);
       },
       {{box.low[0], box.low[1], 0}, {box.high[0], box.high[1], 0}}, f.resolution());
-  constexpr double kNoCorners = 180;  // but the ends of the curves
+  constexpr double kNoCorners = 180;  // [degrees] only ends of curves are corners
   for (const std::vector<LevelCurve>& loop : level_curves(set)) {
     if (!f.is_worth_keeping(box_of(loop))) continue;
     for (const LevelCurve& curve : loop) {

@@ -15,7 +15,7 @@ namespace pnpbs {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A wedge of twice this angle is a corner, and no gap.
+// A wedge of twice this angle counts as a corner and not as a gap.
 constexpr double kCosAhead = 0.93969262078590838, kSinAhead = 0.34202014332566873;  // 20 degrees
 constexpr double kCosFacing = 0.70710678118654752;                                  // 45 degrees
 constexpr double kCosNear = 0.5;                                                    // 60 degrees
@@ -56,7 +56,7 @@ bool share_one(const std::array<std::int32_t, Size>& a, const std::array<std::in
   return std::ranges::find_first_of(a, b) != a.end();
 }
 
-// May anything of the box lie within the angle ahead?
+// Returns true if a part of the box may lie within the angle ahead.
 template <int Dim>
 bool may_be_ahead(const Box<Dim>& box, const typename ShapeIndex<Dim>::Place& place) {
   const Point<Dim> middle = away<Dim>(box.low, 0.5, way_from<Dim>(box.low, box.high)),
@@ -107,7 +107,7 @@ std::vector<std::int32_t> ShapeIndex<Dim>::tags() const {
 
 template <int Dim>
 Point<Dim> ShapeIndex<Dim>::nearest_of(const Selection& selection, const Point<Dim>& x) const {
-  constexpr double kRounding = 1 + 1e-12;  // lest one equally near is missed
+  constexpr double kRounding = 1 + 1e-12;  // so that boxes equally near are visited
   double best = kInfinity;
   Point<Dim> nearest;
   nearest.fill(kInfinity);
@@ -122,9 +122,9 @@ Point<Dim> ShapeIndex<Dim>::nearest_of(const Selection& selection, const Point<D
   return nearest;
 }
 
-// Balls grow until one touches, and shrink again: first while a part of some size can be gained,
-// then, among so many boxes, any. (All facets of a ball touch the same one, but for rounding, and
-// there may be 100 000.)
+// The ball grows by doubling until a facet limits it, and is then shrunk: first as long as it
+// shrinks by a certain fraction, then exactly within a limited number of boxes. The limit is needed
+// because 100 000 facets may touch a ball, such as those of a sphere around it.
 template <int Dim>
 double ShapeIndex<Dim>::width(const Place& place) const {
   constexpr double kFirst = 1.0 / 1024, kPart = 0.03;
@@ -155,8 +155,8 @@ double ShapeIndex<Dim>::width(const Place& place) const {
   return kInfinity;
 }
 
-// As width() with a single facet, if it is below a bound; else the bound. The ball shrinks until it
-// holds nothing of the facet (Ma, Bae and Choi, The Visual Computer 28 (2012) 7).
+// Returns the width that a single facet allows, or `max` if that is smaller. The ball shrinks until
+// it contains nothing of the facet (Ma, Bae and Choi, The Visual Computer 28 (2012) 7).
 template <int Dim>
 double ShapeIndex<Dim>::width_below(const Place& place, const FacetCorners<Dim>& facet,
                                     double max) const {
@@ -175,10 +175,10 @@ double ShapeIndex<Dim>::width_below(const Place& place, const FacetCorners<Dim>&
   const double far = std::sqrt(product<Dim>(way, way));
   const Point<Dim> normal = across(facet);
   const double steep = kCosFacing * std::sqrt(product<Dim>(normal, normal));
-  // Beside a corner the other side is ahead, too, but does not face this one.
+  // Beside a corner the other side is ahead but does not face this one.
   if (along >= kCosAhead * far)
     return std::fabs(product<Dim>(way, normal)) >= steep * far ? 2 * radius : max;
-  // It touches aside. But the facet may still lie straight ahead.
+  // The contact is not ahead, but the facet may still lie straight ahead.
   const double slope = product<Dim>(normal, place.ahead);
   const double hit = product<Dim>(normal, way_from<Dim>(place.x, facet[0])) / slope;
   if (!(std::fabs(slope) >= steep) || slope == 0 || !(hit > 0 && hit < max)) return max;
@@ -186,7 +186,7 @@ double ShapeIndex<Dim>::width_below(const Place& place, const FacetCorners<Dim>&
   return distance<Dim>(nearest_on(facet, there), there) <= 1e-12 * size_ ? hit : max;
 }
 
-// Does the ball hold nothing of the facets?
+// Returns true if the ball contains no part of a facet.
 template <int Dim>
 bool ShapeIndex<Dim>::is_empty(const Point<Dim>& centre, double radius) const {
   bool empty = true;
@@ -231,7 +231,7 @@ typename ShapeIndex<Dim>::Foot ShapeIndex<Dim>::foot_of(const Point<Dim>& x,
         const double along = std::fabs(slope) / std::sqrt(product<Dim>(normal, normal));
         if (along < kCosAhead * gap || !(along > 0)) return;
         if (!(gap < foot.gap || (gap == foot.gap && on < foot.x))) return;
-        // Beside a corner, the ball between holds some of its sides.
+        // Beside a corner the ball contains a part of the adjacent sides and is rejected.
         constexpr double kRoom = 1 - 1e-6;
         const double width = gap * gap / along, whole = std::fabs(slope) / along;
         const double to_centre = std::copysign(0.5 * width / whole, slope);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Questions about the shape of a domain, answered by trees of its pieces: how far is it to the
-// boundary, or to what has a tag; how wide is the domain there?
+// Answers queries about the shape of a domain from trees of its pieces: distances to the boundary
+// or to pieces with a tag, and local widths.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,30 @@
 
 namespace pnpbs {
 
+// An index of the pieces of a shape. All queries are local.
 template <int Dim>
 class ShapeIndex {
  public:
-  // A place on a piece, and the way into the domain there: a unit vector at right angles to it.
+  // A point on a piece, and the unit normal there that points into the domain.
   struct Place {
     Point<Dim> x;
     Point<Dim> ahead;
-    std::array<std::int32_t, Dim> ends;  // of the piece
+    std::array<std::int32_t, Dim> ends;  // corner numbers of the piece
   };
 
   explicit ShapeIndex(Shape<Dim> shape);
 
   const Shape<Dim>& shape() const { return shape_; }
-  double size() const { return size_; }  // of a box around all
+  double size() const { return size_; }  // diagonal of the bounding box
 
-  // To what bounds the domain, or if nothing does, to all of it.
+  // Return the distance to the boundary, or to all pieces if nothing bounds the domain.
   double distance_to_boundary(const Point<Dim>& x) const {
     return distance<Dim>(nearest_on_boundary(x), x);
   }
   Point<Dim> nearest_on_boundary(const Point<Dim>& x) const { return nearest_of(boundary_, x); }
   bool has_tag(std::int32_t tag) const { return tagged_.contains(tag); }
   std::vector<std::int32_t> tags() const;
-  // To the pieces with that tag, of which there are some.
+  // Return the distance to the pieces with a tag, which must exist.
   double distance_to_tag(std::int32_t tag, const Point<Dim>& x) const {
     return distance<Dim>(nearest_with_tag(tag, x), x);
   }
@@ -42,22 +43,23 @@ class ShapeIndex {
     return nearest_of(tagged_.at(tag), x);
   }
 
-  // The diameter of the largest ball that touches the shape at the place, lies ahead of it, and
-  // holds nothing of what is ahead within 20 degrees and faces it within 45; infinity if there is
-  // none. Too large by up to 3 percent where the ball comes near to thousands of facets. Pieces
-  // that touch that of the place do not count: in a sharp corner there is no room for anything.
+  // Returns the local width at a point of the shape: the diameter of the largest ball that touches
+  // the shape there, lies ahead, and contains nothing of the facets ahead within 20 degrees that
+  // face the point within 45 degrees. Infinity if no facet limits it. Too large by up to 3 percent
+  // where thousands of facets come near the ball. Pieces that touch the piece of the point are
+  // ignored, since the width in a sharp corner is 0.
   double width(const Place& place) const;
-  // The distance to what is ahead within 60 degrees, but at most `reach`.
+  // Returns the distance to the nearest facet within 60 degrees of `ahead`, but at most `reach`.
   double clearance_ahead(const Place& place, double reach) const;
 
-  // The same seen from the other side: a point of a facet that has x ahead within 20 degrees, with
-  // nothing of the shape in the ball between.
+  // A point of a facet that has x ahead within 20 degrees, with an empty ball between. It is the
+  // counterpart of width(), seen from the other side.
   struct Foot {
-    double gap;    // the distance from x, or `reach` if there is none so near
-    double width;  // diameter of the ball that touches there and reaches x
+    double gap;    // distance from x, or `reach` if there is no such point
+    double width;  // diameter of the ball that touches the facet and reaches x
     Point<Dim> x{};
   };
-  // The nearest to x, a point of a piece with these ends.
+  // Returns the nearest such point. x must lie on a piece with the corner numbers `ends`.
   Foot foot_of(const Point<Dim>& x, const std::array<std::int32_t, Dim>& ends, double reach) const;
 
  private:
@@ -68,7 +70,7 @@ class ShapeIndex {
 
   template <class Wanted>
   Selection select(const Wanted& wanted) const;
-  // Infinitely far away if nothing is selected.
+  // Returns the nearest point of the selection; infinity if it is empty.
   Point<Dim> nearest_of(const Selection& selection, const Point<Dim>& x) const;
   bool is_empty(const Point<Dim>& centre, double radius) const;
   double width_below(const Place& place, const FacetCorners<Dim>& facet, double max) const;

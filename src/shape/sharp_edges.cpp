@@ -42,7 +42,8 @@ class SharpEdgeFinder {
     return false;
   }
 
-  // Is there that little of the body between two triangles at an edge?
+  // Returns true if the two triangles enclose less than kSharpEdge degrees of the body at their
+  // edge.
   bool encloses_sharply(std::int32_t p, std::int32_t q, const BoundaryTriangle& f,
                         const BoundaryTriangle& g) const {
     static const double kCosine = std::cos(method::kSharpEdge * std::numbers::pi / 180);
@@ -51,7 +52,7 @@ class SharpEdgeFinder {
     return dot(to_f, to_g) > kCosine && inside_towards(f, to_g) && inside_towards(g, to_f);
   }
 
-  // The way into the triangle from its edge pq, at a right angle to that.
+  // Returns the unit vector perpendicular to edge pq that points into the triangle.
   Point<3> across(const BoundaryTriangle& f, std::int32_t p, std::int32_t q,
                   const Point<3>& along) const {
     for (const std::int32_t node : f.nodes)

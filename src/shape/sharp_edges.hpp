@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges at which a body itself is sharp: two of its triangles meet there, with less than 33 degrees
-// of the body between them, and no tetrahedron at the edge can have larger angles.
+// Edges at which the body itself is sharp: two triangles enclose less than 33 degrees (kSharpEdge)
+// of the body, so no tetrahedron there can have larger angles.
 #pragma once
 
 #include "domain/volume/features.hpp"
@@ -9,18 +9,19 @@
 
 namespace pnpbs {
 
+// The sharp edges of a mesh, in an index for distance queries.
 class SharpEdges {
  public:
   SharpEdges(const BoundaryMesh<3>& mesh, const Features& features);
 
   bool none() const { return edges_.triangles().empty(); }
-  // Is one of them nearer than that?
+  // Returns true if a sharp edge is nearer to x than `distance`.
   bool any_nearer(const Point<3>& x, double distance) const {
     return edges_.nearest(x).square < distance * distance;
   }
 
  private:
-  NearestTriangles edges_;  // each with its end twice
+  NearestTriangles edges_;  // edges as triangles (a, b, b)
 };
 
 }  // namespace pnpbs

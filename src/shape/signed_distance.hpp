@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a point is from what bounds a domain, and on which side of it.
+// The signed distance from a point to the boundary of a domain.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,28 @@
 
 namespace pnpbs {
 
+// Signed distance to the boundary of a domain. Queries are local and thread-safe.
 template <int Dim>
 class SignedDistance {
  public:
-  // Of a checked domain, which need not outlive it. Throws Error(ErrorKind::argument) if nothing is
-  // inside: of surfaces alone.
+  // `domain` must be checked and need not outlive this object. Throws Error(ErrorKind::argument) if
+  // the domain has no inside, such as surfaces alone.
   explicit SignedDistance(const Domain<Dim>& domain);
   SignedDistance(const SignedDistance&) = delete;  // the index points to the mesh
   SignedDistance& operator=(const SignedDistance&) = delete;
 
-  // Negative inside. Exact but for rounding and, of curves, the chords that stand for them
-  // (shape_of).
+  // Returns the distance to the boundary, negative inside. It is exact up to rounding and to the
+  // chords of smooth curves (shape_of).
   double operator()(const Point<Dim>& x) const {
     const double gap = index_.distance_to_boundary(x);
     return inside(x) ? -gap : gap;
   }
-  // The nearest point of what bounds the domain.
+  // Returns the nearest point of the boundary.
   Point<Dim> foot(const Point<Dim>& x) const { return index_.nearest_on_boundary(x); }
-  // Strictly; exact for the facets.
+  // Returns true if x lies strictly inside. The decision is exact for the facets.
   bool inside(const Point<Dim>& x) const { return sides_.inside(x); }
 
-  // Facets of the boundary that may come within `reach` of x, each once.
+  // Returns the boundary facets that may come within `reach` of x, each once, ascending.
   std::vector<std::int32_t> facets_near(const Point<Dim>& x, double reach) const;
   const FacetCorners<Dim>& corners(std::int32_t facet) const { return sides_.corners(facet); }
 

@@ -18,8 +18,8 @@
 namespace pnpbs {
 namespace {
 
-// The triangles at an edge in the order in which one meets them going round it, counter-clockwise
-// as seen against the way from its lower vertex to the higher.
+// Orders the triangles at an edge by angle around it, counter-clockwise as seen when looking from
+// its higher vertex to the lower.
 class AroundEdge {
  public:
   AroundEdge(const Triangulation& surface, const std::array<std::int32_t, 2>& ends,
@@ -39,7 +39,8 @@ class AroundEdge {
   const Point<3>& apex(const EdgeSide& side) const {
     return surface_.vertices[surface_.triangles[side.triangle].vertices[(side.k + 2) % 3]];
   }
-  // 0 along the first triangle, 1 less than half a turn from it, 2 half, 3 more.
+  // Returns 0 for the first triangle, 1 for angles below half a turn from it, 2 for half a turn,
+  // and 3 for more.
   int sector(const EdgeSide& side) const {
     const Point<3>& x = apex(side);
     const int turn = orientation(a_, b_, first_, x);
@@ -53,8 +54,9 @@ class AroundEdge {
 
 std::int32_t front_of(std::int32_t t) { return 2 * t; }
 
-// The sides of a triangle at an edge that one leaves and comes to going round counter-clockwise:
-// if it has the edge from the lower vertex to the higher, its front is ahead.
+// Return the side of a triangle that lies ahead of it, or behind it, when going counter-clockwise
+// around the edge. The front lies ahead if the triangle has the edge from the lower vertex to the
+// higher.
 std::int32_t side_ahead(const EdgeSide& side) {
   return front_of(side.triangle) + (side.forward ? 0 : 1);
 }
@@ -62,7 +64,7 @@ std::int32_t side_behind(const EdgeSide& side) {
   return front_of(side.triangle) + (side.forward ? 1 : 0);
 }
 
-// Numbers sets in the order of their first members.
+// Numbers the sets in the order of their first members.
 std::vector<std::int32_t> numbered(UnionFind<std::int32_t>& sets, std::size_t members,
                                    std::int32_t& count) {
   std::vector<std::int32_t> number(members);
@@ -112,7 +114,7 @@ void SurfaceRegions::find_classes(const SurfaceEdges& edges) {
   number_regions(enclosed_volumes(count));
 }
 
-// Six times; less than 0 for a class that is seen from outside.
+// Returns six times the volume that each class encloses; negative for outer classes.
 std::vector<double> SurfaceRegions::enclosed_volumes(std::int32_t classes) const {
   std::vector<TwoTerms> sums(classes, TwoTerms{0, 0});
   const auto add = [&sums](std::int32_t c, double term) {
@@ -122,7 +124,7 @@ std::vector<double> SurfaceRegions::enclosed_volumes(std::int32_t classes) const
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     const std::int32_t front = class_of_side_[2 * t], back = class_of_side_[2 * t + 1];
     if (front == back) continue;
-    // From a vertex of its own component, so that small ones far away keep their digits.
+    // The origin is a vertex of the component, so that small components far away keep their digits.
     const Point<3>& origin =
         surface_.vertices[surface_.triangles[first_triangle_[component_[t]]].vertices[0]];
     const FacetCorners<3> corners = surface_.corners(static_cast<std::int32_t>(t));
@@ -138,7 +140,7 @@ std::vector<double> SurfaceRegions::enclosed_volumes(std::int32_t classes) const
 }
 
 void SurfaceRegions::number_regions(const std::vector<double>& volumes) {
-  std::vector<std::int32_t> outer(components_, -1);  // the class that sees each from outside
+  std::vector<std::int32_t> outer(components_, -1);  // the outer class of each component
   for (std::size_t side = 0; side < class_of_side_.size(); ++side) {
     const std::int32_t c = class_of_side_[side];
     std::int32_t& best = outer[component_[side / 2]];
@@ -152,7 +154,7 @@ void SurfaceRegions::number_regions(const std::vector<double>& volumes) {
     if (region < 0) region = count_++;
   outside_.assign(components_, 0);
   if (components_ == 1) return;
-  // Of each vertex the component that has it, or -2 if several have.
+  // Component of each vertex; -2 if several have it.
   std::vector<std::int32_t> component_at(surface_.vertices.size(), -1);
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
     for (const std::int32_t v : surface_.triangles[t].vertices)
@@ -165,8 +167,8 @@ void SurfaceRegions::number_regions(const std::vector<double>& volumes) {
   outside_ = std::move(around);
 }
 
-// A point of the component that is on no other: one of its vertices, or if others have them all
-// the middle of a triangle.
+// Returns a point of the component that lies on no other: one of its own vertices, or a centroid if
+// it shares all its vertices.
 Point<3> SurfaceRegions::point_of(std::int32_t component,
                                   const std::vector<std::int32_t>& component_at) const {
   const std::int32_t first = first_triangle_[component];
@@ -178,8 +180,8 @@ Point<3> SurfaceRegions::point_of(std::int32_t component,
   return centroid(surface_.corners(first));
 }
 
-// The innermost class that has the point inside: which a ray from it crosses an odd number of
-// times, each side of a triangle counted. As components are nested, the innermost is the smallest.
+// Casts a ray from x. A class encloses x if the ray crosses its sides an odd number of times.
+// Components are nested, so the innermost of these classes is the one of smallest volume.
 std::int32_t SurfaceRegions::region_around(const Point<3>& x,
                                            std::int32_t without_component) const {
   if (!in_closed_box(bounds_, x)) return 0;
@@ -232,7 +234,7 @@ void give_roles(Triangulation& surface, const std::map<std::int32_t, SurfaceRole
 
 namespace {
 
-// Finds the roles of the dividing triangles of one source.
+// Determines the roles of the dividing triangles of one source.
 void find_roles_of_source(Triangulation& surface, std::int32_t source) {
   Triangulation alone{surface.sources, surface.vertices, surface.given, {}};
   std::vector<std::size_t> number;

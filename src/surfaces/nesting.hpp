@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The regions into which surfaces divide space, and which of them lie on either side of each
-// triangle, by exact decisions. Which way the triangles are turned does not matter.
+// Finds the regions into which surfaces divide space, and which of them lie on either side of each
+// triangle, by exact predicates. The orientation of the triangles does not matter.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,27 @@
 
 namespace pnpbs {
 
+// The regions of space between the components of a triangulation. A component is a set of triangles
+// connected by edges.
 class SurfaceRegions {
  public:
-  // The arguments must outlive it. Triangles meet in common vertices and edges only.
+  // The arguments must outlive this object. Triangles may meet only in common vertices and edges.
   SurfaceRegions(const Triangulation& surface, const SurfaceEdges& edges, const BoxTree<3>& tree);
 
-  // Region 0 is the unbounded one.
+  // Returns the number of regions. Region 0 is the unbounded one.
   std::int32_t count() const { return count_; }
+  // Return the regions in front of triangle t and behind it.
   std::int32_t front(std::int32_t t) const { return region_[class_of_side_[2 * std::size_t(t)]]; }
   std::int32_t back(std::int32_t t) const {
     return region_[class_of_side_[2 * std::size_t(t) + 1]];
   }
-  // Of a point on no triangle.
+  // Returns the region that contains x, which must not lie on a triangle.
   std::int32_t around(const Point<3>& x) const { return region_around(x, -1); }
 
-  // Surfaces that are connected by edges.
+  // Returns the number of components.
   std::int32_t components() const { return components_; }
   std::int32_t component(std::int32_t t) const { return component_[t]; }
-  // The region in which a component lies.
+  // Returns the region around a component.
   std::int32_t outside(std::int32_t component) const { return outside_[component]; }
 
  private:
@@ -45,34 +48,35 @@ class SurfaceRegions {
   const BoxTree<3>& tree_;
   Box<3> bounds_;
   std::int32_t count_ = 1, components_ = 0;
-  std::vector<std::int32_t> component_;       // of each triangle
-  std::vector<std::int32_t> first_triangle_;  // of each component
-  std::vector<std::int32_t> outside_;
-  // The sides of triangles (front and back) between which one can go across edges make a class.
-  // One class of each component sees it from outside; what is inside the others are regions.
+  std::vector<std::int32_t> component_;       // per triangle
+  std::vector<std::int32_t> first_triangle_;  // per component
+  std::vector<std::int32_t> outside_;         // per component
+  // A class is a set of triangle sides (front and back) that are connected across edges. Each
+  // component has one outer class, which faces outwards. Every other class encloses a region.
   std::vector<std::int32_t> class_of_side_;
-  std::vector<double> volume_;        // within each class; 0 for that which is seen from outside
-  std::vector<std::int32_t> region_;  // of each class
+  std::vector<double> volume_;        // inside each class; 0 for outer classes
+  std::vector<std::int32_t> region_;  // per class
 };
 
-// Of each region, is it inside? Each boundary triangle leads from outside in or from inside out.
+// Returns for each region 1 if it is inside, else 0. Each boundary triangle separates inside from
+// outside.
 std::vector<char> inside_by_parity(const Triangulation& surface, const SurfaceRegions& regions);
 
-// Gives the triangles with a tag that has a role this role. Throws Error(ErrorKind::domain) if no
-// triangle has a tag that has a role.
+// Sets the role of each triangle whose tag is a key of `roles`. Throws Error(ErrorKind::domain) if
+// a tag of `roles` occurs on no triangle.
 void give_roles(Triangulation& surface, const std::map<std::int32_t, SurfaceRole>& roles);
 
-// A triangle whose role goes by its place bounds the body if what surrounds the surface that it
-// belongs to is on one side of it: then closed surfaces within each other bound cavities, and
-// sheets and what divides a body are inner. An open surface that nothing encloses stays a boundary,
-// for the check of that to tell where it is open. Throws Error(ErrorKind::domain) if triangles
-// cross.
+// Determines the roles of triangles with the role by_place. Such a triangle is a boundary if the
+// region around its component is on exactly one side of it; so nested closed surfaces bound
+// cavities, and sheets and dividing walls are inner. An open surface that nothing encloses stays a
+// boundary, so that require_closed_boundary() reports its open edges. Throws
+// Error(ErrorKind::domain) if triangles cross.
 void find_roles_by_place(Triangulation& surface);
 
-// Finds the roles of dividing triangles, for each source by its own triangles alone: one bounds the
-// body if it has the source's unbounded region on one side only. A triangle with that region on
-// both sides stays a boundary, and the check of the boundary reports its open edges. Throws
-// Error(ErrorKind::domain) if triangles of such a source cross.
+// Determines the roles of dividing triangles, for each source from its own triangles alone. Such a
+// triangle is a boundary if exactly one of its sides lies in the unbounded region of its source. A
+// triangle with both sides in that region stays a boundary, so that require_closed_boundary()
+// reports its open edges. Throws Error(ErrorKind::domain) if triangles of such a source cross.
 void find_roles_of_dividing(Triangulation& surface);
 
 }  // namespace pnpbs

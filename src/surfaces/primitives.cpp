@@ -17,7 +17,7 @@ constexpr std::int32_t kStrips = 256;
 
 using Corners = std::array<std::int32_t, 3>;
 
-// Points on the unit sphere and triangles between them.
+// Points on the unit sphere, and triangles between them.
 struct UnitSphere {
   std::vector<Point<3>> points;
   std::vector<Corners> triangles;
@@ -45,7 +45,7 @@ UnitSphere icosahedron() {
   return sphere;
 }
 
-// Each triangle in four.
+// Divides each triangle into four.
 void cut(UnitSphere& sphere) {
   std::unordered_map<std::int64_t, std::int32_t> middles;
   const auto middle = [&](std::int32_t a, std::int32_t b) {
@@ -100,7 +100,7 @@ SurfaceSource ball_surface(const Point<3>& centre, double radius, std::int32_t t
 SurfaceSource cylinder_surface(const Point<3>& begin, const Point<3>& end, double radius,
                                std::int32_t tag) {
   const Point<3> axis = unit_vector(difference(end, begin));
-  Point<3> across{};  // the direction that is least along the axis
+  Point<3> across{};  // the coordinate axis that is least parallel to the cylinder
   const auto least = std::min_element(
       axis.begin(), axis.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
   across[static_cast<std::size_t>(least - axis.begin())] = 1;

@@ -15,7 +15,7 @@
 namespace pnpbs {
 namespace {
 
-// "from vertex 1 of surface 0 (0, 0, 0) to vertex 2 of surface 0 (1, 0, 0)"
+// Returns a text such as "from vertex 1 of surface 0 (0, 0, 0) to vertex 2 of surface 0 (1, 0, 0)".
 MessageText edge_name(const Triangulation& surface, const std::array<std::int32_t, 2>& ends) {
   return "from " + surface.vertex_name(ends[0]) + " to " + surface.vertex_name(ends[1]);
 }
@@ -25,8 +25,7 @@ std::string others_text(std::int64_t count, const char* what) {
   return "; there are " + std::to_string(count) + " such " + what;
 }
 
-// The edges where other than two boundary triangles meet: how many, and that which the first
-// triangle has.
+// The number of faulty edges, and the one at the triangle of lowest index.
 struct FaultyEdges {
   std::int64_t count = 0;
   std::size_t first = 0;
@@ -66,7 +65,7 @@ void require_closed_boundary(const Triangulation& surface, const SurfaceEdges& e
 
 void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges& edges,
                                std::vector<Warning>& warnings) {
-  UnionFind<std::int64_t> fans(3 * surface.triangles.size());  // of corners of triangles
+  UnionFind<std::int64_t> fans(3 * surface.triangles.size());  // per corner of a triangle
   const auto corner_at = [&](std::int32_t t, std::int32_t vertex) {
     const auto& vertices = surface.triangles[t].vertices;
     return 3 * std::int64_t{t} +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the boundary closed, and does it have two sides everywhere?
+// Checks that boundary surfaces are closed and that triangles meet only in common vertices and
+// edges.
 #pragma once
 
 #include <string>
@@ -12,22 +13,21 @@
 
 namespace pnpbs {
 
-// In every edge of a boundary surface two of its triangles must meet. Throws
-// Error(ErrorKind::domain) naming the first where it is otherwise.
+// Throws Error(ErrorKind::domain) at the first edge of a boundary surface that does not have
+// exactly two boundary triangles.
 void require_closed_boundary(const Triangulation& surface, const SurfaceEdges& edges);
 
-// Warns of vertices in which boundary surfaces touch: where triangles around it are not all joined
-// by edges.
+// Warns of vertices at which boundary surfaces touch, that is, whose triangles are not all
+// connected by edges.
 void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges& edges,
                                std::vector<Warning>& warnings);
 
-// Surfaces meet in common vertices and edges only.
-
-// The boxes of all triangles.
+// Returns a tree of the bounding boxes of all triangles.
 BoxTree<3> tree_of(const Triangulation& surface);
 
-// Throws Error(ErrorKind::domain) naming the first two triangles that meet elsewhere, the place,
-// and how many such pairs there are. In n log n time as long as triangles have few neighbours.
+// Throws Error(ErrorKind::domain) if triangles meet other than in common vertices and edges. The
+// message lists the first pairs with their locations, and their number. Takes O(n log n) time if
+// triangles have few neighbours.
 void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree);
 
 }  // namespace pnpbs

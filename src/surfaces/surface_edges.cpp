@@ -40,8 +40,7 @@ SurfaceEdges::SurfaceEdges(const Triangulation& surface) {
 
 namespace {
 
-// Across each edge of each triangle the one that is there, if it is only one, and whether the two
-// turn the same way.
+// The triangle across an edge, if there is exactly one, and whether it has the same orientation.
 struct Neighbour {
   std::int32_t triangle = -1;
   bool agrees = false;
@@ -71,7 +70,8 @@ Neighbours find_neighbours(const Triangulation& surface, const SurfaceEdges& edg
                       surface.vertex_name(surface.triangles[t].vertices[k]));
 }
 
-// The triangles connected with the first one, and whether each must be turned to agree with it.
+// Returns the triangles connected with the first one. Sets `turned` of each to 1 if it must be
+// turned to agree with the first, else to 0.
 std::vector<std::int32_t> connected_with(std::int32_t first, const Triangulation& surface,
                                          const Neighbours& neighbours, OneSided one_sided,
                                          std::vector<signed char>& turned) {
@@ -101,7 +101,7 @@ void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_s
                      std::vector<Warning>& warnings) {
   const Neighbours neighbours = find_neighbours(surface, edges);
   const auto count = static_cast<std::int32_t>(surface.triangles.size());
-  std::vector<signed char> turned(count, -1);  // not known yet
+  std::vector<signed char> turned(count, -1);  // -1: not known yet
   for (std::int32_t first = 0; first < count; ++first) {
     if (turned[first] >= 0) continue;
     const std::vector<std::int32_t> connected =

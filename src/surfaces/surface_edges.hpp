@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The edges of a triangulation, and the triangles that meet in each.
+// The edges of a triangulation, and the triangles at each edge.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,24 @@
 
 namespace pnpbs {
 
-// A triangle at an edge: its edge from corner k to the next one.
+// A triangle at an edge, which is its edge from corner k to the next one.
 struct EdgeSide {
   std::int32_t triangle;
   std::int32_t k;
-  bool forward;  // from the lower vertex to the higher?
+  bool forward;  // true from the lower vertex to the higher
 
   std::int64_t corner() const { return 3 * std::int64_t{triangle} + k; }
 };
 
+// All edges of a triangulation, ordered by their vertices.
 class SurfaceEdges {
  public:
   explicit SurfaceEdges(const Triangulation& surface);
 
   std::size_t count() const { return ends_.size(); }
-  // Its vertices, the lower one first. Edges come in the order of these.
+  // Returns the vertices of the edge, the lower one first.
   const std::array<std::int32_t, 2>& ends(std::size_t e) const { return ends_[e]; }
-  // Those of boundary surfaces first, then those of inner ones, both in ascending order.
+  // Returns the triangles at the edge: boundary triangles first, then inner ones, both ascending.
   std::span<const EdgeSide> sides(std::size_t e) const {
     return {sides_.data() + first_[e], sides_.data() + first_[e + 1]};
   }
@@ -45,11 +46,12 @@ class SurfaceEdges {
   std::vector<EdgeSide> sides_;
 };
 
+// How orient_surfaces() treats one-sided surfaces such as Moebius strips.
 enum class OneSided { rejected, ignored };
 
-// Turns triangles so that they agree with their neighbours, the fewer ones of each connected
-// surface, and warns if there are any. `edges` are changed accordingly. Where a surface has but one
-// side, it throws Error(ErrorKind::domain), or some neighbours do not agree.
+// Turns triangles so that neighbours have the same orientation. In each connected surface the
+// minority is turned, with a warning. Updates `edges`. On a one-sided surface, throws
+// Error(ErrorKind::domain), or leaves some neighbours inconsistent if `one_sided` is `ignored`.
 void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_sided,
                      std::vector<Warning>& warnings);
 

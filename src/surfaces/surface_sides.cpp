@@ -14,17 +14,20 @@ namespace {
 
 const Point<3> kUnknown{};
 
-// Winding numbers so near to 0 or 1 are these: they are known to 0.01, and change near holes.
+// Largest deviation of a winding number from 0 or 1 that counts as that value. Winding numbers have
+// errors of 0.01 and deviate near holes.
 constexpr double kWhole = 0.03;
 
-// 1 if the front of the triangle is outside and its back inside, -1 if it is the other way round,
-// else 0. In the middle and near the corners; large triangles see a hole from some places only.
+// Returns 1 if the front of the triangle is outside and its back inside, -1 in the opposite case,
+// else 0. Evaluates near the centroid and near the corners, because a hole affects only parts of a
+// large triangle.
 int front_is_outside(const FacetCorners<3>& triangle, const WindingNumber& winding) {
-  constexpr double kInward = 0.05, kOff = 1e-4;  // of the way to the middle, and of the size
+  // Fractions of the distance to the centroid, and of the size.
+  constexpr double kInward = 0.05, kOff = 1e-4;
   const Point<3> area = area_normal(triangle), middle = centroid(triangle);
   if (!(length(area) > 0)) return 0;
   const Point<3> off = shifted({}, kOff / std::sqrt(length(area)), area);
-  const auto inside = [&](const Point<3>& x) {  // -1: neither is certain
+  const auto inside = [&](const Point<3>& x) {  // -1: uncertain
     const double w = std::fabs(winding(x));
     return w < kWhole ? 0 : std::fabs(w - 1) < kWhole ? 1 : -1;
   };
@@ -95,8 +98,8 @@ void SurfaceSides::find_edges(const SurfaceEdges& edges) {
   }
 }
 
-// Of fans of triangles that are closed. Where several touch in a vertex their sum does: of a point
-// that is nearest to the vertex all of them tell the same.
+// Sets the normals of corners whose triangles form closed fans. If several fans touch in a vertex,
+// the sum of all is correct: for a point nearest to the vertex all fans give the same side.
 void SurfaceSides::find_corners(const Triangulation& surface) {
   struct Around {
     Point<3> sum{};
@@ -123,7 +126,8 @@ int SurfaceSides::side(std::int32_t triangle, const TrianglePoint& nearest,
   constexpr double kRounding = 1e-12;
   const auto t = static_cast<std::size_t>(triangle);
   const auto [v, w] = nearest.along;
-  const std::array<bool, 3> without{v + w >= 1 - kRounding, v <= 0, w <= 0};  // that corner
+  // Weight of the corner is 0.
+  const std::array<bool, 3> without{v + w >= 1 - kRounding, v <= 0, w <= 0};
   Point<3> normal = face_[t];
   for (std::size_t k = 0; k < 3; ++k) {
     if (without[(k + 1) % 3] && without[(k + 2) % 3]) normal = corner_[t][k];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// On which side of triangles that may enclose a body badly a point is, where its nearest
-// surroundings tell: where these are whole, and have the inside on one side of them alone. To know
-// it there is much cheaper than the winding number.
+// Determines on which side of a surface a point lies, from the part of the surface nearest to it.
+// This works where that part is closed and has the inside on one side only; the surface may be
+// defective elsewhere. It is much cheaper than the winding number.
 #pragma once
 
 #include <array>
@@ -14,15 +14,18 @@
 
 namespace pnpbs {
 
+// The side of points near triangles that may enclose a body badly.
 class SurfaceSides {
  public:
-  // Neighbours turn the same way (orient_surfaces); `winding` is of the same triangles.
+  // Neighbours must have the same orientation (orient_surfaces). `winding` must be that of the same
+  // triangles.
   SurfaceSides(const Triangulation& surface, const SurfaceEdges& edges,
                const WindingNumber& winding);
 
-  // -1 inside, 1 outside, 0 unknown: of a point whose nearest one of all triangles is this point of
-  // triangle t. By the normal there, of edges and corners the mean of those around, weighted by
-  // their angles (Baerentzen and Aanaes 2005).
+  // Returns -1 if x is inside, 1 if it is outside, and 0 if this is not known. `nearest`, a point
+  // of triangle t, must be the point of all triangles nearest to x. The sign is that of the normal
+  // there; at edges and corners this is the mean of the normals around, weighted by their angles
+  // (Baerentzen and Aanaes 2005).
   int side(std::int32_t t, const TrianglePoint& nearest, const Point<3>& x) const;
 
  private:
@@ -31,8 +34,8 @@ class SurfaceSides {
   void find_edges(const SurfaceEdges& edges);
   void find_corners(const Triangulation& surface);
 
-  // Pointing out; 0 where it is not known what is out. Of each triangle, of its edges from corner k
-  // to the next one, and of its corners.
+  // Outward normals of the triangles, of their edges from corner k to the next, and of their
+  // corners. 0 means that the outside is not known.
   std::vector<Point<3>> face_;
   std::vector<std::array<Point<3>, 3>> edge_, corner_;
 };

@@ -20,7 +20,7 @@ bool is_collapsed(const SurfaceTriangle& triangle) {
   return a == b || b == c || c == a;
 }
 
-// The corner opposite the longest edge, of several the first.
+// Returns the corner opposite the longest edge; the first if there are several.
 int apex_of(const FacetCorners<3>& corners) {
   int apex = 0;
   double longest = 0;
@@ -36,9 +36,10 @@ double longest_edge(const FacetCorners<3>& corners) {
   return distance<3>(corners[(apex + 1) % 3], corners[(apex + 2) % 3]);
 }
 
-// Of single precision a millionth of the domain's size is left.
-constexpr double kRounding = 1000;    // in tolerances
-constexpr double kFlatHeight = 1e-4;  // height over the shorter of the two other edges
+// Limits below which triangles are flat by rounding. Coordinates in single precision have errors of
+// a millionth of the domain's size.
+constexpr double kRounding = 1000;    // height [tolerance]
+constexpr double kFlatHeight = 1e-4;  // height [shorter of the two other edges]
 
 bool is_thin(const FacetCorners<3>& corners, double tolerance) {
   const double longest = longest_edge(corners);
@@ -52,20 +53,20 @@ bool is_thin(const FacetCorners<3>& corners, double tolerance) {
   return height <= kRounding * tolerance && height <= kFlatHeight * shorter;
 }
 
-constexpr std::size_t kMaxCuts = 10;  // per triangle: far more than needed
+constexpr std::size_t kMaxCuts = 10;  // most cuts per triangle, far more than needed
 
 class Thinner {
  public:
   Thinner(Triangulation& surface, double tolerance)
       : surface_(surface), triangles_(surface.triangles), tolerance_(tolerance) {}
 
-  // How many were taken out, and the first of them.
+  // Returns the number of removed triangles and the name of the first.
   std::pair<std::int64_t, MessageText> run() {
     const std::size_t given = triangles_.size();
     for (std::size_t t = 0; t < given; ++t) look_at(static_cast<std::int32_t>(t));
     if (removed_ == 0 && thin_.empty()) return {};
     list_triangles_at_vertices();
-    // The longest first: what is cut along its long edge has shorter ones then.
+    // The longest come first, because cutting a triangle along its long edge shortens its pieces.
     for (std::size_t cuts = 0; !thin_.empty(); ++cuts) {
       const std::int32_t t = std::get<1>(thin_.top());
       thin_.pop();
@@ -165,7 +166,7 @@ void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& wa
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(triangles.size()); ++t)
     order.push_back({sorted(t), t});
   std::sort(order.begin(), order.end());
-  // (the later one, the one that stays)
+  // Pairs of the later triangle and the one that stays.
   std::vector<std::pair<std::int32_t, std::int32_t>> doubles;
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (order[i].first != order[i - 1].first) continue;

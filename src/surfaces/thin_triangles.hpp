@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles that are none, and those given twice, are taken out so that surfaces stay closed.
+// Removes degenerate and duplicate triangles while surfaces stay closed.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace pnpbs {
 
-// Takes out triangles two of whose corners are one vertex, or one of whose corners lies within the
-// tolerance of the opposite edge: there, triangles on the other side of the edge are cut in two. So
-// are those that are flat but for the rounding of a file's numbers: within a thousand tolerances,
-// and with an angle of nearly 180 degrees. Warns if there are any.
+// Removes triangles with two equal vertices, and triangles with a corner within `tolerance` of the
+// opposite edge; the triangles across that edge are then split at the corner. Also removes
+// triangles that are flat up to the rounding of numbers in files: with a height below a thousand
+// tolerances and an angle of nearly 180 degrees. Warns if there are any.
 void remove_thin_triangles(Triangulation& surface, double tolerance,
                            std::vector<Warning>& warnings);
 
-// Keeps the first of those of one source that have the same corners, with a warning. Throws
-// Error(ErrorKind::domain) if they are of two sources.
+// Removes all but the first of the triangles of one source that have the same corners, with a
+// warning. Throws Error(ErrorKind::domain) if they belong to two sources.
 void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& warnings);
 
 }  // namespace pnpbs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of all surfaces as given, over common vertices: what the checks of a volume's
-// domain look at and mend.
+// The triangles of all surfaces of a domain in space over common vertices. The checks of the domain
+// examine and repair them.
 #pragma once
 
 #include <array>
@@ -16,51 +16,54 @@
 
 namespace pnpbs {
 
+// How a surface relates to the domain.
 enum class SurfaceRole {
-  boundary,  // closed, their normals pointing out of the domain: of a cavity, into it
-  inner,     // nodes follow it, but the domain is on both sides
-  by_place,  // as given: whichever of the two each triangle is where it lies
-  dividing   // boundary where it bounds what its surface encloses, inner within that
+  boundary,  // closed, with normals out of the domain (at a cavity into it)
+  inner,     // nodes lie on it, and the domain is on both sides
+  by_place,  // boundary or inner, depending on where each triangle lies
+  dividing   // boundary at the outside of what the surface encloses, else inner
 };
 
-// Adds nodes and triangles, whose corners are indices into the nodes given. A node has the tag of
-// the first of its triangles.
+// Adds nodes and triangles to a mesh. Corners of triangles are indices into `nodes`. A node has the
+// tag of its first triangle.
 void add_surface(BoundaryMesh<3>& mesh, SurfaceRole role, std::span<const Point<3>> nodes,
                  std::span<const std::array<std::int32_t, 3>> triangles,
                  std::span<const std::int32_t> tags);
 
 class LevelSet;
 
-inline constexpr double kFeatureAngle = 40;  // degrees
+// Default angle between normals at feature edges [degrees]
+inline constexpr double kFeatureAngle = 40;
 
-// A feature edge that is known as such, whatever its triangles' normals are.
+// An edge that is a feature whatever the normals of its triangles are.
 struct SurfaceCrease {
   std::array<std::int32_t, 2> vertices;
-  std::array<Point<3>, 2> normals;  // unit, left and right of the way from the first to the second
+  std::array<Point<3>, 2> normals;  // unit; left and right of the direction from the first vertex
 };
 
-// One surface as it was added.
+// A surface as it was added.
 struct SurfaceSource {
-  std::string name;  // for messages: "surface 0", "ball 1"
+  std::string name;  // for messages, such as "surface 0" or "ball 1"
   SurfaceRole role = SurfaceRole::boundary;
   std::vector<Point<3>> vertices;
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::int32_t> tags;             // of the triangles
-  std::shared_ptr<const LevelSet> level_set;  // whose surface it is; null of others
-  bool approximates = false;                  // a curved surface that was given without triangles
-  double feature_angle = kFeatureAngle;       // degrees
-  std::vector<SurfaceCrease> creases;         // of a level set
+  std::vector<std::int32_t> tags;             // per triangle
+  std::shared_ptr<const LevelSet> level_set;  // the level set of this surface, or null
+  bool approximates = false;  // true for curved surfaces that were not given as triangles
+  double feature_angle = kFeatureAngle;  // [degrees]
+  std::vector<SurfaceCrease> creases;    // creases of a level set
   std::vector<Warning> warnings;
 };
 
+// A triangle of any source.
 struct SurfaceTriangle {
   std::array<std::int32_t, 3> vertices;
   std::int32_t tag;
   std::int32_t source;
-  std::int32_t number;  // in its source
+  std::int32_t number;  // index in its source
   bool inner;
-  bool by_place = false;  // whether it is inner is still to be found
-  bool dividing = false;  // likewise
+  bool by_place = false;  // true if `inner` is still to be determined by place
+  bool dividing = false;  // true if `inner` is still to be determined for a dividing surface
 
   void turn_around() { std::swap(vertices[1], vertices[2]); }
   bool has(std::int32_t vertex) const {
@@ -68,24 +71,26 @@ struct SurfaceTriangle {
   }
 };
 
+// Triangles of several sources, over common vertices.
 struct Triangulation {
+  // The first vertex that was given at a position.
   struct GivenVertex {
     std::int32_t source, number;
   };
 
-  std::vector<std::string> sources;  // their names
+  std::vector<std::string> sources;  // names of the sources
   std::vector<Point<3>> vertices;
-  std::vector<GivenVertex> given;  // the first that was given where the vertex is
+  std::vector<GivenVertex> given;  // per vertex
   std::vector<SurfaceTriangle> triangles;
 
   FacetCorners<3> corners(std::int32_t t) const;
   Box<3> box(std::int32_t t) const;
 
-  MessageText vertex_name(std::int32_t v) const;    // "vertex 5 of surface 0 (1, 2, 3)"
-  std::string triangle_name(std::int32_t t) const;  // "triangle 5 of surface 0"
+  MessageText vertex_name(std::int32_t v) const;    // such as "vertex 5 of surface 0 (1, 2, 3)"
+  std::string triangle_name(std::int32_t t) const;  // such as "triangle 5 of surface 0"
 };
 
-// The triangles of all surfaces, with their vertices one after the other.
+// Joins the triangles of all surfaces. Vertices are numbered consecutively and not yet welded.
 Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces);
 
 }  // namespace pnpbs

@@ -22,9 +22,10 @@
 namespace pnpbs {
 namespace {
 
-// Places where d does not resolve the boundary, as warnings name the worst of them.
+// Number of locations that a warning names.
 constexpr std::size_t kNamedWorst = 3;
 
+// A location at which d does not resolve the boundary.
 struct Worst {
   double ratio;
   std::int32_t which;
@@ -35,8 +36,9 @@ struct Worst {
   }
 };
 
-// name(which); in the chart of a sphere, lengths are told along the sphere, and places as well: who
-// takes coasts from files does not know which curve is which.
+// Returns a list of the worst locations; name(which) returns the name of one. On a sphere, lengths
+// are measured along the sphere, and positions are included because users do not know the numbers
+// of coasts read from files.
 template <class Name>
 MessageText worst_text(std::vector<Worst>& all, const char* length, const Embedding<2>& embedding,
                        const Name& name) {
@@ -54,7 +56,7 @@ MessageText worst_text(std::vector<Worst>& all, const char* length, const Embedd
   return list_text(names, kNamedWorst);
 }
 
-// The warning `begin`, the worst of all, `end`.
+// Composes a warning from `begin`, the worst locations and `end`.
 template <class Name>
 Warning warning_of_worst(WarningCode code, const std::string& begin, std::vector<Worst>& all,
                          const char* length, const Embedding<2>& embedding, const Name& name,
@@ -63,7 +65,7 @@ Warning warning_of_worst(WarningCode code, const std::string& begin, std::vector
   return {code, std::move(text), std::ssize(all), all.front().ratio};
 }
 
-// Where many of all edges of the boundary are short, no d makes a better mesh of it.
+// Returns advice if a large part of the boundary has short edges, where no d gives a good mesh.
 std::string advice_on_short_edges(std::size_t count, std::size_t edges) {
   constexpr std::size_t kSome = 100, kPart = 10;
   if (count < kSome || kPart * count < edges) return "";
@@ -72,9 +74,9 @@ std::string advice_on_short_edges(std::size_t count, std::size_t edges) {
          "set the angle that makes a corner (corner_angle), or use a smaller d";
 }
 
-constexpr int kMaxRounds = 64;  // of halving
+constexpr int kMaxRounds = 64;  // rounds of halving
 
-// An edge by its place: from node `step` of the curve to the next one.
+// An edge as the interval from node `step` of a curve to the next node.
 struct EdgePlace {
   std::int32_t curve;
   std::int32_t step;
@@ -109,7 +111,8 @@ class Layer {
   }
 
  private:
-  // That closes a whole sphere, and has no other nodes however small d is at its edges.
+  // Leaves the triangle that closes a whole sphere without nodes between its corners, however small
+  // d is there.
   void leave_one_triangle() {
     for (std::size_t c = 0; c < tracks_.size(); ++c)
       if (tracks_[c].curve().bounds()) stations_[c] = {stations_[c].front(), stations_[c].back()};
@@ -166,8 +169,8 @@ class Layer {
     return track(edge).is_straight(begin_station(edge), end_station(edge));
   }
 
-  // ------------------------------------------------------------ do they divide the plane alike?
-  // Edges that cut others, or that have others on the wrong side.
+  // ------------------------------------------------------------ check of the edges
+  // Returns the edges that cross others or that have nodes on the wrong side.
   std::vector<std::int32_t> edges_that_mislead() const {
     const SweepResult sweep = sweep_plane(positions_, ends_);
     std::vector<std::int32_t> bad;
@@ -181,14 +184,14 @@ class Layer {
     return bad;
   }
 
-  // The face of the domain that a side of an edge should see.
+  // Returns the face of the domain that lies on a side of an edge.
   std::int32_t face(Side side) const {
     if (side == 2 * static_cast<Side>(ends_.size())) return 0;
     const BoundaryCurve& curve = track(static_cast<std::int32_t>(side / 2)).curve();
     return side % 2 == 0 ? curve.left_face : curve.right_face;
   }
 
-  // Nodes about which the edges do not agree on the face.
+  // Returns the nodes around which edges disagree on the face.
   std::vector<std::int32_t> misplaced_nodes(const SweepResult& sweep) const {
     std::vector<std::int32_t> misplaced;
     for_each_contact(positions_, ends_, sweep, [&](std::int32_t node, Side side, Side other) {
@@ -203,8 +206,8 @@ class Layer {
     return misplaced;
   }
 
-  // Edges that end in one of these nodes, or whose part of the curve may pass it on the other
-  // side than they do.
+  // Returns the edges that end in one of the nodes, or whose part of the curve may pass a node on
+  // the other side than the edge does.
   std::vector<std::int32_t> edges_beside(const std::vector<std::int32_t>& nodes) const {
     if (nodes.empty()) return {};
     std::vector<Point<2>> points;
@@ -219,7 +222,7 @@ class Layer {
                          [&beside](std::int32_t, double) { beside = true; });
       if (beside) result.push_back(e);
     }
-    // Straight edges cannot be at fault; they are named if there are no others.
+    // Straight edges are never the cause; they are returned only to be named in a message.
     return result.empty() ? edges_at(nodes) : result;
   }
 
@@ -233,7 +236,7 @@ class Layer {
     return result;
   }
 
-  // False if all these edges are straight parts of their curves.
+  // Halves the edges on their curves. Returns false if all of them are straight parts of curves.
   bool halve(const std::vector<std::int32_t>& edges) {
     std::vector<char> changed(tracks_.size(), 0);
     for (const std::int32_t edge : edges) {
@@ -295,13 +298,15 @@ class Layer {
     }
   }
 
-  // What nodes inside see of edges far shorter than d grows with this sum: beyond it a run would
-  // take more than about a minute, or more memory than there may be.
+  // Throws Error(ErrorKind::spacing) if edges are so much shorter than d that inner nodes would see
+  // far too many of them. Beyond this sum a run would take more than about a minute, or too much
+  // memory.
   void refuse_far_too_fine() const {
     constexpr double kFine = 32, kMax = 3e7;
-    // Without inner nodes each boundary node is tested against all, often exactly.
+    // Weight of edges when d leaves no room for inner nodes: each boundary node is then tested
+    // against all others, often with exact arithmetic.
     constexpr double kNothingWithin = 20;
-    const double size = size_of(domain_.bounds());  // farther nobody sees, however large d is
+    const double size = size_of(domain_.bounds());  // bubbles are not larger than the domain
     double sum = 0, work = 0;
     std::int64_t fine = 0;
     for (const auto& [a, b] : ends_) {
@@ -339,8 +344,8 @@ class Layer {
         advice_on_short_edges(all.size(), ends_.size())));
   }
 
-  // Nodes of one curve beside another, with the domain between: at a slit or a sharp corner. Those
-  // of short edges have had their warning.
+  // Warns of nodes close to an edge across the inside, as at a slit or a sharp corner. Nodes of
+  // short edges are excluded because warn_of_short_edges covers them.
   void warn_of_close_edges() {
     constexpr double kClose = 0.1;
     const auto is_short = [&](std::int32_t a, std::int32_t b) {
@@ -374,7 +379,7 @@ class Layer {
         [this](std::int32_t e) { return track(e).curve().name; }));
   }
 
-  // Does the domain lie on that side of the edge on which the node does?
+  // Returns true if the domain lies on the side of the edge on which the node lies.
   bool faces_inside(std::int32_t edge, std::int32_t node) const {
     const int side =
         orientation(positions_[ends_[edge][0]], positions_[ends_[edge][1]], positions_[node]);
@@ -402,7 +407,7 @@ class Layer {
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(fixed.size()); ++f) {
       look(fixed[f].position, fixed[f].position, d_[boundary_.first_fixed + f], f);
     }
-    // Those that close a sphere are as near to each other as they should be, in spite of the chart.
+    // Nodes of the patch that closes a sphere are close to each other only in the chart.
     std::erase_if(nearest, [&](const Worst& worst) {
       return worst.ratio == HUGE_VAL || domain_.is_in_patch(worst.at);
     });
@@ -419,12 +424,12 @@ class Layer {
   const PlaneDomain& domain_;
   const SpacingEvaluator<2>& spacing_;
   std::vector<CurveTrack> tracks_;
-  std::vector<std::vector<double>> stations_;           // of the nodes of each curve, with its ends
-  std::vector<std::vector<Point<2>>> inner_points_;     // of the nodes between its ends
-  std::vector<std::int64_t> halved_;                    // edges of each curve
-  std::vector<std::pair<std::int32_t, double>> added_;  // curve, station
+  std::vector<std::vector<double>> stations_;           // of the nodes of each curve, ends included
+  std::vector<std::vector<Point<2>>> inner_points_;     // of the nodes of each curve, ends excluded
+  std::vector<std::int64_t> halved_;                    // number of halved edges of each curve
+  std::vector<std::pair<std::int32_t, double>> added_;  // curve and station of each new node
   Boundary boundary_;
-  std::vector<EdgePlace> places_;  // of the edges
+  std::vector<EdgePlace> places_;  // curve and step of each edge
   std::vector<Point<2>> positions_;
   std::vector<VertexPair> ends_;
   std::vector<double> d_;  // at the nodes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What closes a whole sphere in its chart, which lacks the point that it is projected from: nodes
-// about that point, which are laid first and fixed. Towards it bubbles grow in the chart without
-// bound, and those that move could not follow.
+// The patch that closes a whole sphere around the point from which its chart is projected. That
+// point has no position in the chart, and bubbles grow without bound towards it. The nodes around
+// it are therefore placed first and then fixed.
 #pragma once
 
 #include <array>
@@ -11,17 +11,21 @@
 
 namespace pnpbs {
 
-// Of d at the point: more leave a sphere of some hundred nodes no room for a patch. [of its radius]
+// Largest d at that point. [radius of the sphere] On a sphere with only some hundred nodes, a
+// larger d leaves no room for a patch.
 inline constexpr double kMostAtPoint = 0.25;
 
+// Nodes that close a whole sphere, and the radii of the patch. Radii are distances from the chart's
+// origin; the patch lies beyond them.
 struct ClosingPatch {
-  std::array<Point<3>, 3> rim;  // on the sphere: the triangle around the point, whose inside is the
-                                // only part of the sphere that has no place in the chart's domain
-  std::vector<Point<2>> nodes;  // the others, in the chart
-  double edge = 0;              // in the chart: so far from its origin these lie at least,
-  double beyond = 0;            // and others at most
-  double margin = 0;            // from `edge` to here they move in the finish
-  double d = 0;                 // along the sphere at the point: what it was made for
+  // Corners, on the sphere, of the triangle around the point. Its inside is the only part of the
+  // sphere outside the chart's domain.
+  std::array<Point<3>, 3> rim;
+  std::vector<Point<2>> nodes;  // the other nodes, in the chart
+  double edge = 0;              // smallest distance of `nodes` from the origin of the chart
+  double beyond = 0;            // largest distance of `nodes` from the origin of the chart
+  double margin = 0;            // nodes between `edge` and this radius move in the finish
+  double d = 0;  // spacing along the sphere at the point, for which the patch was made
 };
 
 }  // namespace pnpbs

@@ -25,8 +25,8 @@ class Conflicts {
  public:
   explicit Conflicts(const SweptGraph& swept) : swept_(swept) {}
 
-  // Each point once: as the sweep came upon them, and then crossings that it has not looked for,
-  // since it leaves out one of two edges that meet. No more than so many.
+  // Returns at most `max` conflicts, each once. The sweep reports only some crossings, since it
+  // drops one of two edges that meet; the others are searched for afterwards.
   std::vector<Conflict> list(std::size_t max) const {
     std::vector<Conflict> found;
     const auto add = [&](Conflict conflict) {
@@ -103,7 +103,8 @@ class Conflicts {
     return cross_properly(point(a), point(b), point(c), point(d));
   }
 
-  // Until visit(edge, other) returns false, or there were enough to look at.
+  // Calls visit(edge, other) for crossing edges until it returns false or the search limit is
+  // reached.
   template <class Visit>
   void for_crossings(const Visit& visit) const {
     std::int64_t to_look_at = 10'000'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must not meet in a domain of the plane, but does.
+// Detects curves and points of a plane domain that cross, overlap or touch.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace pnpbs {
 
-// The graph of a domain, its points (vertices, then region points), and what their sweep has found.
+// A domain's graph, its points (vertices, then region points), and the result of the plane sweep
+// over them.
 struct SweptGraph {
   const std::vector<CurveSource>& sources;
   const std::vector<RegionPoint<2>>& region_points;
@@ -20,8 +21,8 @@ struct SweptGraph {
   const SweepResult& sweep;
 };
 
-// Throws Error(ErrorKind::domain) if edges cross, overlap or touch, with up to twenty of the
-// places.
+// Throws Error(ErrorKind::domain) if edges cross, overlap or touch. The message lists up to twenty
+// locations.
 void reject_conflicts(const SweptGraph& swept);
 
 }  // namespace pnpbs

@@ -61,7 +61,7 @@ std::string CurveSource::segments_name(std::int64_t first, std::int64_t last) co
   if (kind == Kind::smooth) return "curve " + std::to_string(number);
   const std::int64_t from = first_number + segment_number(first);
   if (first == last) return prefix(*this) + "segment " + std::to_string(from);
-  // Those that have been put in order are not numbered one after the other.
+  // Segments that were reordered do not have consecutive numbers.
   const char* const until = segment_numbers.empty() ? " to " : " and on to ";
   return prefix(*this) + "segments " + std::to_string(from) + until +
          std::to_string(first_number + segment_number(last));

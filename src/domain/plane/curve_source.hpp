@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A curve or graph of a plane domain as the user gave it.
+// A curve or a planar straight-line graph of a plane domain as the user gave it.
 #pragma once
 
 #include <array>
@@ -12,41 +12,44 @@
 
 namespace pnpbs {
 
-// Fills xy[n] for t[n]; throws Error on failure.
+// Evaluates the curve at n parameters t. Throws Error on failure.
 using CurveFunction = std::function<void(std::int64_t n, const double* t, Point<2>* xy)>;
 
+// How a curve relates to the domain.
 enum class CurveRole {
   boundary,  // separates inside and outside
-  inner      // nodes follow it, both sides are inside
+  inner      // nodes lie on it, and both sides are inside
 };
 
+// One curve or one graph of the user.
 struct CurveSource {
   enum class Kind {
-    polyline,  // straight segments from point to point
+    polyline,  // straight segments between consecutive points
     smooth,    // an arc or a general curve; `points` are samples of it
     graph      // a planar straight-line graph
   };
 
   Kind kind = Kind::polyline;
-  std::int64_t number = 0;               // among the curves, or among the graphs
-  CurveRole role = CurveRole::boundary;  // not of graphs
-  bool closed = false;  // polylines: a segment leads from the last point to the first
+  std::int64_t number = 0;               // number among the curves, or among the graphs
+  CurveRole role = CurveRole::boundary;  // not used for graphs
+  bool closed = false;                   // polylines: a segment joins the last point to the first
   std::vector<Point<2>> points;
-  std::vector<std::int32_t> tags;  // of the segments
-  double corner_angle = 0;         // polylines: degrees
-  // Polylines on a sphere: of points, is it none of those given, and only follows the shortest way
-  // between two of these? Empty: none is.
+  std::vector<std::int32_t> tags;  // one per segment
+  double corner_angle = 0;         // polylines [degrees]
+  // Polylines on a sphere: nonzero for points that were inserted on a great circle between two
+  // given points. Empty if there are none.
   std::vector<char> on_the_way;
 
-  std::vector<double> parameters;  // smooth: of the samples
-  CurveFunction evaluate;          // smooth
+  std::vector<double> parameters;  // smooth curves: parameters of the samples
+  CurveFunction evaluate;          // smooth curves only
 
-  std::vector<std::int32_t> point_tags;                   // graphs: 0 takes the segment's
-  std::vector<std::array<std::int64_t, 2>> segment_ends;  // graphs
-  std::vector<char> corners;                              // graphs: of points; empty: all are
-  std::int64_t first_number = 0;                          // graphs: what the user calls vertex 0
+  std::vector<std::int32_t> point_tags;                   // graphs: 0 means the tag of the segment
+  std::vector<std::array<std::int64_t, 2>> segment_ends;  // graphs: indices into `points`
+  std::vector<char> corners;      // graphs: per point; if empty, all are corners
+  std::int64_t first_number = 0;  // graphs: the user's number of vertex 0
 
-  // What points and segments were when they were given; empty: they still are.
+  // Original numbers of points and segments as the user gave them. If empty, indices are the
+  // original numbers.
   std::vector<std::int64_t> point_numbers, segment_numbers;
 
   std::int64_t segment_count() const;
@@ -55,13 +58,13 @@ struct CurveSource {
   std::int64_t point_number(std::int64_t point) const;
   std::int64_t segment_number(std::int64_t segment) const;
 
-  // Does the curve end in this point (of an open polyline, or of a smooth curve)?
+  // Returns true if the point is an end of an open polyline or of a smooth curve.
   bool ends_at(std::int64_t point) const;
 
-  // For messages.
+  // Names for messages. segments_name() names a chain of segments.
   std::string point_name(std::int64_t point) const;
   std::string segment_name(std::int64_t segment) const;
-  std::string segments_name(std::int64_t first, std::int64_t last) const;  // a chain of them
+  std::string segments_name(std::int64_t first, std::int64_t last) const;
 };
 
 }  // namespace pnpbs

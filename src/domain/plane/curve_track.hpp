@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A boundary curve by its arc length. A station is the length of the way from the curve's begin.
+// A boundary curve parametrised by arc length. A station is the arc length from the begin of the
+// curve, measured along its polyline.
 #pragma once
 
 #include <vector>
@@ -11,18 +12,18 @@ namespace pnpbs {
 
 class CurveTrack : public PolylineTrack<2> {
  public:
-  // Keeps a reference to the curve.
+  // Stores a reference to the curve, which must outlive this object.
   explicit CurveTrack(const BoundaryCurve& curve);
 
   const BoundaryCurve& curve() const { return *curve_; }
 
-  // The points of the (true) curve at rising stations.
+  // Returns points of the true curve at ascending stations.
   std::vector<Point<2>> points_at(const std::vector<double>& stations) const;
 
-  // Is the curve a straight segment between two stations?
+  // Returns true if the curve is a straight segment between the two stations.
   bool is_straight(double begin, double end) const;
 
-  // How far it goes from the straight line between them, at most.
+  // Returns an upper estimate of the distance between the curve and its chord.
   double deviation(double begin, double end) const;
 
  private:

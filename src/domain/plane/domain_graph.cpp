@@ -18,7 +18,7 @@ namespace {
 
 using Kind = CurveSource::Kind;
 
-// A point as given, before points at the same place become one vertex.
+// A point as given, before points at the same position become one vertex.
 struct GivenPoint {
   std::int32_t source;
   std::int64_t index;
@@ -81,8 +81,8 @@ class Joiner {
       reject_domain("the domain has 2^31 points or more");
   }
 
-  // Samples in the middle of smooth curves join others only where these were given: two curves
-  // that happen to have a sample in common cross all the same.
+  // Returns true for samples inside smooth curves. They join other points only at positions where a
+  // point was given; curves that happen to share a sample still cross.
   bool is_mere_sample(std::int32_t point) const {
     const GivenPoint& given = given_[point];
     return given.source >= 0 && sources_[given.source].kind == Kind::smooth && !given.curve_end;
@@ -101,7 +101,7 @@ class Joiner {
     }
   }
 
-  // Joins the point to the nearest earlier one at the same place that has joined none.
+  // Joins point p to the nearest earlier point within the tolerance that is not itself joined.
   void join_nearest(std::int32_t p, const PointTree& tree) {
     std::pair<double, std::int32_t> nearest{graph_.size, p};
     tree.for_each_near(positions_[p], positions_[p], kSameCurveEnd * graph_.size,
@@ -137,7 +137,8 @@ class Joiner {
     return sources_[given.source].point_name(given.index);
   }
 
-  // Whose position a vertex takes: computed ones of smooth curves give way.
+  // Returns the priority by which points determine the position of their vertex. Computed points of
+  // smooth curves have the lowest.
   int weight(std::int32_t point) const {
     if (given_[point].fixed >= 0) return 2;
     return sources_[given_[point].source].kind == Kind::smooth ? 0 : 1;
@@ -191,7 +192,7 @@ class Joiner {
     }
   }
 
-  // Where vertices lie on an edge, from its begin to its end: (fraction, vertex).
+  // Vertices on an edge, as pairs (fraction of the edge, vertex) in ascending order.
   using Stops = std::vector<std::pair<double, std::int32_t>>;
 
   Stops vertices_on(const VertexPair& ends, const PointTree& tree) const {
@@ -257,9 +258,9 @@ class Joiner {
   DomainGraph graph_;
   std::vector<GivenPoint> given_;
   std::vector<Point<2>> positions_;
-  std::vector<std::int32_t> first_point_;  // of each source, in given_
-  std::vector<std::int32_t> root_;         // of each point: itself or the one it joined
-  std::vector<std::int32_t> vertex_of_;    // of each point
+  std::vector<std::int32_t> first_point_;  // first point of each source, as an index into given_
+  std::vector<std::int32_t> root_;         // per point: itself, or the point that it was joined to
+  std::vector<std::int32_t> vertex_of_;    // per point
   std::vector<std::int32_t> splitting_;    // vertices that split the edges they lie on
 };
 
@@ -286,7 +287,7 @@ std::string vertex_name(const GraphVertex& vertex, const std::vector<CurveSource
 
 namespace {
 
-// What ends in a vertex: the other ends of up to two segments, and their tags.
+// The segments at a vertex: the other ends and the tags of the first two.
 struct Incident {
   int segments = 0;
   std::array<std::int64_t, 2> others{};
@@ -328,7 +329,7 @@ void put_in_order(CurveSource& graph, const std::vector<Chain>& chains) {
       graph.tags.push_back(given.segment_tag(chain.edges[k]));
       graph.segment_numbers.push_back(given.segment_number(chain.edges[k]));
     }
-    if (chain.closed) graph.corners[chain.vertices.front()] = 1;  // it begins somewhere
+    if (chain.closed) graph.corners[chain.vertices.front()] = 1;  // a closed chain needs one corner
   }
 }
 

@@ -31,7 +31,7 @@ struct Sample {
   Point<2> point;
 };
 
-// New samples of one curve, each after the old one with this index.
+// New samples of one curve, each with the index of the old sample that precedes it.
 using NewSamples = std::vector<std::pair<std::int64_t, Sample>>;
 
 void insert(CurveSource& curve, NewSamples& added) {
@@ -57,10 +57,10 @@ void insert(CurveSource& curve, NewSamples& added) {
   curve.points = std::move(points);
 }
 
-// A point at which a smooth curve gets a sample if it lies on the curve.
+// A point at which a smooth curve gets a sample if the curve passes through it.
 struct Attachable {
   Point<2> point;
-  double same;  // distance that counts as the same place
+  double same;  // largest distance that counts as the same position
 };
 
 std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
@@ -77,8 +77,8 @@ std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
   return result;
 }
 
-// A chord keeps closer to its curve than this, in units of its length (but at kinks, where chords
-// are tiny).
+// Largest distance between a chord and its curve, except at kinks, where chords are tiny. [length
+// of the chord]
 constexpr double kMaxSag = 0.02;
 
 void attach(CurveSource& curve, const std::vector<Attachable>& all, const PointTree& tree) {
@@ -98,7 +98,8 @@ void attach(CurveSource& curve, const std::vector<Attachable>& all, const PointT
   if (!added.empty()) insert(curve, added);
 }
 
-// A vertex, curve end or fixed node that lies on a smooth curve becomes a sample of it.
+// Adds vertices, curve ends and fixed nodes that lie on smooth curves to the samples of these
+// curves.
 void attach_to_smooth_curves(std::vector<CurveSource>& sources,
                              const std::vector<FixedNode<2>>& fixed_nodes, double size) {
   const bool any = std::any_of(sources.begin(), sources.end(), [](const CurveSource& source) {
@@ -114,8 +115,8 @@ void attach_to_smooth_curves(std::vector<CurveSource>& sources,
   }
 }
 
-// Halves the chords of smooth curves that are in conflict, which the curves themselves may not
-// be. False if there are none.
+// Halves the chords of smooth curves that are in conflict, because the curves themselves may not
+// be. Returns false if there are none.
 bool refine_conflicting_chords(std::vector<CurveSource>& sources, const DomainGraph& graph,
                                const std::vector<SweepConflict>& conflicts) {
   std::vector<NewSamples> added(sources.size());
@@ -141,13 +142,12 @@ bool refine_conflicting_chords(std::vector<CurveSource>& sources, const DomainGr
   return any;
 }
 
-// Bounding box and area of a domain.
 struct Extent {
   Box<2> bounds;
   double area;
 };
 
-// The true curve's points halfway between those of the polyline.
+// Returns points of the true curve, at parameters halfway between its samples.
 std::vector<Point<2>> middles(const BoundaryCurve& curve) {
   std::vector<double> t;
   for (std::size_t i = 0; i + 1 < curve.parameters.size(); ++i) {
@@ -156,8 +156,8 @@ std::vector<Point<2>> middles(const BoundaryCurve& curve) {
   return curve_points(curve.evaluate, t, curve.name);
 }
 
-// Of the curves around the inside, which know their sides. Between the points of a smooth curve as
-// under a parabola through the middle.
+// Returns bounding box and area from the curves that have the inside on one side. Between the
+// samples of a smooth curve, the area is that under a parabola through the middle point.
 Extent extent_of(const std::vector<BoundaryCurve>& curves) {
   Box<2> box = empty_box<2>();
   for (const BoundaryCurve& curve : curves) {
@@ -179,11 +179,11 @@ Extent extent_of(const std::vector<BoundaryCurve>& curves) {
     if (!curve.evaluate) continue;
     const std::vector<Point<2>> middle = middles(curve);
     for (std::size_t i = 0; i + 1 < p.size(); ++i) {
-      // Between chord and curve as under a parabola: 4/3 of the triangle's area.
+      // The area between chord and parabola is 4/3 of the triangle's area.
       const double triangle = (middle[i][0] - p[i][0]) * (p[i + 1][1] - p[i][1]) -
                               (middle[i][1] - p[i][1]) * (p[i + 1][0] - p[i][0]);
       add(sign * 4 / 3 * triangle);
-      // The curve goes beyond the middle by less than the middle does beyond the chord.
+      // The curve extends beyond the middle point by less than the middle point is from the chord.
       const double sag_x = middle[i][0] - 0.5 * (p[i][0] + p[i + 1][0]);
       const double sag_y = middle[i][1] - 0.5 * (p[i][1] + p[i + 1][1]);
       include(box, {middle[i][0] + sag_x, middle[i][1] + sag_y});
@@ -192,10 +192,11 @@ Extent extent_of(const std::vector<BoundaryCurve>& curves) {
   return {box, 0.5 * (sum.high + sum.low)};
 }
 
-// Chords of smooth curves in conflict are halved this often before the conflict is believed.
+// Rounds of halving the chords of smooth curves before a conflict is reported.
 constexpr int kRefinements = 8;
 
-// By chords: nodes keep farther off the true curves than these do.
+// Builds the index from chords of smooth curves, since nodes keep farther from the curves than the
+// chords do.
 std::shared_ptr<const RegionIndex<2>> regions_of(const std::vector<BoundaryCurve>& curves) {
   std::vector<RegionFacet<2>> facets;
   for (const BoundaryCurve& curve : curves)
@@ -271,8 +272,8 @@ class Resolver {
            point_text(points_[vertex]);
   }
 
-  // ------------------------------------------------------------ what bounds it
-  // Every vertex must end an even number of boundary segments.
+  // ------------------------------------------------------------ the boundary
+  // Throws if the boundary is open: every vertex must end an even number of boundary segments.
   void require_closed_boundary() const {
     std::vector<char> odd(graph_.vertices.size(), 0);
     bool any = false;
@@ -299,7 +300,7 @@ class Resolver {
     return faces_.of_side[side_left_of(vertex, points_, graph_.ends, sweep_)];
   }
 
-  // Triangle's rule: all that is enclosed.
+  // Marks all enclosed faces as inside, the rule of Triangle.
   void find_inside_of_graph() {
     inside_.assign(faces_.count, 1);
     inside_[0] = 0;
@@ -319,7 +320,7 @@ class Resolver {
     inside_ = inside_by_parity(faces_.count, contacts);
   }
 
-  // In which the k-th region point lies.
+  // Returns the face in which region point k lies.
   std::int32_t face_of_point(std::size_t k) const {
     return face_around(static_cast<std::int32_t>(graph_.vertices.size() + k));
   }
@@ -332,7 +333,7 @@ class Resolver {
     }
   }
 
-  // ------------------------------------------------------------ what is part of it
+  // ------------------------------------------------------------ edges and vertices of the domain
   void keep_edges() {
     kept_.resize(graph_.edges.size());
     kept_degree_.assign(graph_.vertices.size(), 0);
@@ -352,7 +353,8 @@ class Resolver {
                                   std::ssize(left_out));
   }
 
-  // Fixed nodes on no curve, and vertices of graphs in no segment, which count as such.
+  // Adds fixed nodes that lie on no curve, and vertices of graphs without segments, to the fixed
+  // nodes.
   void place_lone_vertices() {
     std::vector<std::string> unused, outside;
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(graph_.vertices.size()); ++v) {
@@ -401,7 +403,7 @@ class Resolver {
     return graph_.vertices[graph_.ends[edge][0]].corner;
   }
 
-  // The edges of one source. A closed one is gone round from its first corner.
+  // Cuts the edges of one source into curves. A closed source starts at its first corner.
   void cut_at_corners(std::size_t first, std::size_t end) {
     std::size_t start = first;
     while (start < end && !begins_at_corner(start)) ++start;
@@ -432,7 +434,8 @@ class Resolver {
       curve.parameters.push_back(graph_.edges[first].t_begin);
       for (const std::size_t edge : chain) curve.parameters.push_back(graph_.edges[edge].t_end);
     }
-    curve.corner_begin = graph_.ends[first][0];  // vertices, until corners are numbered
+    // Vertices, until make_corners() numbers the corners.
+    curve.corner_begin = graph_.ends[first][0];
     curve.corner_end = graph_.ends[last][1];
     curve.tag = source.segment_tag(graph_.edges[first].segment);
     curve.left_face = inner_face_[face_on_left(first)];
@@ -475,10 +478,10 @@ class Resolver {
   std::vector<Point<2>> points_;  // vertices of the graph, then region points
   SweepResult sweep_;
   Faces faces_;
-  std::vector<char> inside_;               // of each face
-  std::vector<std::int32_t> inner_face_;   // of each face: its number among the inner ones, or 0
-  std::vector<std::int32_t> region_tags_;  // of each face; empty if there are none
-  std::vector<char> kept_;                 // of each edge: is it part of the domain?
+  std::vector<char> inside_;               // per face
+  std::vector<std::int32_t> inner_face_;   // per face: its number among the inner ones, or 0
+  std::vector<std::int32_t> region_tags_;  // per face; empty if there are none
+  std::vector<char> kept_;                 // per edge: is it part of the domain?
   std::vector<std::int32_t> kept_degree_;
   ResolvedDomain result_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what the user gave to what the nodes are laid on.
+// Turns what the user gave for a plane domain into the curves and corners on which nodes are
+// placed.
 #pragma once
 
 #include <vector>
@@ -9,8 +10,8 @@
 namespace pnpbs {
 
 // Joins the sources into one graph, checks it, finds the inside and cuts the curves at their
-// corners. Adds samples to smooth sources where they are met or come close to others. Throws
-// Error(ErrorKind::domain).
+// corners. Adds samples to smooth sources where other points lie on them or where they come close
+// to other curves. Throws Error(ErrorKind::domain).
 ResolvedDomain resolve_domain(std::vector<CurveSource>& sources,
                               const std::vector<RegionPoint<2>>& region_points,
                               const std::vector<FixedNode<2>>& fixed_nodes);

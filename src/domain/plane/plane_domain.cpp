@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the user gives is looked at argument by argument here, and kept as it is; how it fits
-// together is for check().
+// Arguments of the user are checked one by one and stored here; check() resolves how they fit
+// together.
 #include "domain/plane/plane_domain.hpp"
 
 #include <algorithm>
@@ -40,16 +40,16 @@ void require_not_negative(const char* argument, double value) {
   if (value < 0) reject(std::string(argument) + " is " + number_text(value) + ", less than 0");
 }
 
-// Radians; of places on a sphere.
+// Angles between points of a sphere that count as opposite and as coincident. [radians]
 constexpr double kNearlyOpposite = 3.14159, kSame = 1e-7;
 
 MessageText vertex_text(std::int64_t number, const Point<3>& x) {
   return std::to_string(number) + " " + point_text(x) + " [" + degrees_text(degrees_of(x)) + "]";
 }
 
-// Of curves on a sphere, the vertices that are not at the same place as the one before; ends stay.
-// Coasts have many that are there but for rounding, and in the chart these could not be told from
-// each other.
+// Returns the indices of the vertices of a curve on a sphere that do not coincide with the previous
+// one; ends are kept. Coastlines often repeat a vertex up to rounding, and the chart could not
+// distinguish such vertices.
 std::vector<std::int64_t> apart(const std::vector<Point<3>>& vertices, bool closed) {
   const auto same = [&](std::int64_t a, std::int64_t b) {
     return angle_between(vertices[static_cast<std::size_t>(a)],
@@ -68,7 +68,7 @@ std::vector<std::int64_t> apart(const std::vector<Point<3>>& vertices, bool clos
   return kept;
 }
 
-// A full circle closes exactly.
+// Returns `end`, or exactly a full turn from `begin` if they differ by a full turn up to rounding.
 double snap_to_full_turn(double begin, double end) {
   constexpr double turn = 2 * std::numbers::pi;
   const double sweep = end - begin;
@@ -97,7 +97,7 @@ void read_segments(CurveSource& graph, std::int64_t segments, const std::int64_t
              std::to_string(segment_ends[2 * s]) + ": the segment has no length");
     }
     const std::int32_t tag = segment_tags == nullptr ? 1 : segment_tags[s];
-    graph.tags.push_back(tag == 0 ? 1 : tag);  // as Triangle: 0 is no marker
+    graph.tags.push_back(tag == 0 ? 1 : tag);  // 0 is no marker, as in Triangle
   }
 }
 
@@ -147,7 +147,7 @@ void PlaneDomain::add_great_circles(CurveRole role, bool closed,
   add_source(std::move(source));
 }
 
-// A vertex, and the way from it to the next one, if there is one.
+// Adds vertex v, and the arc from it to vertex next_v unless that is negative.
 void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vertices,
                           const std::vector<std::int32_t>& tags, std::int64_t v,
                           std::int64_t next_v) const {
@@ -276,7 +276,7 @@ bool PlaneDomain::is_whole_sphere() const {
   return embedding_.is_sphere() && (closing_ || !has_boundary_curve());
 }
 
-// What closes the sphere comes behind what was given.
+// Visits the points that the user gave. The sources and nodes of the closing patch come after them.
 template <class Visit>
 void PlaneDomain::for_given_points(const Visit& visit) const {
   const std::size_t sources = closing_ ? open_sources_ : sources_.size(),
@@ -331,8 +331,8 @@ void PlaneDomain::check() {
   checked_ = true;
 }
 
-// Its nodes are such as are inside, and its triangle has straight edges in the chart, whatever the
-// ways along the sphere are.
+// Marks the nodes of the patch as inner nodes (tag 0). The triangle of the patch has straight edges
+// in the chart, so its area is computed from these.
 void PlaneDomain::follow_patch() {
   resolved_.area = 0;
   for (BoundaryCurve& curve : resolved_.curves) {
@@ -347,7 +347,7 @@ void PlaneDomain::follow_patch() {
     if (is_in_patch(node.position)) node.tag = 0;
 }
 
-// What is given is checked as if the sphere were closed by next to nothing.
+// Checks an open sphere as if a negligibly small patch closed it.
 void PlaneDomain::check_open_sphere() {
   for (const RegionPoint<2>& point : region_points_)
     if (point.is_hole())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plane domain as the user describes it: boundary and inner curves, holes, fixed nodes.
+// A plane domain as the user describes it: boundary and inner curves, holes and fixed nodes.
 #pragma once
 
 #include <cstdint>
@@ -21,61 +21,62 @@
 
 namespace pnpbs {
 
-// A curve between two corners (or a closed one that starts and ends in the same corner): the
-// unit in which boundary nodes are laid. Straight between `points` unless `evaluate` is set.
+// A curve between two corners, or a closed one that begins and ends in one corner. Boundary nodes
+// are placed curve by curve. It is straight between `points` unless `evaluate` is set.
 struct BoundaryCurve {
-  std::vector<Point<2>> points;    // polyline, first and last are the corners
-  std::vector<double> parameters;  // of the points, if evaluate is set
+  std::vector<Point<2>> points;    // polyline whose first and last points are the corners
+  std::vector<double> parameters;  // of the points, if `evaluate` is set
   CurveFunction evaluate;          // the true curve, or empty
   std::int64_t corner_begin;       // index into PlaneDomain::corners()
-  std::int64_t corner_end;         //
+  std::int64_t corner_end;
   std::int32_t tag;
-  bool left_inside;   // is the domain on the left of the way from begin to end?
-  bool right_inside;  // both: an inner curve
-  std::string name;   // for messages: "segment 12", "curve 3", ...
-  // The faces on both sides, numbered from 1 among those inside; 0 outside. (Curves divide the
-  // inside into faces.)
+  bool left_inside;   // is the domain on the left when going from begin to end?
+  bool right_inside;  // an inner curve has both
+  std::string name;   // for messages, such as "segment 12" or "curve 3"
+  // Faces on both sides, into which curves divide the inside: 1, 2, ... inside, 0 outside.
   std::int32_t left_face = 0;
   std::int32_t right_face = 0;
-  std::int32_t left_region = 0;  // tags, 0 where there is none
+  std::int32_t left_region = 0;  // tags, 0 if there is none
   std::int32_t right_region = 0;
 
-  // Does the domain lie on one side only?
+  // Returns true if the domain lies on exactly one side.
   bool bounds() const { return left_inside != right_inside; }
 };
 
+// An end of boundary curves. It always has a node.
 struct Corner {
   Point<2> position;
   std::int32_t tag;
-  std::string name;  // for messages: "vertex 17"
+  std::string name;  // for messages, such as "vertex 17"
 };
 
-// Both times d where it is.
+// Tolerances of simplify(). [local d]
 struct SimplifyRule {
-  double tolerance;  // how far a vertex that is left out may lie from the curve
-  double smallest;   // closed curves of less extent are left out
+  double tolerance;  // largest distance of a removed vertex from the curve
+  double smallest;   // closed curves of smaller extent are removed
 };
 
+// The counts of what simplify() removed.
 struct LeftOut {
-  std::int64_t vertices = 0;  // those of curves left out included
+  std::int64_t vertices = 0;  // includes the vertices of removed curves
   std::int64_t curves = 0;
 };
 
-// What check() finds out.
+// The result of PlaneDomain::check().
 struct ResolvedDomain {
   std::vector<Corner> corners;
   std::vector<BoundaryCurve> curves;
   std::vector<FixedNode<2>> fixed_nodes;
-  std::vector<std::int32_t> fixed_node_faces;  // that they lie in; see BoundaryCurve
+  std::vector<std::int32_t> fixed_node_faces;  // face of each fixed node; see BoundaryCurve
   std::vector<Warning> warnings;
   Box<2> bounds{};
   double area = 0;
-  std::shared_ptr<const RegionIndex<2>> regions;  // null if none has a tag
+  std::shared_ptr<const RegionIndex<2>> regions;  // null if no region has a tag
 };
 
-// Or a domain on a sphere, in a chart of it: then all coordinates are those of the chart. The point
-// that it is projected from lies outside or, if no curve bounds the domain, is in the middle of
-// what closes the whole sphere.
+// A domain in the plane, or on a sphere in a chart of it. On a sphere all coordinates are those of
+// the chart. The point of projection lies outside the domain; if no curve bounds the domain, it is
+// in the middle of the patch that closes the whole sphere.
 class PlaneDomain : public DomainBase<2> {
  public:
   PlaneDomain() = default;
@@ -86,76 +87,79 @@ class PlaneDomain : public DomainBase<2> {
     return embedding_.is_sphere() ? GeometryKind::sphere : GeometryKind::plane;
   }
 
-  // On a sphere, and nothing bounds it?
+  // Returns true on a sphere without boundary curves.
   bool is_whole_sphere() const;
-  // Closes a whole sphere, in place of how it was closed before. Throws Error(ErrorKind::domain)
-  // where something of the domain lies in the patch.
+  // Closes a whole sphere by the patch, and replaces an earlier one. Throws
+  // Error(ErrorKind::domain) if a curve or a fixed node lies in the patch.
   void close(const ClosingPatch& patch);
-  // What of the patch counts later; null if the sphere is not closed yet.
+  // The radii and the spacing of the closing patch; see ClosingPatch.
   struct Closing {
-    double edge, beyond, margin, d;  // of ClosingPatch
+    double edge, beyond, margin, d;
   };
+  // Returns null if the sphere is not closed yet.
   const Closing* closing() const { return closing_ ? &*closing_ : nullptr; }
-  // Of its nodes, those of the patch; 0 if it is not closed.
+  // Returns the number of nodes of the patch; 0 if the domain is not closed.
   std::int64_t patch_nodes() const {
     return closing_ ? std::ssize(given_nodes_) - static_cast<std::int64_t>(open_nodes_) + 3 : 0;
   }
-  // Has what the user gives of a whole sphere no point so far out in the chart?
+  // Returns true if all points that the user gave lie nearer to the chart's origin than `edge`.
   bool leaves_room_beyond(double edge) const;
-  // Is a boundary node or a fixed one at that place of the patch?
+  // Returns true if u, the position of a boundary node or of a fixed node, belongs to the patch.
   bool is_in_patch(const Point<2>& u) const {
     return closing_ && dot(u, u) >= closing_->edge * closing_->edge;
   }
-  // Is it, in that part of the patch whose nodes move in the finish?
+  // Returns true if u belongs to the part of the patch whose nodes move in the finish.
   bool is_in_margin(const Point<2>& u) const {
     return is_in_patch(u) && dot(u, u) < closing_->margin * closing_->margin;
   }
-  // Is the place one that only nodes of the patch may have? While its margin is free, in the rest
-  // of it.
+  // Returns true if only nodes of the patch may be at u. While the margin is free, only the part of
+  // the patch beyond it is reserved.
   bool is_closed_at(const Point<2>& u, bool margin_is_free) const {
     if (!closing_) return false;
     const double edge = margin_is_free ? closing_->margin : closing_->beyond;
     return dot(u, u) > edge * edge;
   }
-  // The bounds of a closed one that is larger in the chart. After check().
+  // Sets the bounds to those of a closed domain that is larger in the chart. Call after check().
   void take_bounds(const Box<2>& bounds) { resolved_.bounds = bounds; }
 
-  // Building; see pnpbs.h for what each means. They throw Error(ErrorKind::argument) naming
-  // the argument and its value, and leave the domain as it was.
+  // Functions that describe the domain; pnpbs.h documents them. They throw
+  // Error(ErrorKind::argument), with the argument and its value, and then leave the domain
+  // unchanged.
   void add_polyline(CurveRole role, bool closed, std::int64_t n, const double* xy,
                     const std::int32_t* tags, double corner_angle);
-  // On a sphere, the same by the shortest ways from point to point.
+  // Adds a polyline on a sphere whose vertices are joined by arcs of great circles.
   void add_great_circles(CurveRole role, bool closed, const std::vector<Point<3>>& vertices,
                          const std::int32_t* tags, double corner_angle);
   void add_arc(CurveRole role, const Point<2>& centre, double radius, double begin, double end,
                std::int32_t tag);
   void add_curve(CurveRole role, CurveFunction curve, double begin, double end, std::int32_t tag);
-  // first_number: what the user calls vertex 0 in messages (1 for a .poly numbered from 1).
+  // `first_number` is the user's number of vertex 0 in messages (1 for a .poly file numbered from
+  // 1).
   void add_pslg(std::int64_t vertices, const double* xy, const std::int32_t* vertex_tags,
                 std::int64_t segments, const std::int64_t* segment_ends,
                 const std::int32_t* segment_tags, std::int64_t holes, const double* hole_points,
                 std::int64_t first_number = 0);
-  // Of all graphs, degrees.
+  // Sets the angle at which vertices of graphs are corners. [degrees]
   void set_corner_angle(double corner_angle);
-  // Leaves out what is finer than d of what has been given so far; all or, if it throws, nothing.
+  // Removes details finer than d from what was given so far (plane/simplify.hpp). Leaves the domain
+  // unchanged if it throws.
   LeftOut simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
 
-  // Checks everything and resolves corners, curves and sides; does nothing if nothing changed
-  // since the last time. Throws Error(ErrorKind::domain).
+  // Checks the domain and resolves corners, curves and sides. Does nothing if nothing changed since
+  // the last call. Throws Error(ErrorKind::domain).
   void check();
 
-  // Valid after check(). Corners come in the order in which they were given, curves likewise.
+  // Results, valid after check(). Corners and curves are in the order in which they were given.
   const std::vector<Corner>& corners() const { return resolved_.corners; }
   const std::vector<BoundaryCurve>& curves() const { return resolved_.curves; }
-  // Fixed nodes that are not corners.
   const std::vector<FixedNode<2>>& fixed_nodes() const { return resolved_.fixed_nodes; }
-  // Of each the face that it lies in; see BoundaryCurve.
+  // Returns for each fixed node the face in which it lies; see BoundaryCurve.
   const std::vector<std::int32_t>& fixed_node_faces() const { return resolved_.fixed_node_faces; }
   const std::vector<Warning>& warnings() const { return resolved_.warnings; }
-  // Holds all curves, true ones too.
+  // Returns a box that contains all curves, including those of smooth sources.
   const Box<2>& bounds() const { return resolved_.bounds; }
-  double area() const { return resolved_.area; }  // in the chart, of a domain on a sphere
-  // Of the tags of regions; null if none has one.
+  double area() const { return resolved_.area; }  // in the chart, for a domain on a sphere
+  // Returns the index of region tags; null if no region has a tag.
   const RegionIndex<2>* regions() const { return resolved_.regions.get(); }
 
  private:
@@ -172,14 +176,15 @@ class PlaneDomain : public DomainBase<2> {
 
   Embedding<2> embedding_;
   std::optional<Closing> closing_;
-  std::size_t open_sources_ = 0, open_nodes_ = 0;  // of a closed sphere, those given
+  // On a closed sphere, the number of sources and nodes that the user gave.
+  std::size_t open_sources_ = 0, open_nodes_ = 0;
   std::vector<CurveSource> sources_;
   double corner_angle_ = 0;  // of graphs
   std::int64_t curves_given_ = 0, graphs_given_ = 0;
   ResolvedDomain resolved_;
 };
 
-// Of a checked domain on a sphere, along the sphere.
+// Returns the area of a checked domain on a sphere, measured on the sphere.
 double area_on_sphere(const PlaneDomain& domain);
 
 }  // namespace pnpbs

@@ -20,7 +20,7 @@ double extent(const std::vector<Point<2>>& points) {
   return size_of(box);
 }
 
-// Is the chord ab as good as the curve, which passes `middle` between them?
+// Returns true if the chord ab approximates the curve, which passes through `middle`, well enough.
 bool is_smooth(const Point<2>& a, const Point<2>& middle, const Point<2>& b, double whole) {
   const double first = distance<2>(a, middle), second = distance<2>(middle, b);
   const double length = first + second;
@@ -72,7 +72,7 @@ CurveSamples sample_curve(const CurveFunction& curve, double begin, double end,
   if (!(whole > 0)) {
     throw Error(ErrorKind::argument, name + " is a single point, " + point_text(samples.points[0]));
   }
-  // Rounds of one batch each: the middles of all intervals not known to be smooth.
+  // Each round is one batch: the middles of all intervals that are not yet known to be smooth.
   std::vector<bool> open(samples.points.size() - 1, true);
   while (std::find(open.begin(), open.end(), true) != open.end()) {
     const std::vector<double> new_parameters = middles(samples.parameters, open);

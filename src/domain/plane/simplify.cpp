@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices leave one at a time, those first that matter least (as M. Visvalingam and J. D. Whyatt,
-// "Line generalisation by repeated elimination of points", Cartogr. J. 30 (1993) 46-51, but
-// measured by distance). What is left out is swept over by triangles that hold no point, so nothing
-// changes its side.
+// Removes vertices one at a time, those of least importance first (as M. Visvalingam and J. D.
+// Whyatt, "Line generalisation by repeated elimination of points", Cartogr. J. 30 (1993) 46-51, but
+// measured by distance). A removal sweeps the curve over a triangle. Only triangles that contain no
+// other point are allowed, so no point changes its side.
 #include "domain/plane/simplify.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@
 namespace pnpbs {
 namespace {
 
-// Does the point lie within a closed chain?
+// Returns true if the point lies inside the closed chain.
 bool is_within(const Point<2>& point, const Chain& chain, const DomainGraph& graph) {
   bool within = false;
   for (std::size_t k = 0; k + 1 < chain.vertices.size(); ++k) {
@@ -38,6 +38,7 @@ bool is_within(const Point<2>& point, const Chain& chain, const DomainGraph& gra
   return within;
 }
 
+// Selects the closed chains that are too small for nodes.
 class SmallLoops {
  public:
   SmallLoops(const DomainGraph& graph, const std::vector<Chain>& chains,
@@ -50,7 +51,7 @@ class SmallLoops {
     }
   }
 
-  // From the smallest on: what lies within a loop has been judged before it.
+  // Visits chains by ascending size, so that chains inside a loop are decided before the loop.
   std::vector<char> run(double smallest) {
     goes_.assign(chains_.size(), 0);
     std::vector<std::size_t> order(chains_.size());
@@ -98,13 +99,13 @@ class SmallLoops {
   const std::vector<double>& d_;
   const std::vector<char>& may_go_;
   std::vector<Box<2>> boxes_;
-  std::vector<Point<2>> begins_;  // a point of each chain, then vertices that end no edge
+  std::vector<Point<2>> begins_;  // a point of each chain, then vertices without edges
   std::vector<char> goes_;
 };
 
-// For each chain 1 if it is closed, of less extent than `smallest` times the mean d at its
-// vertices, and nothing that stays lies within. `d` and `may_go` have an entry for each vertex; the
-// chain of the largest extent stays.
+// Returns 1 for each closed chain whose extent is less than `smallest` times the mean d at its
+// vertices and that encloses nothing that stays. `d` and `may_go` have one entry per vertex. The
+// chain of the largest extent always stays.
 std::vector<char> small_loops(const DomainGraph& graph, const std::vector<Chain>& chains,
                               const std::vector<double>& d, const std::vector<char>& may_go,
                               double smallest) {
@@ -113,12 +114,12 @@ std::vector<char> small_loops(const DomainGraph& graph, const std::vector<Chain>
 
 using Kind = CurveSource::Kind;
 
-// A vertex's place in its chain: chains follow each other in one array, closed ones without the
-// vertex that comes again.
+// A vertex in its chain. Chains follow each other in one array; closed ones do not repeat their
+// first vertex.
 struct Slot {
   std::int32_t vertex;
   std::int32_t chain;
-  std::int64_t before, after;  // of those that are left; -1 at the ends of open chains
+  std::int64_t before, after;  // remaining neighbours; -1 at the ends of open chains
 };
 
 class Simplifier {
@@ -156,7 +157,7 @@ class Simplifier {
   void find_chains() {
     std::vector<char> is_break(graph_.vertices.size(), 0);
     may_go_.assign(graph_.vertices.size(), 1);
-    std::vector<std::int32_t> one(graph_.vertices.size(), -1);  // edge of each vertex
+    std::vector<std::int32_t> one(graph_.vertices.size(), -1);  // per vertex, one of its edges
     for (std::size_t e = 0; e < graph_.edges.size(); ++e)
       for (const std::int32_t v : graph_.ends[e]) {
         const auto now = static_cast<std::int32_t>(e);
@@ -182,7 +183,7 @@ class Simplifier {
     for (std::size_t c = 0; c < chains_.size(); ++c) {
       if (!loop_goes_[c]) continue;
       ++left_out_.curves;
-      // Of a closed chain the first vertex is the last one, too.
+      // The first vertex of a closed chain is also its last and is counted once.
       const std::vector<std::int32_t>& vertices = chains_[c].vertices;
       left_out_.vertices += std::count_if(vertices.begin() + 1, vertices.end(),
                                           [this](std::int32_t v) { return was_given(v); });
@@ -224,7 +225,7 @@ class Simplifier {
     make_slots();
     for (const RegionPoint<2>& it : region_points_) positions.push_back(it.point);
     const PointTree points(positions);
-    // What was in the way may have left, so all are asked again until none leaves.
+    // A removal may free vertices that were blocked, so all are queued again until none is removed.
     for (std::int64_t before = -1; before != vertices_gone_;) {
       before = vertices_gone_;
       for (std::size_t s = 0; s < slots_.size(); ++s) offer(static_cast<std::int64_t>(s));
@@ -242,7 +243,8 @@ class Simplifier {
     }
   }
 
-  // Into the queue, if the tolerance allows it. What was said of the slot before no longer holds.
+  // Queues the vertex if the tolerance allows its removal. Earlier entries of this slot become
+  // invalid.
   void offer(std::int64_t slot) {
     if (slot < 0) return;
     ++turn_of_[slot];
@@ -254,7 +256,8 @@ class Simplifier {
     if (cost <= rule_.tolerance) queue_.push({cost, slot, turn_of_[slot]});
   }
 
-  // The largest distance over d that vertices given between the two next ones would have.
+  // Returns the largest distance, in units of d, of the given vertices between the two neighbours
+  // from the segment that would join these.
   double deviation(const Slot& here) const {
     const Point<2>&a = position(here.before), &b = position(here.after);
     double largest = 0;
@@ -270,7 +273,8 @@ class Simplifier {
     return slot + 1 == first_slot_[chain + 1] ? first_slot_[chain] : slot + 1;
   }
 
-  // Curves stay curves: a closed one has three vertices or more, and two have not the same segment.
+  // Returns true if curves stay valid: a closed one keeps three vertices, and no two curves become
+  // the same segment.
   bool may_leave(std::int64_t slot) const {
     const Slot& here = slots_[slot];
     const std::int64_t left = left_in_chain_[here.chain];
@@ -282,7 +286,7 @@ class Simplifier {
     return a != b && straight_.count(pair_of(a, b)) == 0;
   }
 
-  // Is no other point in the triangle that the curve sweeps over?
+  // Returns true if the triangle over which the curve sweeps contains no other point.
   bool sweeps_free(std::int64_t slot, const PointTree& points,
                    const std::vector<Point<2>>& positions) const {
     const Slot& here = slots_[slot];
@@ -302,7 +306,7 @@ class Simplifier {
     return free;
   }
 
-  // Not one that only follows a great circle?
+  // Returns false for vertices that were inserted on great circles.
   bool was_given(std::int32_t v) const {
     const GraphVertex& vertex = graph_.vertices[v];
     if (vertex.source < 0) return true;
@@ -341,7 +345,8 @@ class Simplifier {
     sources_ = std::move(left);
   }
 
-  // The vertices left on its edges, in order: where others met it, it has vertices now.
+  // Rewrites a polyline from the remaining vertices of its edges, which include vertices at which
+  // other curves met it.
   void rewrite_polyline(CurveSource& source, const std::vector<std::int32_t>& edges) {
     const CurveSource given = source;
     source.points.clear();
@@ -399,19 +404,19 @@ class Simplifier {
     source.point_numbers.push_back(own ? given.point_number(vertex.index) : 0);
   }
 
-  using Candidate = std::tuple<double, std::int64_t, std::int32_t>;  // cost, slot, its turn
+  using Candidate = std::tuple<double, std::int64_t, std::int32_t>;  // cost, slot, turn of the slot
 
   std::vector<CurveSource>& sources_;
   std::vector<RegionPoint<2>>& region_points_;
   SimplifyRule rule_;
   DomainGraph graph_;
-  std::vector<double> d_;  // of vertices, as the next two
+  std::vector<double> d_;  // per vertex, as the next two
   std::vector<char> may_go_, gone_;
   std::vector<Chain> chains_;
-  std::vector<char> loop_goes_;  // of chains, as the next two
+  std::vector<char> loop_goes_;  // per chain, as the next two
   std::vector<std::int64_t> first_slot_, left_in_chain_;
   std::vector<Slot> slots_;
-  std::vector<std::int32_t> turn_of_;                         // of slots: how often offered
+  std::vector<std::int32_t> turn_of_;  // per slot: number of calls of offer()
   std::set<std::pair<std::int32_t, std::int32_t>> straight_;  // chains of one segment
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
   std::int64_t vertices_gone_ = 0;

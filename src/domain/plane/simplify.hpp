@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundaries that are finer than nodes can follow, as coastlines are: vertices are left out where
-// pieces are shorter than d, and closed curves that are too small for nodes as a whole.
+// Simplifies boundaries that are finer than nodes can follow, such as coastlines. Removes vertices
+// beside segments shorter than d, and closed curves that are too small for nodes.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,14 @@
 
 namespace pnpbs {
 
-// Straight segments of graphs and polylines; arcs and general curves stay. No vertex that stays,
-// fixed node or region point comes to another side of a curve. Vertices stay where curves meet or
-// end, where tags change or a vertex has its own, at fixed nodes, and beside pieces as long as d. A
-// curve with one of these, or with another curve around which it goes that stays, is not left out,
-// nor is the one of the largest extent; region points within those left out go with them. Throws
-// Error as the evaluator does, and for points that must not coincide.
+// Simplifies graphs and polylines; arcs and general curves stay. No remaining vertex, fixed node or
+// region point changes its side of a curve.
+// A vertex stays at meeting points and ends of curves, where tags change, if it has a tag of its
+// own, at fixed nodes, and between segments that are both as long as d. A closed curve stays if one
+// of its vertices must stay or if it encloses something that stays; the curve of the largest extent
+// stays, too. Region points inside removed curves are removed.
+// Throws Error as the evaluator does, and Error(ErrorKind::domain) for points that must not
+// coincide.
 LeftOut simplify(std::vector<CurveSource>& sources, std::vector<RegionPoint<2>>& region_points,
                  const std::vector<FixedNode<2>>& fixed_nodes,
                  const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);

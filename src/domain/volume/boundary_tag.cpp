@@ -11,6 +11,7 @@ namespace pnpbs {
 
 namespace {
 
+// Finds the facet nearest to the centroid of a triangle.
 class NearestFacet {
  public:
   NearestFacet(const VolumeDomain& domain, const FacetCorners<3>& triangle)
@@ -19,7 +20,8 @@ class NearestFacet {
         outward_(cross(difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0]))),
         first_reach_(distance<3>(triangle[0], middle_)) {}
 
-  // Of those that count(facet); -1: there is none. Of facets equally near, the first one.
+  // Returns the nearest facet for which count(facet) is true, or -1. Of facets equally near,
+  // returns the first.
   template <class Counts>
   std::int32_t of(const Counts& counts) const {
     const Box<3>& bounds = domain_.bounds();

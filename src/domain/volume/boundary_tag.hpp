@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which surface a triangle between nodes on features stands for.
+// Determines the tag of boundary triangles whose corners lie on features.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace pnpbs {
 
-// Of a triangle that turns counter-clockwise as seen from outside, and the patches that all its
-// corners lie on: the tag of what bounds the domain there. Of several patches, or if there is none,
-// that of the facet nearest to the triangle's middle which does not face away: the other side of a
-// thin plate may be nearer still.
+// Returns the tag of the boundary under a triangle that is counter-clockwise as seen from outside.
+// `patches` are those on which all its corners lie. If there is exactly one, the nearest facet of
+// that patch determines the tag. Otherwise the facet nearest to the centroid that does not face
+// away does, since the other side of a thin plate may be nearer.
 std::int32_t boundary_tag(const VolumeDomain& domain, const FacetCorners<3>& triangle,
                           std::span<const std::int32_t> patches);
 

@@ -21,14 +21,15 @@
 namespace pnpbs {
 namespace {
 
-// The check that the largest pieces of a surface alone have not too many nodes, as with one vertex
-// far away.
+// A check that the largest pieces of a surface alone do not imply too many nodes, as happens if one
+// vertex is far away by mistake.
 
-constexpr std::size_t kLargest = 64;  // pieces that are looked at, of either kind
-constexpr double kBytesOnEdge = 450;  // of a node while it is laid: samples of d about
-constexpr int kParts = 4;             // of their sides, at whose ends d is asked
+constexpr std::size_t kLargest = 64;  // most edges, and most triangles, that are checked
+// Memory of a node while it is placed, for the samples of d [bytes]
+constexpr double kBytesOnEdge = 450;
+constexpr int kParts = 4;  // intervals per side between the points at which d is evaluated
 
-// With the piece's end points; an edge has two that are the same.
+// A feature edge or a triangle; an edge (a, b) has the corners a, b, b.
 struct LargePiece {
   double size;  // length or area
   FacetCorners<3> corners;
@@ -70,7 +71,7 @@ std::vector<LargePiece> largest_triangles(const BoundaryMesh<3>& mesh, const Fea
   return triangles;
 }
 
-// The places of a lattice on a piece.
+// Appends the points of a lattice on the piece.
 void append_places(const LargePiece& piece, std::vector<Point<3>>& places) {
   for (int i = 0; i <= kParts; ++i)
     for (int j = 0; i + j <= kParts; ++j) {
@@ -83,7 +84,7 @@ void append_places(const LargePiece& piece, std::vector<Point<3>>& places) {
     }
 }
 
-// Of each piece the largest d at its places.
+// Returns for each piece the largest d at its lattice points.
 std::vector<double> largest_spacings(const std::vector<LargePiece>& pieces,
                                      const SpacingEvaluator<3>& spacing) {
   std::vector<Point<3>> places;
@@ -102,9 +103,9 @@ double perimeter(const FacetCorners<3>& x) {
   return distance<3>(x[0], x[1]) + distance<3>(x[1], x[2]) + distance<3>(x[2], x[0]);
 }
 
-// From few places on each and the largest d there, so that it is far less work than to lay nodes,
-// and they are rather fewer than would be laid. Throws Error(ErrorKind::spacing) or ::memory, with
-// the longest of the edges.
+// Throws Error(ErrorKind::spacing) or Error(ErrorKind::memory) if the largest edges and triangles
+// alone would have too many nodes; the message names the longest edge. The largest d at a few
+// points of each piece gives a low estimate at much less cost than placing nodes.
 void require_few_on_large_facets(const BoundaryMesh<3>& mesh, const Features& features,
                                  const SpacingEvaluator<3>& spacing, const NodeLimit& limit) {
   const std::vector<LargePiece> edges = largest_edges(mesh, features),
@@ -114,7 +115,8 @@ void require_few_on_large_facets(const BoundaryMesh<3>& mesh, const Features& fe
   double nodes = 0;
   for (std::size_t i = 0; i < edges.size(); ++i) nodes += edges[i].size / on_edges[i];
   const double on_all_edges = nodes;
-  // Half of the nodes on its sides stand in for a triangle's own.
+  // Half of the nodes on a triangle's sides are subtracted, since they replace nodes of the
+  // triangle.
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const double d = on_triangles[i];
     nodes += std::max(0.0, Lattice<2>::kDensity * triangles[i].size / (d * d) -
@@ -149,12 +151,13 @@ std::int32_t corner_at(const Features& features, std::int32_t mesh_node) {
   return static_cast<std::int32_t>(at - corners.begin());
 }
 
-// Appends the nodes of curve c, without corners.
+// Appends the nodes of curve c; corners exist already.
 void add_curve(const Features& features, std::size_t c, const PolylineTrack<3>& track,
                const std::vector<double>& stations, FeatureNodes& found) {
   const FeatureCurve& curve = features.curves[c];
   std::vector<std::int32_t>& along = found.along.emplace_back();
-  const bool ends = features.is_corner(curve.nodes.front());  // and then begins, at a corner
+  // True for curves with corners at both ends.
+  const bool ends = features.is_corner(curve.nodes.front());
   track.for_places(stations, [&](std::size_t i, std::size_t segment, double fraction) {
     const bool first = i == 0, last = i + 1 == stations.size();
     if (ends && (first || last)) {
@@ -175,7 +178,7 @@ void add_curve(const Features& features, std::size_t c, const PolylineTrack<3>& 
 std::int32_t FeatureNodes::next(std::int32_t node, const CurveDirection& way) const {
   const std::vector<std::int32_t>& row = along[static_cast<std::size_t>(way.curve)];
   const auto last = static_cast<std::int32_t>(row.size()) - 1;
-  std::int32_t step = way.forward ? 0 : last;  // of a corner
+  std::int32_t step = way.forward ? 0 : last;  // for a corner
   if (nodes[static_cast<std::size_t>(node)].corner < 0) {
     // Nodes between corners have consecutive numbers.
     const bool from_corner = nodes[static_cast<std::size_t>(row[0])].corner >= 0;
@@ -191,7 +194,7 @@ bool FeatureNodes::joined(std::int32_t a, std::int32_t b) const {
     return curve >= 0 && (next(from, {curve, true}) == to || next(from, {curve, false}) == to);
   };
   if (follows(a, b) || follows(b, a)) return true;
-  // Two corners with nothing between them?
+  // Two corners may be consecutive without nodes between them.
   if (nodes[static_cast<std::size_t>(a)].corner < 0) return false;
   return std::ranges::any_of(along, [&](const std::vector<std::int32_t>& row) {
     return row.size() == 2 && ((row[0] == a && row[1] == b) || (row[0] == b && row[1] == a));
@@ -221,10 +224,11 @@ FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& feat
 
 namespace {
 
+// The sides of a level set's edge at a node.
 struct CreaseAtNode {
   const LevelSet* set = nullptr;
-  std::array<Point<3>, 2> normals;  // of the sides
-  std::array<Point<3>, 2> ways;     // unit, along the surface, away from the edge
+  std::array<Point<3>, 2> normals;  // unit normals of the two sides
+  std::array<Point<3>, 2> ways;     // unit vectors along the surface, away from the edge
 };
 
 CreaseAtNode crease_at(const ResolvedVolume& volume, const FeatureNode& node) {
@@ -246,7 +250,7 @@ CreaseAtNode crease_at(const ResolvedVolume& volume, const FeatureNode& node) {
 }  // namespace
 
 void put_on_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach) {
-  constexpr double kAside = 0.2;  // resolutions
+  constexpr double kAside = 0.2;  // [resolution of the level set]
   if (volume.level_sets.creases.empty()) return;
   for (const auto& set : volume.level_sets.sets) {
     if (!set) continue;
@@ -269,9 +273,9 @@ void put_on_creases(const ResolvedVolume& volume, FeatureNodes& laid, double rea
   }
 }
 
-// At two distances, from which it follows at none.
+// The gradient is evaluated at two distances from the edge and extrapolated to distance 0.
 std::array<Point<3>, 2> normals_beside(const ResolvedVolume& volume, const FeatureNode& node) {
-  constexpr double kAside = 1e-3;  // resolutions
+  constexpr double kAside = 1e-3;  // [resolution of the level set]
   const CreaseAtNode at = crease_at(volume, node);
   std::array<Point<3>, 2> normals{};
   if (!at.set) return normals;

@@ -13,13 +13,13 @@ namespace pnpbs {
 
 namespace {
 
-// The corner of the facet that is this node; 3 if none is.
+// Returns the index of the node among the facet's corners; 3 if it is none of them.
 std::size_t corner_at(const BoundaryTriangle& facet, std::int32_t node) {
   const auto at = std::find(facet.nodes.begin(), facet.nodes.end(), node);
   return static_cast<std::size_t>(at - facet.nodes.begin());
 }
 
-// Does an edge of the facet lead from one node to the other?
+// Returns true if an edge of the facet leads from one node to the other.
 bool leads(const BoundaryTriangle& facet, std::int32_t from, std::int32_t to) {
   return facet.nodes[(corner_at(facet, from) + 1) % 3] == to;
 }
@@ -38,7 +38,8 @@ class CornerSectors {
   }
 
  private:
-  using Place = std::pair<std::int32_t, std::int32_t>;  // a corner's node, and a facet there
+  // The mesh node of a corner, and a facet there.
+  using Place = std::pair<std::int32_t, std::int32_t>;
 
   const BoundaryTriangle& facet(std::int32_t f) const { return mesh_.facets[index(f)]; }
 
@@ -48,7 +49,7 @@ class CornerSectors {
         if (features_.patch[index(f)] >= 0 && features_.is_corner(node)) facets_[node].push_back(f);
   }
 
-  // Which curves lie along the first and the last facets of the sectors.
+  // Stores the curves that bound the first and the last facets of the sectors.
   void gather_ends() {
     for (std::int32_t c = 0; c < static_cast<std::int32_t>(features_.curves.size()); ++c) {
       const FeatureCurve& curve = features_.curves[index(c)];
@@ -66,7 +67,7 @@ class CornerSectors {
         (leads(facet(f), corner, next) ? begins_ : ends_)[Place{corner, f}] = way;
   }
 
-  // Those that begin at a feature edge, then any that have none around them.
+  // Adds the sectors that begin at a feature edge, then those that no feature edge bounds.
   void add_sectors(std::int32_t corner) {
     const std::vector<std::int32_t>& facets = facets_[corner];
     std::map<std::int32_t, bool> done;
@@ -89,7 +90,7 @@ class CornerSectors {
     found_.begin.push_back(found_.sides.size());
   }
 
-  // The next facet counter-clockwise around the node.
+  // Returns the next facet counter-clockwise around the node.
   std::int32_t after(std::int32_t f, std::int32_t node) const {
     return features_.across[index(f)][(corner_at(facet(f), node) + 2) % 3];
   }

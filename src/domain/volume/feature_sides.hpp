@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sides of feature edges and the sectors around corners.
+// The sides of feature edges and the sectors of patches around corners.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,18 @@
 
 namespace pnpbs {
 
-// What of a patch lies around a place: all of it (of a facet), one side of a feature edge, or the
-// sector at a corner between two of them.
+// The part of a patch around a point: all of it (on a facet), one side of a feature edge, or the
+// sector between two feature edges at a corner.
 struct SurfaceSide {
   std::int32_t patch;
   Point<3> normal;  // unit
-  // Counter-clockwise, as seen from where the normal points to, the side reaches from this
-  // direction of a curve to that one; curve -1: all around.
+  // The curve directions between which the part extends, counter-clockwise as seen from the tip of
+  // the normal. Curve -1 means all around.
   CurveDirection begin, end;
 };
 
-// In the order of edges or corners; those of the n-th are begin[n] to begin[n + 1] - 1.
+// Sides of all feature edges, or sectors of all corners, in their order. Those of item n have the
+// indices begin[n] to begin[n + 1] - 1.
 struct FeatureSides {
   std::vector<std::size_t> begin{0};
   std::vector<SurfaceSide> sides;
@@ -32,11 +33,13 @@ struct FeatureSides {
   }
 };
 
-// One for each facet at each feature edge.
+// Returns one side for each facet at each feature edge. `normals` has the unit normals of the
+// facets.
 FeatureSides sides_of_edges(const BoundaryMesh<3>& mesh, const Features& features,
                             std::span<const Point<3>> normals);
 
-// One for each fan of facets between feature edges; its normal is the mean by the facets' angles.
+// Returns one sector for each fan of facets between feature edges. Its normal is the mean of the
+// facets' normals, weighted by their angles at the corner.
 FeatureSides sides_of_corners(const BoundaryMesh<3>& mesh, const Features& features,
                               std::span<const Point<3>> normals);
 

@@ -15,19 +15,20 @@ namespace pnpbs {
 
 namespace {
 
-// One side of a facet, as the less of its two nodes has it.
+// A side of a facet, stored at the lower of its two nodes.
 struct FacetSide {
-  std::int32_t other;  // the greater node
+  std::int32_t other;  // the higher node
   std::int32_t facet;
-  std::int32_t k;  // from corner k of the facet to the next; -1: the facet is a part of a curve
+  std::int32_t k;  // edge from corner k to the next; -1: the facet is a segment of a curve
 
   auto operator<=>(const FacetSide&) const = default;
 };
 
+// A feature edge with the facets that have it.
 struct FeatureEdge {
   std::array<std::int32_t, 2> nodes;
   std::span<const FacetSide> sides;
-  bool crease;  // by the angle alone
+  bool crease;  // true if it is a feature only by the angle
 
   std::int32_t beyond(std::int32_t node) const { return nodes[nodes[0] == node ? 1 : 0]; }
 };
@@ -69,7 +70,7 @@ class FeatureFinder {
   const BoundaryTriangle& facet(std::int32_t f) const { return mesh_.facets[index(f)]; }
   const Point<3>& position(std::int32_t node) const { return mesh_.nodes[index(node)].position; }
 
-  // Calls visit(low node, side) for the sides of all facets.
+  // Calls visit(lower node, side) for the sides of all facets.
   template <class Visit>
   void for_sides(const Visit& visit) const {
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(mesh_.facets.size()); ++f) {
@@ -126,7 +127,7 @@ class FeatureFinder {
     }
   }
 
-  // Is there nothing that makes it a feature, whatever the angle is?
+  // Returns true if the edge can be a feature only by the angle between its two triangles.
   bool is_plain(std::span<const FacetSide> sides) const {
     if (sides.size() != 2 || sides[0].k < 0 || sides[1].k < 0) return false;
     const BoundaryTriangle &f = facet(sides[0].facet), &g = facet(sides[1].facet);
@@ -217,7 +218,7 @@ class FeatureFinder {
     return inner_curve(e) != inner_curve(f) || patches_of(e) != patches_of(f);
   }
 
-  // Is an inner curve there, and which tag does it have?
+  // Returns whether an inner curve runs along the edge, and its tag.
   std::pair<bool, std::int32_t> inner_curve(const FeatureEdge& edge) const {
     for (const FacetSide& side : edge.sides)
       if (side.k < 0) return {true, facet(side.facet).tag};
@@ -232,7 +233,7 @@ class FeatureFinder {
     return patches;
   }
 
-  // The curve that begins with this edge, if it is not yet part of one.
+  // Adds the curve that begins with edge e at `node`, unless the edge belongs to a curve already.
   void follow(std::int32_t node, std::int32_t e) {
     if (followed_[index(e)] != 0) return;
     FeatureCurve curve{{node}, {}, next_edge_, 0};
@@ -275,12 +276,12 @@ class FeatureFinder {
   double cosine_;
   const SmoothSurfaces& smooth_;
   std::vector<Point<3>> normals_;
-  std::vector<std::size_t> side_begin_;  // of each node in sides_
+  std::vector<std::size_t> side_begin_;  // first index of each node in sides_
   std::vector<FacetSide> sides_;
-  std::vector<FeatureEdge> edges_;       // by their nodes
-  std::vector<std::size_t> edge_begin_;  // of each node in edges_of_nodes_
+  std::vector<FeatureEdge> edges_;       // ordered by their nodes
+  std::vector<std::size_t> edge_begin_;  // first index of each node in edges_of_nodes_
   std::vector<std::int32_t> edges_of_nodes_;
-  std::vector<char> followed_;  // of the edges
+  std::vector<char> followed_;  // per edge
   std::int32_t next_edge_ = 0;
   Features found_;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The features of triangulated surfaces: sharp edges and what they divide. An edge is a feature
-// where the normals on its two sides turn by more than an angle, where tags meet, where other than
-// two triangles meet, at a border, and where an inner curve runs. A corner is where other than two
-// feature edges meet, where they turn sharply, and at a fixed node. What lies between feature edges
-// is a patch. Short creases (short_creases.hpp) are no features.
+// Finds the features of triangulated surfaces. An edge is a feature if the normals of its two
+// triangles differ by more than an angle, if tags differ there, if it has other than two triangles,
+// or if an inner curve runs along it. A corner is a node at which other than two feature edges meet
+// or at which they turn sharply, or a fixed node. A patch is a part of the surface between feature
+// edges. Short creases (short_creases.hpp) are not features.
 #pragma once
 
 #include <array>
@@ -14,19 +14,19 @@
 
 namespace pnpbs {
 
-// Feature edges in a row, from corner to corner, or closed and without a corner. On either side of
-// it lies the same patch all along.
+// A chain of feature edges from corner to corner, or a closed one without corners. Each side has
+// the same patch along the whole curve.
 struct FeatureCurve {
-  std::vector<std::int32_t> nodes;  // of the mesh; of a closed one the first is also the last
-  std::vector<std::vector<std::int32_t>> facets;  // of each edge, those that have it, ascending
-  std::int32_t first_edge;  // feature edges are numbered along the curves, one after the other
-  std::int32_t tag;         // of the inner curve there, or else of the first of all its facets
+  std::vector<std::int32_t> nodes;  // mesh nodes; a closed curve repeats the first at the end
+  std::vector<std::vector<std::int32_t>> facets;  // facets at each edge, ascending
+  std::int32_t first_edge;  // feature edges are numbered consecutively along the curves
+  std::int32_t tag;         // tag of the inner curve, or else of the facet of lowest index
 
   bool closed() const { return nodes.front() == nodes.back(); }
   std::size_t edge_count() const { return facets.size(); }
 };
 
-// One of the two directions in which a curve runs; curve -1: none.
+// A curve with one of its two directions; curve -1 means none.
 struct CurveDirection {
   std::int32_t curve = -1;
   bool forward = true;
@@ -34,34 +34,36 @@ struct CurveDirection {
   bool operator==(const CurveDirection&) const = default;
 };
 
+// All features of a mesh, and the patches between them.
 struct Features {
-  // Across edge k of a facet, from its corner k to the next one, lies this facet; -1 at a feature.
-  // (Facets that are no triangles, but parts of inner curves, have -1 all around.)
+  // The facet across edge k (from corner k to the next); -1 at a feature. Facets that are segments
+  // of inner curves have -1 at all edges.
   std::vector<std::array<std::int32_t, 3>> across;
-  std::vector<std::int32_t> patch;  // of each facet; -1 if it is no triangle
+  std::vector<std::int32_t> patch;  // of each facet; -1 if it is not a triangle
   std::int32_t patches = 0;
   std::vector<FeatureCurve> curves;
-  std::vector<std::int32_t> corners;  // nodes of the mesh, in their order
-  // Patches that meet in a node of the mesh which lies on features, ascending; else empty.
+  std::vector<std::int32_t> corners;  // mesh nodes, ascending
+  // Patches around each mesh node that lies on features, ascending; empty for other nodes.
   std::vector<std::vector<std::int32_t>> patches_at;
-  // Sharp edges that are no features, by their nodes.
+  // Nodes of sharp edges that belong to short creases.
   std::vector<std::array<std::int32_t, 2>> short_creases;
 
   bool is_corner(std::int32_t mesh_node) const;
 };
 
-// Surfaces between whose facets normals do not count.
+// Surfaces within which edges are features only where listed, not by the angle of normals.
 struct SmoothSurfaces {
-  std::vector<std::int32_t> of;  // of each facet its surface, or -1; empty if there are none
-  std::vector<std::array<std::int32_t, 2>> creases;  // on them, by their nodes, both ascending
+  std::vector<std::int32_t> of;  // surface of each facet, or -1; empty if there are none
+  // Nodes of their feature edges; ascending within a pair, and pairs sorted.
+  std::vector<std::array<std::int32_t, 2>> creases;
 };
 
-// Angles in degrees. What is found depends on the order of facets and nodes
-// alone; the time taken is linear in their number, but for sorting short creases.
+// Finds the features. `feature_angle` is in degrees. The result depends only on the order of facets
+// and nodes. Takes linear time except for sorting.
 Features find_features(const BoundaryMesh<3>& mesh, double feature_angle,
                        const SmoothSurfaces& smooth = {});
 
-// The unit normal of a facet; 0 if it has no area.
+// Returns the unit normal of a facet; 0 if it has no area.
 Point<3> facet_normal(const BoundaryMesh<3>& mesh, const BoundaryTriangle& facet);
 
 }  // namespace pnpbs

@@ -44,7 +44,7 @@ void check_against_surface(CurveSegment& segment, const Triangulation& surface,
                 ": they may meet in common vertices only");
 }
 
-// Two segments with a common end: does one lie on the other?
+// Returns true if one of two segments with a common end lies on the other.
 bool fold_back(const Point<3>& common, const Point<3>& x, const Point<3>& y, double same_place) {
   const SegmentEnds s{common, x}, t{common, y};
   return distance<3>(nearest_on_segment(s, y), y) <= same_place ||
@@ -110,7 +110,7 @@ void check_segments(std::vector<CurveSegment>& segments, const Triangulation& su
                      [&](std::int32_t other) {
                        if (other > s) others.push_back(other);
                      });
-    std::sort(others.begin(), others.end());  // so that always the same pair is told
+    std::sort(others.begin(), others.end());  // so that the same pair is always reported
     for (const std::int32_t other : others)
       check_pair(segments[s], segments[other], surface.vertices, same_place);
   }

@@ -9,8 +9,8 @@ namespace pnpbs {
 
 std::optional<SurfacePoint> opposite_side(const Surface& surface, const SurfaceIndex& index,
                                           const SurfacePoint& at, SideOfFacet side, double reach) {
-  constexpr double kParallel = 0.9;   // cosine of the angle between the normals of the two facets
-  constexpr double kOffFacet = 1e-6;  // of the reach: beyond the facets that meet at the point
+  constexpr double kParallel = 0.9;   // smallest cosine between the normals of the two facets
+  constexpr double kOffFacet = 1e-6;  // offset that excludes the facets around the point [reach]
   const Point<3>& normal = surface.normal(at.facet);
   const double ahead = side == SideOfFacet::front ? reach : -reach;
   const Point<3> from = shifted(at.position, kOffFacet * ahead, normal);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface on the other side of a thin wall or of a narrow gap.
+// Finds the opposite surface across a thin wall or a narrow gap.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,12 @@
 
 namespace pnpbs {
 
-// Which way to look from a facet: where its normal points, or the other way.
+// The side of a facet: front is where its normal points.
 enum class SideOfFacet { front, back };
 
-// The point of the surfaces that lies straight before or behind a point of them, if it is nearer
-// than `reach` and the two facets are parallel to within 25 degrees. Local.
+// Returns the point where the normal line through `at` first meets the surfaces on the given side.
+// Returns nothing if it is farther than `reach` or if the two facets differ by more than about 25
+// degrees from parallel. Local.
 std::optional<SurfacePoint> opposite_side(const Surface& surface, const SurfaceIndex& index,
                                           const SurfacePoint& at, SideOfFacet side, double reach);
 

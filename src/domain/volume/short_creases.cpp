@@ -14,8 +14,10 @@ namespace pnpbs {
 
 namespace {
 
+// Least number of edges of a crease that is not short by its count.
 constexpr std::size_t kEdgesOfLong = 6;
-constexpr double kLengthOfLong = 0.1;  // of the mesh's extent
+// Least length of a crease that is not short [extent of the mesh]
+constexpr double kLengthOfLong = 0.1;
 
 double extent_of_nodes(const BoundaryMesh<3>& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -43,7 +45,7 @@ class ShortCreases {
   }
 
  private:
-  using Chain = std::vector<std::int32_t>;  // of edges
+  using Chain = std::vector<std::int32_t>;  // indices of edges
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   const FeatureEdgeCandidate& edge(std::int32_t e) const { return edges_[index(e)]; }
@@ -59,7 +61,7 @@ class ShortCreases {
       for (const std::int32_t node : edge(e).nodes) edges_at_[next[index(node)]++] = e;
   }
 
-  // Calls visit(edge) for those at a node that are left.
+  // Calls visit(edge) for the remaining edges at a node.
   template <class Visit>
   void for_edges_at(std::int32_t node, const Visit& visit) const {
     for (std::size_t k = begin_[index(node)]; k < begin_[index(node) + 1]; ++k)
@@ -85,7 +87,8 @@ class ShortCreases {
     }
   }
 
-  // The creases from a free end to where other than two edges meet, or no more than is short.
+  // Returns the creases from a free end up to the next node where other than two edges meet, but no
+  // more than kEdgesOfLong.
   Chain chain_from(std::int32_t node) const {
     Chain chain;
     std::int32_t last = -1;
@@ -102,7 +105,8 @@ class ShortCreases {
     return chain;
   }
 
-  // From a free end on: by the number of edges and their length, of the like by the node's.
+  // The sort key of a chain from a free end: number of edges, then length, then the node at its
+  // end.
   struct Branch {
     std::size_t edges;
     double length;
@@ -114,7 +118,7 @@ class ShortCreases {
     return {chain.size(), length_of(chain), end};
   }
 
-  // The shortest first: what remains where one branched off may be a long crease then.
+  // Drops the shortest branch first, because the remaining edges may then form a long crease.
   void drop_free_ends() {
     std::priority_queue<Branch, std::vector<Branch>, std::greater<>> short_ones;
     const auto add = [&](std::int32_t node) {
@@ -126,9 +130,9 @@ class ShortCreases {
     while (!short_ones.empty()) {
       const Branch branch = short_ones.top();
       short_ones.pop();
-      if (degree_[index(branch.end)] != 1) continue;  // gone with its other end
+      if (degree_[index(branch.end)] != 1) continue;  // dropped from its other end
       const Chain chain = chain_from(branch.end);
-      if (branch_of(branch.end, chain) != branch) {  // it goes on where another branched off
+      if (branch_of(branch.end, chain) != branch) {  // longer now, since another branch was dropped
         add(branch.end);
         continue;
       }
@@ -148,7 +152,7 @@ class ShortCreases {
     }
   }
 
-  // All edges that others lead to from this one.
+  // Returns all edges connected to this one.
   Chain joined_to(std::int32_t seed, std::vector<char>& seen) const {
     Chain joined{seed};
     seen[index(seed)] = 1;
@@ -165,9 +169,9 @@ class ShortCreases {
   std::span<const FeatureEdgeCandidate> edges_;
   std::vector<char> dropped_;
   double long_ = 0;
-  std::vector<std::int32_t> degree_;    // of each node of the mesh: edges left
-  std::vector<std::size_t> begin_;      // of each node in edges_at_
-  std::vector<std::int32_t> edges_at_;  // those dropped as well
+  std::vector<std::int32_t> degree_;    // per mesh node: number of remaining edges
+  std::vector<std::size_t> begin_;      // first index of each node in edges_at_
+  std::vector<std::int32_t> edges_at_;  // includes dropped edges
 };
 
 }  // namespace

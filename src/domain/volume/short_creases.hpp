@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sharp edges are roughness, not features. On a scanned body some triangles stand out by
-// noise; nodes on their edges would only be crowded there.
+// Identifies sharp edges that are roughness and not features. On a scanned body noise makes single
+// triangles stand out; nodes on their edges would be crowded.
 #pragma once
 
 #include <array>
@@ -12,16 +12,17 @@
 
 namespace pnpbs {
 
+// An edge that may be a feature.
 struct FeatureEdgeCandidate {
-  std::array<std::int32_t, 2> nodes;  // of the mesh
-  bool crease;                        // a feature by the angle alone
+  std::array<std::int32_t, 2> nodes;  // mesh nodes
+  bool crease;                        // true if it is a feature only by the angle
 };
 
-// Of each edge: is it part of a short crease? Creases are short if they have fewer than six edges,
-// and together less length than a tenth of the mesh's extent. Short ones are dropped, first where
-// they end freely, the shortest before longer ones; then those that nothing joins to any other
-// feature. (So few edges in a ring turn by over 60 degrees at their nodes: if they were the rim of
-// something, others would begin there.)
+// Returns for each edge 1 if it belongs to a short crease. Creases are short if they have fewer
+// than six edges whose total length is less than a tenth of the mesh's extent. First drops short
+// creases with a free end, the shortest first. Then drops those that are connected to no other
+// feature. (A small ring that is the rim of something has other features beginning at it, because
+// so few edges turn by more than 60 degrees at its nodes.)
 std::vector<char> short_creases(const BoundaryMesh<3>& mesh,
                                 std::span<const FeatureEdgeCandidate> edges);
 

@@ -13,14 +13,14 @@ namespace pnpbs {
 
 namespace {
 
-// In units of the patch's extent. Coordinates of single precision, as files have them, are rounded
-// by a tenth of this.
+// Largest deviation of a flat patch from its plane. [extent of the patch] Coordinates in single
+// precision, as in files, have rounding errors of a tenth of this.
 constexpr double kFlat = 1e-6;
 
-// The plane that suits a patch.
+// The fitted plane of a patch.
 struct PatchPlane {
-  Point<3> normal{};  // sum of the facets', by area
-  Point<3> any{};     // a node of it
+  Point<3> normal{};  // sum of the facets' normals, weighted by area
+  Point<3> any{};     // a node of the patch
   bool any_known = false;
   double extent = 0, deviation = 0;
 };
@@ -35,8 +35,8 @@ Surface::Surface(const BoundaryMesh<3>& mesh, const Features& features)
   build_rims();
 }
 
-// A patch whose nodes are all in one plane is flat, and no facet's own normal, which of a needle
-// may be anything, counts.
+// All facets of a flat patch get the normal of its plane, because the normals of needle-shaped
+// facets are inaccurate.
 void Surface::find_normals() {
   std::vector<PatchPlane> planes(index(features_->patches));
   const auto for_triangles = [&](const auto& visit) {
@@ -61,7 +61,7 @@ void Surface::find_normals() {
   for (const PatchPlane& plane : planes)
     flat_.push_back(plane.deviation <= kFlat * plane.extent && plane.normal != Point<3>{});
   for_triangles([&](std::int32_t f, const FacetCorners<3>&, const PatchPlane& plane) {
-    if (dot(normal(f), plane.normal) < 0) flat_[index(patch(f))] = 0;  // folded
+    if (dot(normal(f), plane.normal) < 0) flat_[index(patch(f))] = 0;  // a folded patch is not flat
   });
   for_triangles([&](std::int32_t f, const FacetCorners<3>&, const PatchPlane& plane) {
     if (is_flat(patch(f))) normals_[index(f)] = plane.normal;

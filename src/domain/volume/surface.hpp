@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangulated surfaces as bubbles on them see them: facets with their normals, and features with
-// the patches on each side of them.
+// Triangulated surfaces as the bubbles on them need them: facets with normals, and features with
+// the patches on each side.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,24 @@
 
 namespace pnpbs {
 
+// A point on a facet.
 struct SurfacePoint {
   std::int32_t facet;
   Point<3> position;
 };
 
-// What a node on a surface lies on: a facet, a feature edge, or a corner of the features (index
-// into Features::corners).
+// The part of a surface that carries a node: a facet, a feature edge or a corner. `index` refers to
+// the mesh's facets, to the feature edges or to Features::corners.
 struct SurfacePlace {
   enum class On : std::int8_t { facet, edge, corner };
   On on;
   std::int32_t index;
 };
 
+// A mesh with its features, and queries that nodes on it need.
 class Surface {
  public:
-  // Mesh and features must outlive it.
+  // `mesh` and `features` must outlive this object.
   Surface(const BoundaryMesh<3>& mesh, const Features& features);
 
   const BoundaryMesh<3>& mesh() const { return *mesh_; }
@@ -37,19 +39,19 @@ class Surface {
 
   FacetCorners<3> corners(std::int32_t f) const { return corners_of(*mesh_, facet(f)); }
   const BoundaryTriangle& facet(std::int32_t f) const { return mesh_->facets[index(f)]; }
-  // Across edge k; -1 at a feature.
+  // Returns the facet across edge k; -1 at a feature.
   std::int32_t across(std::int32_t f, int k) const {
     return features_->across[index(f)][static_cast<std::size_t>(k)];
   }
   std::int32_t patch(std::int32_t f) const { return features_->patch[index(f)]; }
-  // Unit; the same one, to the bit, for all facets of a flat patch.
+  // Returns the unit normal. All facets of a flat patch have bitwise the same.
   const Point<3>& normal(std::int32_t f) const { return normals_[index(f)]; }
   bool is_flat(std::int32_t patch) const { return flat_[index(patch)] != 0; }
 
-  // Does any feature bound the patch, or lie in it?
+  // Returns true if a feature bounds the patch or lies in it.
   bool has_features(std::int32_t patch) const { return !rims_[index(patch)].ends.empty(); }
 
-  // Calls visit(side) for the sides around a place.
+  // Calls visit(side) for each side around a node's location.
   template <class Visit>
   void for_sides(const SurfacePlace& place, const Visit& visit) const {
     if (place.on == SurfacePlace::On::facet) {
@@ -59,22 +61,22 @@ class Surface {
     for (const SurfaceSide& side : feature_sides(place)) visit(side);
   }
 
-  // Do nodes at these places see each other? If they share a patch and the normals there differ by
-  // less than 90 degrees: so far the patch can be seen as a graph over its tangent plane, while the
-  // two sheets of a thin body that one patch goes around look apart.
+  // Returns true if nodes at a and b interact: they share a patch, and its normals there differ by
+  // less than 90 degrees. Up to that angle the patch is a graph over its tangent plane; the two
+  // sheets of a thin body covered by one patch do not see each other.
   bool sees(const SurfacePlace& a, const SurfacePlace& b) const;
-  // The same of one side of a place alone.
+  // Does the same for one side of a location. `least_cosine` bounds the cosine of the angle.
   bool sees(const SurfaceSide& side, const SurfacePlace& b, double least_cosine = 0) const;
-  // Do nodes at these places lie on one patch, side by side, so that each sees all others there? At
-  // a corner between three patches each two of them may do so, but not all on the same one.
-  // With another least cosine of the angle between normals, they need not see each other.
+  // Returns true if each location has a side that sees all the others. At a corner between three
+  // patches each two locations may share a patch, but not all of them the same one. `least_cosine`
+  // bounds the cosine of the angle between normals.
   bool share_patch(std::span<const SurfacePlace> places, double least_cosine = 0) const;
 
-  // The distance to the nearest feature of the patch if it is less than `reach`, else `reach`.
+  // Returns the distance to the nearest feature of the patch, or `reach` if that is smaller.
   double feature_clearance(const SurfacePoint& at, double reach) const;
 
  private:
-  struct Rim {  // of a patch: its feature edges, and fixed nodes on it
+  struct Rim {  // feature edges of a patch and fixed nodes on it
     std::vector<std::array<std::int32_t, 2>> ends;
     BoxTree<3> boxes;
   };
@@ -90,8 +92,8 @@ class Surface {
 
   const BoundaryMesh<3>* mesh_;
   const Features* features_;
-  std::vector<Point<3>> normals_;  // of the facets
-  std::vector<char> flat_;         // of the patches
+  std::vector<Point<3>> normals_;  // per facet
+  std::vector<char> flat_;         // per patch
   FeatureSides edge_sides_, corner_sides_;
   std::vector<Rim> rims_;
 };

@@ -10,7 +10,8 @@ namespace pnpbs {
 
 namespace {
 
-constexpr int kMaxFacets = 10000;  // crossed in one move: none that is meant crosses as many
+// Most facets crossed in one move; no intended move crosses as many.
+constexpr int kMaxFacets = 10000;
 
 int next(int k) { return (k + 1) % 3; }
 
@@ -19,13 +20,13 @@ Point<3> edge_direction(const FacetCorners<3>& corners, int k) {
       difference(corners[static_cast<std::size_t>(next(k))], corners[static_cast<std::size_t>(k)]));
 }
 
-// Where a way leaves a facet.
+// The point at which a path leaves a facet.
 struct Exit {
-  int k = -1;       // through which edge; -1: it ends before
-  double part = 1;  // of the way that is done then
+  int k = -1;       // edge that it crosses; -1: it ends in the facet
+  double part = 1;  // fraction of the path up to there
 };
 
-// Not through edge `entry`, by which the way came in.
+// Returns where the path leaves the facet. Ignores edge `entry`, through which it came.
 Exit exit_of(const FacetCorners<3>& corners, const Point<3>& normal, const Point<3>& x,
              const Point<3>& move, int entry) {
   Exit exit;
@@ -41,7 +42,7 @@ Exit exit_of(const FacetCorners<3>& corners, const Point<3>& normal, const Point
   return exit;
 }
 
-// The edge of facet g that edge k of facet f is.
+// Returns the index in facet g of the edge that is edge k of facet f.
 int same_edge(const Surface& surface, std::int32_t f, int k, std::int32_t g) {
   const auto& own = surface.facet(f).nodes;
   const auto& other = surface.facet(g).nodes;
@@ -52,7 +53,7 @@ int same_edge(const Surface& surface, std::int32_t f, int k, std::int32_t g) {
   return same;
 }
 
-// Calls visit(facet) for the facets of the patch around corner k of a facet, but for itself.
+// Calls visit(facet) for the other facets of the patch around corner k of facet f.
 template <class Visit>
 void for_facets_around(const Surface& surface, std::int32_t f, int k, const Visit& visit) {
   for (const bool left : {true, false}) {
@@ -71,10 +72,11 @@ void for_facets_around(const Surface& surface, std::int32_t f, int k, const Visi
   }
 }
 
+// The point of a facet nearest to a given point.
 struct Foot {
   double squared_gap;
   SurfacePoint at;
-  bool inside;  // strictly: no other facet's is as near
+  bool inside;  // inside the facet, so no other facet has a point as near
 
   bool operator<(const Foot& other) const {
     return squared_gap < other.squared_gap ||

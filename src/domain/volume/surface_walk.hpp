@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ways on a surface, from facet to facet, that never leave the patch they begin in.
+// Moves points along a surface from facet to facet, within the patch in which they begin.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace pnpbs {
 
-// Where one comes to who goes straight ahead on the surface: as far as the part of `move` along the
-// facet is long, or up to a feature. At an edge between facets the way is unfolded.
+// Returns the end of a straight path on the surface. Its length is that of the part of `move`
+// tangential to the facet; it stops at a feature. The path is unfolded at edges between facets.
 SurfacePoint walk(const Surface& surface, const SurfacePoint& from, const Point<3>& move);
 
-// The point of the surface that is nearest to x among those around, found downhill from a facet.
+// Returns the point of the surface nearest to x that descent from the given facet reaches.
 SurfacePoint pull_back(const Surface& surface, const Point<3>& x, std::int32_t facet);
 
 }  // namespace pnpbs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the user gives is looked at argument by argument here, and kept as it is; how it fits
-// together is for check().
+// Arguments of the user are checked one by one and stored here; check() resolves how they fit
+// together.
 #include "domain/volume/volume_domain.hpp"
 
 #include <algorithm>
@@ -30,14 +30,14 @@
 namespace pnpbs {
 namespace {
 
-// The distance that nodes on a level set, which are put where it is 0, may have from its triangles.
+// Computes how far nodes projected onto a level set may be from its triangles.
 
-constexpr std::size_t kPointsAtOnce = 1 << 14;  // points that f is asked for at a time
+constexpr std::size_t kPointsAtOnce = 1 << 14;  // most points in one evaluation of f
 
-// Points that are nearer by the slope of f than this times the farthest are not looked at again.
+// Points whose estimated distance is less than this fraction of the largest are not projected.
 constexpr double kMayBeFarthest = 0.25;
 
-// to(k): where from[k] is put.
+// Returns the largest distance from from[k] to to(k).
 template <class To>
 double largest_distance(const std::vector<Point<3>>& from, const To& to) {
   double largest = 0;
@@ -46,12 +46,13 @@ double largest_distance(const std::vector<Point<3>>& from, const To& to) {
   return largest;
 }
 
+// Points and unit normals.
 struct Middles {
-  std::vector<Point<3>> points, normals;  // unit
+  std::vector<Point<3>> points, normals;
 };
 
-// Returns the middles of the triangles of the set and of their sides. The normal of a side is that
-// of one of its two triangles.
+// Returns the centroids of the triangles of the set and the midpoints of their edges. The normal at
+// a midpoint is that of one of its two triangles.
 Middles middles_of_triangles(const ResolvedVolume& volume, const LevelSet& set) {
   struct Side {
     std::array<std::int32_t, 2> ends;
@@ -88,8 +89,8 @@ Middles middles_of_triangles(const ResolvedVolume& volume, const LevelSet& set) 
   return middles;
 }
 
-// Estimates distances by the slope of f along the triangles' normals. The estimate is wrong where
-// the slope jumps.
+// Estimates distances from the slope of f along the triangles' normals. The estimate is wrong where
+// the gradient jumps.
 std::vector<double> likely_distances(const LevelSet& set, const Middles& middles) {
   std::vector<double> distances;
   const std::span<const Point<3>> points = middles.points, normals = middles.normals;
@@ -97,7 +98,7 @@ std::vector<double> likely_distances(const LevelSet& set, const Middles& middles
     const std::size_t n = std::min(kPointsAtOnce, points.size() - begin);
     for (const double way : set.ways_along(points.subspan(begin, n), normals.subspan(begin, n)))
       distances.push_back(way <= set.resolution() ? way
-                                                  : set.resolution());  // where it is NaN, too
+                                                  : set.resolution());  // also if `way` is NaN
   }
   return distances;
 }
@@ -116,7 +117,7 @@ double distance_to_triangles(const ResolvedVolume& volume, const LevelSet& set) 
   return largest_distance(far, [&](std::size_t k) { return projected[k]; });
 }
 
-// In the middle of each feature edge.
+// Returns the largest distance by which put_on_creases() moves midpoints of feature edges.
 double distance_to_creases(const ResolvedVolume& volume) {
   const Features& features = volume.features;
   FeatureNodes middles;
@@ -136,11 +137,11 @@ double distance_to_creases(const ResolvedVolume& volume) {
   return largest_distance(before, [&](std::size_t k) { return middles.nodes[k].position; });
 }
 
-// For BoundaryMesh::node_distance, with some to spare: twice the largest distance at a few places
-// on each triangle and in the middle of each edge of the body; no less than rounding makes of
-// it, and no more than the resolution of the sets. 0 if there are none.
+// Returns a value for BoundaryMesh::node_distance: twice the largest distance found at sample
+// points of the triangles and feature edges. It is at least the effect of rounding and at most the
+// resolution of the sets; 0 if there are none.
 double largest_node_distance(const ResolvedVolume& volume) {
-  constexpr double kSpare = 2, kLeast = 1e-6;  // the latter in units of the resolution
+  constexpr double kSpare = 2, kLeast = 1e-6;  // kLeast in units of the resolution
   double resolution = 0, largest = 0;
   for (const auto& set : volume.level_sets.sets) {
     if (!set) continue;
@@ -203,7 +204,7 @@ const LevelSetCrease* LevelSetTriangles::crease(std::int32_t node, std::int32_t 
   return found != creases.end() && found->nodes == nodes ? &*found : nullptr;
 }
 
-// Names it by its kind and how many of these there are, and counts it.
+// Names the source by its kind and number, stores it and increments `given`.
 void VolumeDomain::add_source(SurfaceSource source, const char* kind, std::int64_t& given) {
   source.name = std::string(kind) + " " + std::to_string(given);
   for (const Point<3>& x : source.vertices)
@@ -317,7 +318,7 @@ void VolumeDomain::take_repair_of(const VolumeDomain& body) {
 
 namespace {
 
-// Its triangles with one of these tags, or with any other one.
+// Returns the part of the surface whose tags satisfy `has`.
 SurfaceSource part_of(SurfaceSource surface, const std::function<bool(std::int32_t)>& has) {
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> tags;
@@ -333,7 +334,8 @@ SurfaceSource part_of(SurfaceSource surface, const std::function<bool(std::int32
 
 }  // namespace
 
-// The others, and one in the place of those that are to be repaired.
+// Returns the surfaces with those to be repaired replaced by one repaired surface. Level sets and
+// inner surfaces are kept.
 std::vector<SurfaceSource> VolumeDomain::repaired_surfaces(std::vector<Warning>& warnings,
                                                            RepairDistances& distances) const {
   std::vector<SurfaceSource> broken, surfaces;
@@ -381,8 +383,8 @@ std::unique_ptr<ResolvedVolume> VolumeDomain::resolve() const {
   return resolve_volume({surfaces_, roles_, polylines_, region_points_, given_nodes_, filled_});
 }
 
-// Returns null if the surfaces are to be repaired. Surfaces alone are sound if they would bound a
-// body that is.
+// Returns null if the surfaces need a repair. Surfaces alone are valid if they would bound a valid
+// body.
 std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_if_sound() const {
   if (repair_sound_) return nullptr;
   std::unique_ptr<ResolvedVolume> resolved;
@@ -402,7 +404,8 @@ std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_if_sound() const {
 }
 
 std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_repaired() const {
-  static const std::map<std::int32_t, SurfaceRole> no_roles;  // they have them
+  // The surfaces have their roles already.
+  static const std::map<std::int32_t, SurfaceRole> no_roles;
   std::vector<Warning> warnings;
   RepairDistances distances;
   const std::vector<SurfaceSource> surfaces = repaired_surfaces(warnings, distances);

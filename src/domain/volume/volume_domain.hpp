@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A volume's domain as the user describes it: boundary and inner surfaces, inner curves, holes,
+// A domain in space as the user describes it: boundary and inner surfaces, inner curves, holes and
 // fixed nodes.
 #pragma once
 
@@ -26,29 +26,29 @@
 
 namespace pnpbs {
 
-// What a domain comes to, in numbers.
+// Sizes and counts of a checked domain.
 struct VolumeSummary {
   Box<3> bounds{};
   double volume = 0;
-  double area = 0;  // of what bounds it, or of the surfaces alone
+  double area = 0;  // of the boundary, or of surfaces alone
   std::int64_t triangles = 0;
-  std::int64_t components = 0;  // surfaces that are connected by edges
+  std::int64_t components = 0;  // parts of surfaces connected by edges
   std::int64_t patches = 0;
   std::int64_t feature_edges = 0;
   std::int64_t corners = 0;
 };
 
-// An edge between nodes of the mesh over which the gradient of a level set jumps.
+// An edge between nodes of the mesh at which the gradient of a level set jumps.
 struct LevelSetCrease {
   std::array<std::int32_t, 2> nodes;  // ascending
-  std::array<Point<3>, 2> normals;    // unit, left and right of the way from the first
+  std::array<Point<3>, 2> normals;    // unit; left and right of the direction from the first node
 };
 
-// The level sets whose surfaces triangles are of.
+// The level sets of the domain, and which triangles belong to them.
 struct LevelSetTriangles {
   std::vector<std::shared_ptr<const LevelSet>> sets;
-  std::vector<std::int32_t> of;         // of each facet its set, or -1; empty if there are no sets
-  std::vector<LevelSetCrease> creases;  // by their nodes
+  std::vector<std::int32_t> of;         // level set of each facet, or -1; empty if there are none
+  std::vector<LevelSetCrease> creases;  // ordered by their nodes
 
   const LevelSetCrease* crease(std::int32_t node, std::int32_t other) const;
   const LevelSet* at(std::int32_t facet) const {
@@ -57,7 +57,7 @@ struct LevelSetTriangles {
   }
 };
 
-// What check() finds out.
+// The result of VolumeDomain::check().
 struct ResolvedVolume {
   ResolvedVolume() = default;
   ResolvedVolume(const ResolvedVolume&) = delete;  // the index points to the mesh
@@ -71,76 +71,78 @@ struct ResolvedVolume {
   std::vector<FixedNode<3>> fixed_nodes;
   std::vector<Warning> warnings;
   RepairDistances repair;
-  // True if the boundary triangles, as turned when given, wind around the inside once and around
-  // the outside not at all, but for a sign: a body within another one makes it false, a cavity that
-  // is turned against its surroundings does not.
+  // True if the boundary triangles, as oriented in the input, have winding number 1 or -1
+  // inside and 0 outside. A body within another one makes it false; a cavity oriented against its
+  // surroundings does not.
   bool wound_once = true;
   VolumeSummary summary;
-  std::unique_ptr<const RegionIndex<3>> regions;  // null if none has a tag
+  std::unique_ptr<const RegionIndex<3>> regions;  // null if no region has a tag
 };
 
+// A domain in space, filled or as surfaces alone.
 class VolumeDomain : public DomainBase<3> {
  public:
-  // They throw Error(ErrorKind::argument) naming the argument and its value, and leave the domain
-  // as it was. Without tags (null), all are 1. Of several feature angles the smallest holds.
+  // Functions that describe the domain. They throw Error(ErrorKind::argument), with the argument
+  // and its value, and then leave the domain unchanged. If `tags` is null, all tags are 1. The
+  // smallest of several feature angles (degrees) applies to all surfaces.
   void add_surface(SurfaceRole role, std::int64_t vertices, const double* xyz,
                    std::int64_t triangles, const std::int64_t* corners, const std::int32_t* tags,
                    double feature_angle = kFeatureAngle);
-  // From a file: its triangles and hole points, and the names of its tags.
+  // Adds the surface of a file: its triangles, hole and region points, and the names of its tags.
   void add_surface(SurfaceRole role, const SurfaceTriangles& surface,
                    double feature_angle = kFeatureAngle);
-  // Of all triangles that have this tag, whatever they are given with.
+  // Sets the role of all triangles with this tag, in place of the role of their surface.
   void set_role(std::int32_t tag, SurfaceRole role);
-  // Tags of the sides at low x, high x, low y, high y, low z, high z.
+  // The tags are those of the sides at low x, high x, low y, high y, low z, high z.
   void add_box(const Point<3>& low, const Point<3>& high, const std::array<std::int32_t, 6>& tags);
   void add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag);
-  // Of triangles within 1e-4 of the radius from the true surface.
+  // Adds triangles that lie within 1e-4 of the radius of the true surface; so does add_cylinder.
   void add_ball(const Point<3>& centre, double radius, std::int32_t tag);
   void add_cylinder(const Point<3>& begin, const Point<3>& end, double radius, std::int32_t tag);
-  // The body where f < 0. It is asked now, and again where nodes are to lie on its surface.
+  // Adds the body where f < 0. Evaluates f now and again where nodes are put on its surface.
   void add_level_set(LevelSetFunction f, const Box<3>& box, double resolution, std::int32_t tag);
   void add_level_set(std::shared_ptr<const LevelSet> set, std::int32_t tag);
-  // Surfaces given by triangles that bound the domain, and that are refused as they are or not
-  // wound once around it, are replaced by the surface of the body that they enclose badly;
-  // resolution: 0 for the default (implicit/repaired_body.hpp). With `sound_too` sound ones are
-  // replaced as well.
+  // Replaces boundary surfaces that are rejected, or that do not wind once around the domain, by
+  // the surface of the body that they approximately enclose. `resolution` 0 means the default
+  // (implicit/repaired_body.hpp). With `sound_too`, valid surfaces are replaced as well.
   void set_repair(double resolution, bool sound_too = false);
-  // Reports the repair of a body that this domain is made of as its own.
+  // Reports the repair of `body`, from which this domain was made, as a repair of this domain.
   void take_repair_of(const VolumeDomain& body);
-  // A curve inside, with a tag for each segment.
+  // Adds a curve inside, with one tag per segment.
   void add_polyline(bool closed, std::int64_t n, const double* xyz, const std::int32_t* tags);
-  // Not filled, the domain is its surfaces alone, closed or open, of either role.
+  // If not filled, the domain consists of its surfaces alone, which may be open and have any role.
   void set_filled(bool filled);
   bool filled() const { return filled_; }
   GeometryKind kind() const { return filled_ ? GeometryKind::body : GeometryKind::surface; }
   static Embedding<3> embedding() { return {}; }
 
-  // Checks everything and finds inside, orientation and features; does nothing if nothing changed
-  // since the last time. Throws Error(ErrorKind::domain).
+  // Checks the domain and finds inside, orientation and features. Does nothing if nothing changed
+  // since the last call. Throws Error(ErrorKind::domain).
   void check();
 
-  // Valid after check(), as all below.
+  // Results, valid after check().
   const ResolvedVolume& resolved() const { return *resolved_; }
-  // First the triangles of the surfaces, in the order in which they were given, with the domain
-  // behind those that bound it, and on neither side of surfaces alone; then the segments (a, b, b)
-  // of inner curves, and (a, a, a) for each fixed node. All nodes are used.
+  // Returns the mesh. Its facets are first the triangles, in the order in which they were given;
+  // then a facet (a, b, b) for each segment of an inner curve; then (a, a, a) for each fixed node.
+  // The domain lies behind boundary triangles, and on neither side of surfaces alone. Every node
+  // belongs to a facet.
   const BoundaryMesh<3>& mesh() const { return resolved_->mesh; }
-  // Answers what is inside and what is near, whatever d is.
+  // Returns the index for queries of the inside and of near facets, independent of d.
   const SurfaceIndex& index() const { return resolved_->index; }
-  // Its facets alone, for who may outlive the domain.
+  // Returns the facet index alone. It keeps its data alive beyond the domain.
   std::shared_ptr<const FacetIndex<3>> sides() const {
     return {resolved_, &resolved_->index.sides()};
   }
   const Features& features() const { return resolved_->features; }
   const LevelSetTriangles& level_sets() const { return resolved_->level_sets; }
-  // Is the facet one that approximates a curved surface given without triangles?
+  // Returns true if the facet approximates a curved surface that was not given by triangles.
   bool approximates(std::size_t facet) const {
     return facet < resolved_->approximate.size() && resolved_->approximate[facet] != 0;
   }
   const std::vector<FixedNode<3>>& fixed_nodes() const { return resolved_->fixed_nodes; }
   const std::vector<Warning>& warnings() const { return resolved_->warnings; }
   const RepairDistances& repair_distances() const { return resolved_->repair; }
-  // Of the tags of regions; null if none has one.
+  // Returns the index of region tags; null if no region has a tag.
   const RegionIndex<3>* regions() const { return resolved_->regions.get(); }
   const VolumeSummary& summary() const { return resolved_->summary; }
   const Box<3>& bounds() const { return resolved_->summary.bounds; }
@@ -158,16 +160,16 @@ class VolumeDomain : public DomainBase<3> {
 
   std::vector<SurfaceSource> surfaces_;
   std::vector<InnerPolyline> polylines_;
-  std::map<std::int32_t, SurfaceRole> roles_;  // of triangles by their tags
+  std::map<std::int32_t, SurfaceRole> roles_;  // roles of triangles by their tags
   std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0,
                level_sets_given_ = 0;
   bool filled_ = true;
-  std::optional<double> repair_;  // its resolution
+  std::optional<double> repair_;  // resolution of the repair, if one is requested
   bool repair_sound_ = false;
-  // The repair of another domain's body: see take_repair_of.
+  // The repair of another domain; see take_repair_of().
   RepairDistances taken_distances_;
   std::vector<Warning> taken_warnings_;
-  // Shared by copies, and by all that points into it.
+  // Shared by copies of the domain and by objects that point into it.
   std::shared_ptr<const ResolvedVolume> resolved_ = std::make_shared<ResolvedVolume>();
 };
 

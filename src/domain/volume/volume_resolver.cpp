@@ -47,9 +47,9 @@ void warn_of_short_creases(ResolvedVolume& resolved) {
       std::ssize(creases));
 }
 
-// The smallest feature angle of the surfaces holds for all of them. Between triangles of one level
-// set normals do not count: these turn where they do not resolve a bend. Its edges are known by its
-// gradient.
+// Finds the features with the smallest feature angle of all surfaces. Between triangles of one
+// level set the normals are not used, since they also turn at bends that the triangles do not
+// resolve. There the gradient of f determines the edges.
 void find_features_of(const std::vector<SurfaceSource>& surfaces, ResolvedVolume& resolved) {
   std::vector<double> angles;
   for (const SurfaceSource& surface : surfaces)
@@ -73,8 +73,8 @@ void find_features_of(const std::vector<SurfaceSource>& surfaces, ResolvedVolume
   warn_of_short_creases(resolved);
 }
 
-// The creases of all surfaces, whose vertices come one after the other; `joined`: of each vertex
-// the one that it is welded to.
+// Returns the creases of all surfaces. Vertices are numbered consecutively over the surfaces;
+// `joined` maps each to the vertex to which it is welded.
 std::vector<SurfaceCrease> join_creases(const std::vector<SurfaceSource>& surfaces,
                                         const std::vector<std::int32_t>& joined) {
   std::vector<SurfaceCrease> creases;
@@ -89,7 +89,8 @@ std::vector<SurfaceCrease> join_creases(const std::vector<SurfaceSource>& surfac
   return creases;
 }
 
-// In the order of their nodes; `node`: of each vertex, or -1.
+// Returns the creases between mesh nodes, in the order of these nodes. `node` maps vertices to
+// nodes, or to -1.
 std::vector<LevelSetCrease> creases_between(const std::vector<SurfaceCrease>& creases,
                                             const std::vector<std::int32_t>& node) {
   std::vector<LevelSetCrease> between;
@@ -109,9 +110,10 @@ std::vector<LevelSetCrease> creases_between(const std::vector<SurfaceCrease>& cr
 struct VolumeExtent {
   Box<3> bounds;
   double volume;
-  double area;  // of what bounds it, and of surfaces alone
+  double area;  // of the boundary and of surfaces alone
 };
 
+// A compensated sum.
 class Sum {
  public:
   void add(double term) {
@@ -124,8 +126,8 @@ class Sum {
   TwoTerms sum_{0, 0};
 };
 
-// Of a mesh whose triangles know their sides; summed in their order, with the rounding's error
-// kept.
+// Computes the extent of a mesh whose triangles have their sides set. Sums are compensated and in
+// the order of the triangles.
 VolumeExtent extent_of(const BoundaryMesh<3>& mesh) {
   Box<3> box = empty_box<3>();
   for (const BoundaryNode<3>& node : mesh.nodes) include(box, node.position);
@@ -158,7 +160,7 @@ class Resolver {
     give_roles(surface_, given.roles);
     for (const SurfaceSource& surface : surfaces_)
       for (const Warning& warning : surface.warnings) result_.warnings.push_back(warning);
-    if (!filled_)  // then they all divide nothing
+    if (!filled_)  // surfaces alone separate nothing
       for (SurfaceTriangle& triangle : surface_.triangles) triangle.inner = true;
     measure();
     weld();
@@ -188,7 +190,7 @@ class Resolver {
   }
 
  private:
-  // ------------------------------------------------------------ what is given
+  // ------------------------------------------------------------ input
   void require_surfaces() const {
     if (surfaces_.empty()) reject_domain("the domain has no surfaces");
     std::size_t vertices = fixed_nodes_.size(), triangles = 0;
@@ -217,8 +219,9 @@ class Resolver {
     require_near_origin<3>(size_, box.high);
   }
 
-  // ------------------------------------------------------------ what is at the same place
-  // Surfaces first, then curves, then fixed nodes: these take the places of those.
+  // ------------------------------------------------------------ welding
+  // Welds points of surfaces, then of curves, then fixed nodes; later points take earlier
+  // positions.
   void weld() {
     const std::size_t vertices = surface_.vertices.size();
     std::vector<Point<3>>& points = surface_.vertices;
@@ -280,9 +283,8 @@ class Resolver {
   }
 
   // ------------------------------------------------------------ the inside
-  // Returns whether the boundary triangles wind once around the inside, and not around the outside,
-  // but for a sign. The winding number of the region behind a triangle is one more than that of the
-  // region in front of it.
+  // Returns true if the boundary triangles have winding number 1 or -1 inside and 0 outside. The
+  // winding number behind a triangle is one more than that in front of it.
   bool is_wound_once() const {
     constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> beside(inside_.size());
@@ -307,8 +309,8 @@ class Resolver {
     return true;
   }
 
-  // With the domain behind them. A cavity may be given either way, a body that is inside out is
-  // told of.
+  // Turns boundary triangles so that the domain lies behind them. Warns of bodies given inside out;
+  // a cavity may have either orientation.
   void turn_outwards() {
     std::vector<std::int64_t> turned(surfaces_.size(), 0);
     std::vector<std::string> names;
@@ -329,7 +331,7 @@ class Resolver {
                                   std::accumulate(turned.begin(), turned.end(), std::int64_t{0}));
   }
 
-  // In which the k-th region point lies.
+  // Returns the region in which region point k lies.
   std::int32_t region_of_point(std::size_t k) const {
     const RegionPoint<3>& it = region_points_[k];
     const std::int32_t on = triangle_at(it.point);
@@ -350,7 +352,7 @@ class Resolver {
     region_tags_ = tags_of_parts(region_points_, region_of, inside_, result_.warnings);
   }
 
-  // The first triangle on which the point lies, as near as places are told apart, or -1.
+  // Returns the first triangle within the tolerance of the point, or -1.
   std::int32_t triangle_at(const Point<3>& x) const {
     const double reach = kSamePlace * size_;
     std::int32_t found = -1;
@@ -515,17 +517,17 @@ class Resolver {
   bool filled_;
   Triangulation surface_;
   double size_ = 0;
-  std::vector<std::int32_t> curve_vertices_, fixed_vertices_;  // of points as given
-  std::vector<SurfaceCrease> creases_;  // of all sources, by vertices of the surface
+  std::vector<std::int32_t> curve_vertices_, fixed_vertices_;  // vertices of the given points
+  std::vector<SurfaceCrease> creases_;  // of all sources, by vertices of surface_
   std::vector<CurveSegment> segments_;
   BoxTree<3> tree_;  // of the triangles
   std::optional<SurfaceRegions> regions_;
-  std::vector<char> inside_;                // of each region
-  std::vector<std::int32_t> front_, back_;  // the regions on both sides of each triangle
-  std::vector<std::int32_t> region_tags_;   // of each region; empty if none is given
-  std::vector<char> kept_;                  // of each triangle: is it part of the domain?
-  std::vector<char> on_surface_;            // of each vertex: is it one of a triangle?
-  std::vector<std::int32_t> number_;        // of each vertex: its node of the mesh, or -1
+  std::vector<char> inside_;                // per region
+  std::vector<std::int32_t> front_, back_;  // regions on both sides of each triangle
+  std::vector<std::int32_t> region_tags_;   // per region; empty if no tag is given
+  std::vector<char> kept_;                  // per triangle: is it part of the domain?
+  std::vector<char> on_surface_;            // per vertex: does a triangle have it?
+  std::vector<std::int32_t> number_;        // per vertex: its mesh node, or -1
   std::int64_t triangles_kept_ = 0;
   ResolvedVolume& result_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what the user gave to what the nodes are laid on, in space.
+// Turns what the user gave for a domain in space into the mesh and features on which nodes are
+// placed.
 #pragma once
 
 #include <map>
@@ -10,7 +11,7 @@
 
 namespace pnpbs {
 
-// What the user gave, by reference.
+// References to what the user gave.
 struct GivenVolume {
   const std::vector<SurfaceSource>& surfaces;
   const std::map<std::int32_t, SurfaceRole>& roles;  // see VolumeDomain::set_role
@@ -20,7 +21,7 @@ struct GivenVolume {
   bool filled;  // see VolumeDomain::set_filled
 };
 
-// Welds the surfaces, mends and checks them, finds the inside and the features. Throws
+// Welds the surfaces, checks and orients them, and finds the inside and the features. Throws
 // Error(ErrorKind::domain).
 std::unique_ptr<ResolvedVolume> resolve_volume(const GivenVolume& given);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lattices that fill space. A15, of eight nodes in a cubic cell with 12 and 14 neighbours, has
-// the better tetrahedra, if it is one over the whole domain. Where patches of different d meet,
-// body-centred cubic settles better.
+// The lattices that fill space. If one lattice fills the whole domain, it is A15, with eight nodes
+// per cubic cell that have 12 or 14 neighbours, because its tetrahedra are better. Where patches of
+// different d meet, the body-centred cubic lattice relaxes better.
 #pragma once
 
 #include <array>
@@ -15,10 +15,11 @@
 
 namespace pnpbs {
 
+// An A15 or body-centred cubic lattice whose first layer lies near the low sides of a box.
 class CubicLattice {
  public:
-  // One lattice for the whole domain may be stretched a little to end at all sides of its box
-  // alike.
+  // Chooses A15 if one lattice fills the `whole` domain. It is then stretched slightly, if
+  // `stretched`, to end alike at all sides of `bounds`.
   CubicLattice(double d, const Box<3>& bounds, bool whole, bool stretched = true)
       : sites_(whole ? std::span<const Point<3>>(kA15) : kBodyCentred), low_(bounds.low) {
     const double first = d * (whole ? method::kFirstA15Layer : method::kFirstBodyCentredLayer);
@@ -30,12 +31,12 @@ class CubicLattice {
     }
   }
 
-  // Nodes per unit of volume.
+  // Returns the number of nodes per unit of volume.
   double density() const {
     return static_cast<double>(sites_.size()) / (cell_[0] * cell_[1] * cell_[2]);
   }
 
-  // Calls visit(x) for all nodes in the box, and some next to it.
+  // Calls visit(x) for all nodes in the box and for some beside it.
   template <class Visit>
   void for_nodes(const Box<3>& box, const Visit& visit) const {
     for (const Point<3>& site : sites_) {
@@ -52,8 +53,8 @@ class CubicLattice {
   }
 
  private:
-  // Nodes of a cell, in units of its sides. Half a cell apart along each axis A15 has layers of
-  // three nodes, and a single one halfway between two of them.
+  // Nodes of a cell, in units of its sides. Along each axis, A15 has layers of three nodes half a
+  // cell apart, and a single node halfway between two layers.
   static constexpr std::array<Point<3>, 2> kBodyCentred{{{0, 0, 0}, {0.5, 0.5, 0.5}}};
   static constexpr std::array<Point<3>, 8> kA15{{{0, 0, 0},
                                                  {0.5, 0.5, 0.5},
@@ -63,7 +64,7 @@ class CubicLattice {
                                                  {0.5, 0.75, 0},
                                                  {0, 0.5, 0.25},
                                                  {0, 0.5, 0.75}}};
-  static constexpr double kRoom = 1e-3;  // for rounding, in cells
+  static constexpr double kRoom = 1e-3;  // margin for rounding [cells]
 
   static double fitted(double cell, double between) {
     const double half_cells = std::round(between / (0.5 * cell));
@@ -76,8 +77,8 @@ class CubicLattice {
   }
 
   std::span<const Point<3>> sites_;
-  Point<3> low_;   // of the cell with index 0
-  Point<3> cell_;  // its sides
+  Point<3> low_;   // low corner of the cell with index 0
+  Point<3> cell_;  // sides of a cell
 };
 
 }  // namespace pnpbs

@@ -31,10 +31,10 @@
 namespace pnpbs {
 namespace {
 
-constexpr double kParallel = 1e-4;   // radians
-constexpr double kRounding = 1e-12;  // of places, in units of a patch
+constexpr double kParallel = 1e-4;   // angle below which directions are parallel [radians]
+constexpr double kRounding = 1e-12;  // rounding of positions [size of a patch]
 
-// Feature edges that follow each other in one direction.
+// A chain of feature edges with one direction.
 struct StraightRun {
   Point<3> begin, end;
   double length() const { return distance<3>(begin, end); }
@@ -52,7 +52,7 @@ std::vector<StraightRun> straight_runs(const Surface& surface, std::int32_t patc
       const std::vector<std::int32_t>& facets = curve.facets[e];
       if (std::none_of(facets.begin(), facets.end(),
                        [&](std::int32_t f) { return surface.patch(f) == patch; }))
-        break;  // nor has any other edge of the curve
+        break;  // no other edge of this curve bounds the patch
       const StraightRun edge{position(curve.nodes[e]), position(curve.nodes[e + 1])};
       if (goes_on && distance<3>(edge.direction(), runs.back().direction()) < kParallel)
         runs.back().end = edge.end;
@@ -64,7 +64,7 @@ std::vector<StraightRun> straight_runs(const Surface& surface, std::int32_t patc
   return runs;
 }
 
-// The patch's facets by two coordinates in its plane.
+// A flat patch with coordinates (u, v) in its plane.
 class FlatPatch {
  public:
   FlatPatch(const Surface& surface, const std::vector<std::int32_t>& facets, const Point<3>& origin,
@@ -88,7 +88,8 @@ class FlatPatch {
     return {dot(way, along_), dot(way, across_)};
   }
 
-  // Around all nodes whose coordinates are in such a box: a facet may lie a little off the plane.
+  // Returns a box around all nodes with coordinates in x. It has a margin because facets may
+  // deviate slightly from the plane.
   Box<3> box_around(const Box<2>& x) const {
     Box<3> box = empty_box<3>();
     for (const double u : {x.low[0], x.high[0]})
@@ -97,7 +98,8 @@ class FlatPatch {
     return widened(box, 2 * height_ + kRounding * size);
   }
 
-  // Facet -1: beyond the patch. Of facets that meet there, the first.
+  // Returns the point of the patch at these coordinates, with the first of the facets there. Facet
+  // -1 means outside the patch.
   SurfacePoint at(const Point<2>& x) const {
     std::int32_t facet = std::numeric_limits<std::int32_t>::max();
     boxes_.for_holding(x, [&](std::int32_t n) {
@@ -127,11 +129,12 @@ class FlatPatch {
   const std::vector<std::int32_t>& facets_;
   Point<3> origin_, along_, across_;
   Box<2> bounds_{};
-  double height_ = 0;  // of the corner farthest from the plane
+  double height_ = 0;  // largest distance of a corner from the plane
   BoxTree<2> boxes_;
 };
 
-// How far the farthest of the long edges parallel to the first row is from it; 0 if there is none.
+// Returns the distance between the first row and the farthest long edge parallel to it; 0 if there
+// is none.
 double distance_to_parallel(const FlatPatch& flat, const std::vector<StraightRun>& runs,
                             const StraightRun& base) {
   double farthest = 0;
@@ -144,7 +147,7 @@ double distance_to_parallel(const FlatPatch& flat, const std::vector<StraightRun
   return std::fabs(farthest);
 }
 
-// Rows and columns from the first to before the last.
+// Ranges of rows and columns of a lattice. The last ones are excluded.
 struct Block {
   std::int64_t first_row, last_row, first_column, last_column;
 
@@ -153,7 +156,8 @@ struct Block {
   std::int64_t columns() const { return last_column - first_column; }
 };
 
-// Rows `row` apart, of nodes `step` apart, every other one shifted by half of that.
+// A hexagonal lattice: rows `row` apart, nodes `step` apart, every second row shifted by half a
+// step.
 class Rows {
  public:
   Rows(const FlatPatch& flat, double step, double row) : flat_(flat), step_(step), row_(row) {}
@@ -171,8 +175,8 @@ class Rows {
     return {shift + step_ * static_cast<double>(column), row_ * static_cast<double>(r)};
   }
 
-  // Calls visit(place) for those that may be in cells of this rank: halves a block until it is
-  // small or meets none.
+  // Calls visit(x) for lattice points that may lie in cells of this rank. Halves a block until it
+  // is small or meets no such cell.
   template <class Visit>
   void for_places(const Block& block, const RankCells& cells, const Visit& visit) const {
     constexpr std::int64_t kSmall = 8;
@@ -205,9 +209,9 @@ class Rows {
   double step_, row_;
 };
 
-// The patch's longest straight feature edge is a row of it, and if another is parallel the rows are
-// fitted in between. Nodes stay `clearance` times their distance off features. Those in cells of
-// this rank.
+// Returns the lattice nodes of a flat patch that lie in cells of this rank. The longest straight
+// feature edge is a row of the lattice; if another long edge is parallel to it, rows are fitted in
+// between. Nodes keep `clearance` times their distance from features.
 std::vector<SurfacePoint> flat_lattice(const Surface& surface, std::int32_t patch,
                                        const std::vector<std::int32_t>& facets, double d,
                                        double clearance, const RankCells& cells) {
@@ -225,7 +229,7 @@ std::vector<SurfacePoint> flat_lattice(const Surface& surface, std::int32_t patc
   };
   const double step = fitted(d, base.length());
   const double row = fitted(std::sqrt(0.75) * d, distance_to_parallel(flat, runs, base));
-  // Half a step beside an edge is far enough, though steps may be shorter than d.
+  // A node half a step beside an edge is far enough, even if steps are shorter than d.
   const double free = (1 - 1e-9) * clearance * std::min(step, d);
   std::vector<SurfacePoint> nodes;
   const Rows rows(flat, step, row);
@@ -237,32 +241,33 @@ std::vector<SurfacePoint> flat_lattice(const Surface& surface, std::int32_t patc
   return nodes;
 }
 
-// Sums over the pieces of each patch of a surface, of which each rank has those in its cells: each
-// patch has a rank that sums over its cells: what a rank sends grows with the cells and patches
-// that it has pieces of, not with the pieces.
+// Sums over the pieces of each patch. Each patch is assigned to a rank that sums over its cells, so
+// messages grow with the cells and patches of a rank and not with its pieces.
 
-// Of the pieces of a patch in one cell, or in none: then the patch is asked about only.
+// The sum over the pieces of a patch in one cell. kNoCell requests the sums of the patch without
+// adding pieces.
 struct PiecesInCell {
   static constexpr std::int32_t kNoCell = -1;
 
   std::int32_t patch, cell = kNoCell;
-  FixedPointSum nodes{};  // that they have room for
+  FixedPointSum nodes{};  // number of nodes that d requires
   double min_d = std::numeric_limits<double>::infinity(), max_d = 0;
 };
 
-// What there is of the patch besides.
+// The sums of a patch.
 struct PatchSums {
   FixedPointSum start_nodes;  // in the cells before this one
-  FixedPointSum nodes;        // in all of them
+  FixedPointSum nodes;        // in all cells
   double min_d = std::numeric_limits<double>::infinity(), max_d = 0;
 };
 
+// A request for the sums of a patch, and the rank that sent it.
 struct Question {
   PiecesInCell pieces;
   int rank;
 };
 
-// The answers, in the order of the questions.
+// Returns the sums in the order of the requests.
 std::vector<PatchSums> answers_to(const std::vector<Question>& questions) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < questions.size(); ++k) order.push_back(k);
@@ -287,8 +292,9 @@ std::vector<PatchSums> answers_to(const std::vector<Question>& questions) {
   return answers;
 }
 
-// own: by increasing patch, 0 to patches - 1; no cell is another rank's as well. Returns the sums
-// for each of these. They do not depend on which cells are whose. Collective.
+// Collective. Returns the patch sums for each entry of `own`. `own` must be ascending by patch (0
+// to `patches` - 1), and each cell must belong to one rank. The result does not depend on which
+// rank owns a cell.
 std::vector<PatchSums> sums_over_patches(const Communicator& comm, std::int32_t patches,
                                          const std::vector<PiecesInCell>& own) {
   const auto asked = [&](std::int32_t patch) {
@@ -304,7 +310,7 @@ std::vector<PatchSums> sums_over_patches(const Communicator& comm, std::int32_t 
   const std::vector<PatchSums> answers = answers_to(questions);
   for (std::size_t k = 0; k < questions.size(); ++k)
     pack(answered.to(questions[k].rank), answers[k]);
-  // By rank, so in the order of the patches.
+  // Messages come in the order of ranks, which is that of the patches.
   std::vector<PatchSums> sums;
   sums.reserve(own.size());
   for (const Message& theirs : comm.sparse_all_to_all(answered.messages()))
@@ -312,14 +318,15 @@ std::vector<PatchSums> sums_over_patches(const Communicator& comm, std::int32_t 
   return sums;
 }
 
-// In units of 2^-32, to the nearest: sums of these come out the same in any order.
+// Returns the number of nodes that d requires on a piece, rounded. [2^-32] Sums do not depend on
+// their order.
 std::int64_t wanted_nodes(const SurfacePiece& piece) {
   return fixed_point(Lattice<2>::kDensity * piece.area / (piece.d * piece.d) + 0x1p-33);
 }
 
 using Pieces = std::span<const SurfacePiece>;
 
-// Sorted along Morton order, those of a cell follow each other.
+// Divides pieces in Morton order into those of each cell, which are contiguous.
 std::vector<Pieces> cell_by_cell(const std::vector<SurfacePiece>& pieces) {
   std::vector<Pieces> cells;
   std::size_t first = 0;
@@ -331,7 +338,8 @@ std::vector<Pieces> cell_by_cell(const std::vector<SurfacePiece>& pieces) {
   return cells;
 }
 
-// Of each patch that meets cells of this rank, and then of its pieces cell by cell.
+// Returns, for each patch that meets cells of this rank, one entry without a cell and then one
+// entry per cell with pieces.
 std::vector<PiecesInCell> what_to_sum(const std::vector<PatchPieces>& patches) {
   std::vector<PiecesInCell> found;
   for (std::size_t p = 0; p < patches.size(); ++p) {
@@ -352,13 +360,13 @@ std::vector<PiecesInCell> what_to_sum(const std::vector<PatchPieces>& patches) {
   return found;
 }
 
-// The spacing at which a whole patch has as many nodes as d asks for.
+// Returns the constant spacing at which the patch has as many nodes as d requires.
 double even_spacing(const PatchPieces& patch, const PatchSums& sums) {
   if (sums.min_d == sums.max_d || sums.nodes.is_zero()) return sums.min_d;
   return std::sqrt(Lattice<2>::kDensity * patch.area / sums.nodes.value());
 }
 
-// Of pieces of one cell.
+// Appends the nodes of the pieces of one cell. `start_nodes` is the sum over the cells before.
 void add_running_sum(const Surface& surface, Pieces pieces, const FixedPointSum& start_nodes,
                      std::vector<SurfacePoint>& nodes) {
   constexpr std::int64_t kOne = kFixedPointOne, kHalf = kOne / 2;

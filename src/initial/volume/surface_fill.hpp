@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Initial nodes on the patches of surfaces (section 2.1 of the paper, for surfaces). A flat patch
-// on which d is nearly constant has a hexagonal lattice. On others, pieces of about d are taken in
-// Morton order, and a node comes wherever the sum of the nodes that d asks for passes a whole
-// number: the density is right, and bubbles settle the distances. Each rank makes the pieces and
-// the lattice in its own cells only; sums over cells tell it what comes before.
+// Places initial nodes on the patches of surfaces, as section 2.1 of the paper does in the plane. A
+// flat patch with nearly constant d gets a hexagonal lattice. Other patches are divided into pieces
+// about as wide as d; the number of nodes that d requires is summed over the pieces in Morton
+// order, and a node is placed where the sum passes an integer. Each rank makes only the pieces and
+// lattice nodes in its own cells, and sums over cells give it the number of nodes before them.
 #pragma once
 
 #include <vector>
@@ -16,10 +16,11 @@
 
 namespace pnpbs {
 
-// The nodes in cells of this rank, patch by patch. They keep off features, which have their own. A
-// closed patch without features has four nodes at least. What all ranks have together depends on
-// the surface and d alone. Throws Error(ErrorKind::spacing) if there would be more than the limit
-// allows. Collective.
+// Returns the nodes in the cells of this rank, patch by patch. They keep a distance from features,
+// which have nodes of their own. A closed patch without features has at least four nodes. The union
+// over all ranks depends only on the surface and on d.
+// Collective. Throws Error(ErrorKind::spacing) or Error(ErrorKind::memory) on all ranks if there
+// would be more nodes or pieces than the limit allows.
 std::vector<SurfacePoint> surface_fill(const Communicator& comm, const Surface& surface,
                                        const SpacingEvaluator<3>& spacing, const NodeLimit& limit,
                                        const RankCells& cells);

@@ -21,11 +21,13 @@ namespace pnpbs {
 
 namespace {
 
-constexpr std::int64_t kBatch = 1 << 16;  // points asked in one call
-constexpr double kMaxThatAddUp = 9e18;    // on all ranks together, as 64 bits hold
-constexpr double kNeedlePower = 1.585;    // log2 3: of two halves of a needle one is as long as it
-constexpr double kBytesPerPiece =
-    2 * sizeof(SurfacePiece) + 4 * sizeof(FacetCorners<3>);  // while it is cut, and sorted
+constexpr std::int64_t kBatch = 1 << 16;  // most points in one evaluation of d
+constexpr double kMaxThatAddUp = 9e18;    // bound on a sum over all ranks, as it has 64 bits
+// Exponent of a bound on the number of pieces: log2(3), because one half of a needle-shaped
+// triangle is as long as the whole.
+constexpr double kNeedlePower = 1.585;
+// Memory of a piece while it is divided and sorted. [bytes]
+constexpr double kBytesPerPiece = 2 * sizeof(SurfacePiece) + 4 * sizeof(FacetCorners<3>);
 
 struct Triangle {
   std::int32_t facet;
@@ -45,7 +47,7 @@ struct Triangle {
   }
 };
 
-// From corner k of a triangle to the next one.
+// The longest edge of a triangle, from corner k to the next one.
 struct LongestEdge {
   std::size_t k = 0;
   double length = 0;
@@ -62,7 +64,7 @@ LongestEdge longest_edge(const Triangle& triangle) {
 
 double nodes_in(double area, double d) { return Lattice<2>::kDensity * area / (d * d); }
 
-// Where d is least; of places where it is the same, one that does not depend on who asks.
+// The smallest d and its location; ties are decided by coordinates, independent of the rank.
 struct LeastSpacing {
   double d = std::numeric_limits<double>::infinity();
   Point<3> at{};
@@ -82,7 +84,7 @@ class Cutter {
 
   std::vector<PatchPieces> run() {
     std::vector<Triangle> open = whole_facets();
-    // All ranks go on as long as one does: asking for d may be collective.
+    // All ranks continue as long as one does, because evaluating d may be collective.
     while (const std::int64_t batches = most_batches(open)) open = cut(open, batches);
     for (PatchPieces& patch : patches_) sort(patch.pieces);
     return std::move(patches_);
@@ -108,7 +110,7 @@ class Cutter {
     return facets;
   }
 
-  // Unless all that it will be cut into is another rank's.
+  // Adds the triangle to `open` unless all its pieces belong to other ranks.
   void keep(const Triangle& triangle, std::vector<Triangle>& open) const {
     if (cells_.meet(triangle.box())) open.push_back(triangle);
   }
@@ -128,14 +130,14 @@ class Cutter {
     return d;
   }
 
-  // In two across their longest edge those that are too wide; the others are done.
+  // Halves the triangles that are too wide across their longest edge. The others become pieces.
   std::vector<Triangle> cut(const std::vector<Triangle>& open, std::int64_t batches) {
     std::vector<Point<3>> centres;
     for (const Triangle& triangle : open) centres.push_back(triangle.centre());
     const std::vector<double> d = spacing_at(centres, batches);
     std::vector<Triangle> halves;
     FixedPointSum pending;
-    double pieces = 0;  // of this rank's: at least
+    double pieces = 0;  // lower bound of the pieces of this rank
     for (std::size_t n = 0; n < open.size(); ++n) {
       least_.add({d[n], centres[n]});
       const std::int32_t cell = cells_.tree.leaf_at(centres[n]);
@@ -143,7 +145,7 @@ class Cutter {
       const double local = std::min(d[n], max_d_[index(surface_.patch(open[n].facet))]);
       const LongestEdge longest = longest_edge(open[n]);
       if (longest.length > method::kSurfacePieceEdge * local) {
-        // Where d grows from here on, there may be few nodes after all, but some.
+        // A lower bound: where d grows inside the triangle, it may have few nodes.
         if (own) pending.add(0.25 * std::min(1.0, nodes_in(open[n].area(), local)));
         if (own)
           pieces += std::pow(longest.length / (method::kSurfacePieceEdge * local), kNeedlePower);
@@ -153,7 +155,7 @@ class Cutter {
       }
     }
     require_few_enough(pending);
-    // Needles have many pieces and few nodes.
+    // Needles have many pieces and few nodes, so pieces are limited as well.
     const std::uint64_t all_pieces = comm_.allreduce_sum(
         static_cast<std::uint64_t>(std::min(pieces, kMaxThatAddUp / comm_.size())));
     limit_.require_memory_for(static_cast<double>(all_pieces), kBytesPerPiece,
@@ -200,8 +202,8 @@ class Cutter {
   const NodeLimit& limit_;
   const RankCells& cells_;
   std::vector<PatchPieces> patches_;
-  std::vector<double> max_d_;  // of each patch
-  FixedPointSum nodes_;        // that the pieces of this rank have room for
+  std::vector<double> max_d_;  // per patch
+  FixedPointSum nodes_;        // that the pieces of this rank require
   LeastSpacing least_;
 };
 

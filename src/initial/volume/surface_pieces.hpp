@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Facets cut into pieces about as wide as d, so that d is known all over a surface.
+// Divides the facets of surfaces into pieces about as wide as d, and evaluates d on each.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,15 @@
 
 namespace pnpbs {
 
-// The part of space in which a rank lays first nodes on surfaces: cells that cover the surfaces,
-// the same on all ranks, and which of them are this rank's.
+// The cells in which a rank places initial nodes on surfaces. The cells cover the surfaces and are
+// the same on all ranks; each belongs to one rank.
 struct RankCells {
   const BackgroundTree<3>& tree;  // its leaves are the cells
   std::function<bool(std::int32_t cell)> owns;
 
+  // Returns true if x lies in a cell of this rank.
   bool hold(const Point<3>& x) const { return owns(tree.leaf_at(x)); }
+  // Returns true if the box meets a cell of this rank.
   bool meet(const Box<3>& box) const {
     bool met = false;
     tree.for_leaves_in(
@@ -31,6 +33,7 @@ struct RankCells {
   }
 };
 
+// A part of a facet that has room for less than one node.
 struct SurfacePiece {
   SurfacePoint centre;
   std::int32_t cell;
@@ -38,17 +41,19 @@ struct SurfacePiece {
   double d;  // at the centre
 };
 
+// The pieces of a patch on this rank.
 struct PatchPieces {
-  bool met = false;                  // has it a facet that meets cells of this rank?
-  double area = 0;                   // of the whole patch
-  std::vector<SurfacePiece> pieces;  // those with their centres in cells of this rank
+  bool met = false;                  // true if a facet of the patch meets cells of this rank
+  double area = 0;                   // area of the whole patch
+  std::vector<SurfacePiece> pieces;  // those with centres in cells of this rank
 };
 
-// Of each patch, in the Morton order of their centres. All ranks together have every piece once,
-// and what the pieces are does not depend on which cells are whose. d is asked at the centres, in
-// batches. A piece has room for less than one node, and a patch that is closed for four at least:
-// fewer make no closed triangulation, so there d counts for as much less. Throws
-// Error(ErrorKind::spacing) if there would be more nodes than the limit allows. Collective.
+// Returns the pieces of each patch in Morton order of their centres. Each piece is on exactly one
+// rank, and the pieces do not depend on the distribution of cells. Evaluates d at the centres, in
+// batches. In a closed patch without features d is reduced until there is room for four nodes, the
+// fewest of a closed triangulation.
+// Collective. Throws Error(ErrorKind::spacing) or Error(ErrorKind::memory) on all ranks if there
+// would be more nodes or pieces than the limit allows.
 std::vector<PatchPieces> cut_to_pieces(const Communicator& comm, const Surface& surface,
                                        const SpacingEvaluator<3>& spacing, const NodeLimit& limit,
                                        const RankCells& cells);

@@ -11,17 +11,18 @@ namespace pnpbs {
 namespace {
 
 constexpr double kFeatureTurn = kFeatureAngle * std::numbers::pi / 180;
-constexpr double kMaxCurveSag = 1e-7;  // of a chord off its curve, in sizes of the domain
+// Largest distance of a chord from its curve [size of the domain]
+constexpr double kMaxCurveSag = 1e-7;
 
-// From a segment to the next, in radians.
+// Returns the angle between the two segments. [radians]
 double turn_at(const Point<2>& before, const Point<2>& x, const Point<2>& after) {
   const double ux = x[0] - before[0], uy = x[1] - before[1], vx = after[0] - x[0],
                vy = after[1] - x[1];
   return std::atan2(std::fabs(ux * vy - uy * vx), ux * vx + uy * vy);
 }
 
-// Of the circle through three points, the outer of which see each other under that turn: by the law
-// of sines.
+// Returns the radius of the circle through three points, from the outer ones and the turn at the
+// middle one, by the law of sines.
 double radius_through(const Point<2>& before, const Point<2>& after, double turn) {
   return turn > 0 ? distance<2>(before, after) / (2 * std::sin(turn)) : ShapePiece<2>::kNone;
 }
@@ -43,12 +44,12 @@ class PlaneShape {
  private:
   struct Vertex {
     Point<2> x;
-    bool on_smooth = false;  // in a curve that is no polyline
+    bool on_smooth = false;  // inside a smooth curve
     int degree = 0;
     std::array<std::int32_t, 2> neighbours{};
   };
 
-  // Corners have their numbers; what lies between on the curves comes after.
+  // Corners keep their numbers; the other vertices of the curves follow.
   void add_vertices() {
     for (const Corner& corner : domain_.corners()) vertices_.push_back({corner.position});
     for (const BoundaryCurve& curve : domain_.curves()) {
@@ -79,7 +80,7 @@ class PlaneShape {
     const Point<2>&before = vertices_[static_cast<std::size_t>(vertex.neighbours[0])].x,
           &after = vertices_[static_cast<std::size_t>(vertex.neighbours[1])].x;
     const double turn = turn_at(before, vertex.x, after);
-    // Samples of a smooth curve turn by more at a kink alone.
+    // Between samples, smooth curves turn by more than kSampleTurn only at kinks.
     const bool kink = vertex.on_smooth ? turn > 1.5 * kSampleTurn : turn >= kFeatureTurn;
     return kink ? ShapePiece<2>::kNone : radius_through(before, after, turn);
   }
@@ -98,7 +99,8 @@ class PlaneShape {
     }
   }
 
-  // Samples turn by 0.025 at most, so that chords of a part of their length lie that much nearer.
+  // Divides each chord so that parts stay within kMaxCurveSag of the curve. The distance decreases
+  // with the square of the number of parts, because samples turn by at most kSampleTurn.
   void add_chords(const BoundaryCurve& curve, const std::vector<std::int32_t>& way,
                   const std::vector<double>& radius, ShapePiece<2> piece) {
     std::vector<double> parameters;
@@ -137,7 +139,7 @@ class PlaneShape {
     shape_.push_back(piece);
   }
 
-  // Fixed nodes, and corners, which may have tags of their own.
+  // Adds fixed nodes and corners, which may have tags of their own, as points.
   void add_points() {
     for (std::size_t c = 0; c < domain_.corners().size(); ++c) {
       const Corner& corner = domain_.corners()[c];
@@ -154,7 +156,7 @@ class PlaneShape {
   const PlaneDomain& domain_;
   double size_;
   std::vector<Vertex> vertices_;
-  std::vector<std::vector<std::int32_t>> ways_;  // the vertices of each curve
+  std::vector<std::vector<std::int32_t>> ways_;  // vertices of each curve
   Shape<2> shape_;
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 using SymmetricMatrix = std::array<double, 6>;  // xx, yy, zz, xy, yz, zx
 
-// The eigenvalue of largest size, by Smith's closed form (Communications of the ACM 4 (1961) 168).
+// Returns the largest absolute eigenvalue, by Smith's closed form (Communications of the ACM 4
+// (1961) 168).
 double largest_eigenvalue(const SymmetricMatrix& m) {
   const auto [xx, yy, zz, xy, yz, zx] = m;
   const double off = xy * xy + yz * yz + zx * zx, mean = (xx + yy + zz) / 3;
@@ -28,9 +29,9 @@ double largest_eigenvalue(const SymmetricMatrix& m) {
   return std::max(std::fabs(high), std::fabs(low));
 }
 
-// How normals turn over an area: of each edge in it its angle times its length, in the direction
-// of the edge (Cohen-Steiner and Morvan, Symposium on Computational Geometry 2003). Half of an edge
-// belongs to each of its two facets.
+// The curvature tensor of an area: the sum over its edges of the angle between normals times the
+// length, in the direction of the edge (Cohen-Steiner and Morvan, Symposium on Computational
+// Geometry 2003). Each facet has half of its edges' contributions.
 struct Bending {
   SymmetricMatrix turn{};
   double area = 0;
@@ -116,9 +117,9 @@ class VolumeShape {
     }
   }
 
-  // By the circle through neighbouring nodes, as polylines in the plane.
+  // Sets the radii of curve pieces from the circle through neighbouring nodes, as in the plane.
   void bend_curves() {
-    std::map<std::int32_t, std::vector<std::size_t>> at;  // pieces of curves at each node
+    std::map<std::int32_t, std::vector<std::size_t>> at;  // curve pieces at each node
     for (std::size_t f = 0; f < shape_.size(); ++f)
       if (!shape_[f].is_facet() && shape_[f].ends[0] != shape_[f].ends[1])
         for (const std::size_t end : {0, 1}) at[shape_[f].ends[end]].push_back(f);
