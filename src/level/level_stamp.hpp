@@ -5,8 +5,8 @@
 
 namespace pnpbs {
 
-// Of a level's nodes and lists: as long as it is the same, what was found of them holds. Levels
-// have different ones.
+// A stamp of a level's nodes and lists. Data that were derived at an equal stamp are valid.
+// Different levels have different stamps.
 struct LevelStamp {
   std::int64_t level = -1, version = -1;
 
