@@ -38,8 +38,8 @@ std::vector<double> wanted_on_surfaces(const Level<2>&) { return {}; }
 }  // namespace
 
 // Returns the expected nodes of each leaf. The part of the domain in a single boundary leaf is
-// unknown. Together these leaves have what remains of the area (volume) of the domain, and each
-// gets an equal share of its own size.
+// unknown. Together these leaves have what remains of the area (volume) of the domain, so each
+// counts with the same fraction of its size.
 template <int Dim>
 std::vector<double> wanted_nodes(const Level<Dim>& level) {
   if (level.geometry.kind() == GeometryKind::surface) return wanted_on_surfaces(level);

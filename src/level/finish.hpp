@@ -24,9 +24,9 @@ struct FinishResults {
   bool stopped = false;
 };
 
-// Does this many sweeps, and repairs bad elements if the settings request it. In space nodes only
-// move, and edge_bands stays empty. The nodes are valid if `stops` ends it early. All ranks must
-// call it, and if one rank throws, all ranks throw.
+// Does this many sweeps, and repairs bad elements if the settings request it. In space edge_bands
+// stays empty. The nodes are valid if `stops` ends it early. All ranks must call it, and if one
+// rank throws, all ranks throw.
 FinishResults sweep_and_repair(
     Level<2>& level, std::int64_t sweeps, const StopTest& stops = [] { return false; });
 FinishResults sweep_and_repair(

@@ -37,7 +37,7 @@ struct LevelState {
   std::int64_t next_id = 0;                // smallest id that was never used
   PatchMargin margin = PatchMargin::laid;  // of the patch of a whole sphere
   std::int64_t rebalances = 0;
-  std::int64_t left_out = 0;  // feature nodes without elements, over all ranks (loose_pieces.hpp)
+  std::int64_t left_out = 0;  // feature nodes that were removed, over all ranks (loose_pieces.hpp)
   std::int64_t held_rounds = 0;   // number of rounds before this level that reduced d
   std::int64_t unknown_uses = 0;  // uses of data that this rank does not know exactly
   InexactNodes inexact;           // since the last exchange, in builds that check it

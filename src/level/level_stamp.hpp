@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The stamp by which derived data recognize the state of a level that they belong to.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@
 
 namespace pnpbs {
 
-// Sets the leaves of inner nodes. Boundary nodes get -1, because they are laid again.
+// Sets the leaves of inner nodes. Boundary nodes get -1.
 template <int Dim>
 void find_leaves(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
 // Sorts the nodes by leaf, in Morton order, and then by position, so that the order does not depend

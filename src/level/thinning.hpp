@@ -13,10 +13,10 @@
 
 namespace pnpbs {
 
-// Returns the spacing that a new node counts as placed for. It is one of new_nodes that replace one
-// node in M dimensions, where the spacing was `before` and will be d. Thinning then keeps as many
-// as d requires. If that is most of them, all are kept, because the spacing may have been different
-// at the node before.
+// Returns the spacing that a new node counts as placed for. Refinement adds new_nodes of them per
+// old node in M dimensions, where the spacing was `before` and will be d. Thinning then keeps as
+// many of them as d requires. If that is most of them, all are kept, because the spacing may have
+// been different at the old node.
 template <int M>
 double placed_for(double before, double d, double new_nodes) {
   const double share = (power<M>(before / d) - 1) / new_nodes;

@@ -24,8 +24,8 @@ void Placement::restore_run(RunState before) noexcept {
   if (reason == StopReason::monitor) state_.stop_reason = reason;
 }
 
-// Adds a warning about the changes. A finished run continues only if the changes affect it: with
-// changes of other options than the number of steps it starts a new sequence of steps.
+// Adds a warning about the changes. A finished run goes on if they affect it: with more steps it
+// continues, and with other options, except those for first nodes, it begins again.
 void Placement::adopt_changes(const std::vector<OptionChange>& changes) {
   constexpr std::string_view kOfFirstNodes[] = {"levels", "coarsest_steps", "refined_steps"};
   if (changes.empty()) return;

@@ -32,7 +32,7 @@ Point<Dim> square_to(const Point<Dim>& a) {
 // other, as in a row of nodes, the point lies at right angles to the nearest of them.
 template <int Dim>
 Point<Dim> place_away(const Point<Dim>& x, double d, const std::vector<Point<Dim>>& around) {
-  constexpr double kBalanced = 0.1;  // share of the sum of the weighted distances
+  constexpr double kBalanced = 0.1;  // share of the largest possible length of the sum
   Point<Dim> crowd{}, to_nearest{};
   double weights = 0, nearest = std::numeric_limits<double>::infinity();
   for (const Point<Dim>& y : around) {

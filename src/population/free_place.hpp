@@ -11,8 +11,8 @@
 namespace pnpbs {
 
 // Returns a position for a new bubble beside a bubble at x with spacing d. `around` has the
-// positions of the neighbours. The result is the centre of the largest hole of radius d at most.
-// Without such a hole it is the point at distance d from x that lies away from the neighbours.
+// positions of the neighbours. If the largest hole has a radius of at most d, the result is its
+// centre. Otherwise it is the point at distance d from x that lies away from the neighbours.
 template <int Dim>
 Point<Dim> free_place(const Point<Dim>& x, double d, const std::vector<Point<Dim>>& around);
 

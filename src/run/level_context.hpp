@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The surroundings in which a level is built: counts, monitor and results.
 #pragma once
 
 #include "results/results.hpp"
@@ -12,7 +13,7 @@ template <int Dim>
 struct LevelContext {
   RunState& run;           // counts steps and nodes
   Monitoring& monitoring;  // may stop the construction
-  Results<Dim>& results;   // show the level in work
+  Results<Dim>& results;   // show the level under construction
   double done;             // fraction of the call's work that is done at the beginning
 };
 

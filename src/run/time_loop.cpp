@@ -120,10 +120,10 @@ bool Simulation<Dim>::far_too_few() const {
   return nodes() < method::kFarTooFew * expected_nodes(level_);
 }
 
-// Returns the deviation of the mean distance up to which population control does not correct it in
-// this round of an event, or infinity for no correction.
-// In the plane and on surfaces one round corrects it. Inside a body a hole has some 14 candidates,
-// of which only one wins, so two rounds do.
+// Returns the tolerance of the mean distance in this round of an event, or infinity. Population
+// control corrects only deviations that exceed it.
+// In the plane and on surfaces one round corrects the mean. Inside a body a hole has some 14
+// candidates, of which only one wins, so two rounds do.
 // Taken-over nodes have a wider tolerance, because they should stay where d is unchanged. There the
 // correction goes on in all rounds while the deviation is large, because no overlap ratio detects
 // that every eighth node is missing.

@@ -16,7 +16,8 @@ namespace pnpbs {
 // It counts inner nodes on the boundary, surface nodes without their disks, and nodes of surplus
 // pieces of the boundary. If the number is smaller than nodes_off_before, it removes the inner
 // nodes on the boundary and those that share an element with another counted node. A surface node
-// that is surrounded by elements without inner nodes is removed itself. Feature nodes are kept.
+// that is surrounded by elements without inner nodes is removed itself. Feature nodes are kept. If
+// none of these helps, it removes the nodes of loose pieces, or lone nodes (loose_pieces.hpp).
 // Afterwards there are lists but no stars. Returns the number of removed nodes over all ranks. All
 // ranks must call it, and if one rank throws, all ranks throw.
 std::int64_t remove_blocking_nodes(Level<3>& level, std::int64_t& nodes_off_before);

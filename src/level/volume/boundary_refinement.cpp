@@ -67,8 +67,9 @@ std::int64_t corner_of_sheet(const Level<3>& level, const FaceCorners& by_id, st
   return found;
 }
 
-// Returns the ball of a face, with the same bits for each order of the corners. Returns nothing if
-// no corner lies on a surface and none is near.
+// Returns the ball of a face, with the same bits for each order of the corners. `from` is a node on
+// one sheet of the surface if the face leads to another sheet, else -1. Returns nothing if no
+// corner lies on a surface and none is near.
 std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corners,
                                         std::int64_t from = -1) {
   const Nodes<3>& nodes = level.nodes;

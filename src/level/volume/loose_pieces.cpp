@@ -18,7 +18,7 @@ struct PieceNode {
   std::int64_t piece, id;
   Point<3> x;
   double d;
-  std::int64_t on_feature;  // 1 or 0
+  std::int64_t on_feature;  // 1 if the node lies on a feature, else 0
 };
 
 // A node without elements.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Opposite nodes on walls much thinner than d and in gaps much narrower. Tetrahedra that connect
 // the two sides of a wall have circumspheres of a radius near d only if the nodes of the two sides
-// lie opposite each other. If they are s apart along a wall of thickness t, the radius is about d s
-// / t, and such tetrahedra are no elements (delaunay/volume/element_rule.hpp). Therefore one side
+// lie opposite each other. If they are s apart along a wall of thickness t, the radius is about
+// d s/t, and such tetrahedra are no elements (delaunay/volume/element_rule.hpp). Therefore one side
 // gets the nodes of the other. The same is done across gaps, where the nodes of one side would lie
 // in the circumspheres of the triangles of the other and tetrahedra would cross the surfaces, and
 // in stacks of several sheets.

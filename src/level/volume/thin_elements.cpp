@@ -33,7 +33,7 @@ struct EdgeEnd {
   std::int64_t id, boundary_node;
   Point<3> x;
   double d;
-  std::int64_t on_feature;  // 1 or 0
+  std::int64_t on_feature;  // 1 if the node lies on a feature, else 0
 };
 
 // A short edge between two boundary nodes, the one with the smaller id first.
