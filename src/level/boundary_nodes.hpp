@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes of a level that are on its boundary, on their way into it. Those with id -1 get one.
-// Every rank may name any of them, but its own it must.
+// The boundary nodes that are to be stored in a level. Nodes with id -1 get a new id. A rank may
+// list any of them, but must list all that it will own.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace pnpbs {
 template <int Dim>
 class BoundaryNodes;
 
-// In the plane, those of the discretized boundary.
+// Boundary nodes in the plane: those of the discretized boundary.
 template <>
 class BoundaryNodes<2> {
  public:
-  // `ids`: those that they keep, -1 for none; if empty, all are new.
+  // `ids` are the ids that the nodes keep, or -1 for a new one. If it is empty, all are new.
   explicit BoundaryNodes(const Boundary& boundary, std::vector<std::int64_t> ids = {})
       : boundary_(boundary), ids_(std::move(ids)) {
     ids_.resize(boundary_.nodes.size(), -1);
@@ -40,16 +40,16 @@ class BoundaryNodes<2> {
   std::vector<std::int64_t> ids_;
 };
 
-// Of nodes in one place, those with the least freedom come first, and those with an id before those
-// without.
+// The sort key of boundary nodes. Among nodes at the same point, those with the least freedom are
+// first, and those with an id before those without.
 inline auto by_place(const IncomingNode<3>& node) {
   return std::tuple(node.position, node.carrier, node.boundary_node,
                     static_cast<std::uint64_t>(node.id), node.d, node.tag);
 }
 
-// In space, those on curves and surfaces, in the order of their places: so that nothing depends on
-// where they came from. Of several in one place, as where a bubble on a surface has come to a
-// corner, the one with the least freedom counts.
+// Boundary nodes in space: those on curves and surfaces, sorted by position, so that nothing
+// depends on where they came from. If several are at the same point, as where a bubble on a surface
+// has reached a corner, the one with the least freedom is kept.
 template <>
 class BoundaryNodes<3> {
  public:

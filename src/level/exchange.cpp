@@ -21,7 +21,7 @@ template <int Dim>
 void exchange(Level<Dim>& level, int hops) {
   if (!level.distributed()) return;
   count_inexact_nodes(level);
-  // Deeper than was asked for so far.
+  // The tree must be refined deeper than for earlier exchanges.
   if (hops + 2 > level.tree->hops())
     level.adopt_partition(level.tree->distribution().without_leaves());
   const PhaseTimer timer(level.timers, Phase::exchange);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When nodes of a level travel between ranks. With one rank nothing happens.
+// The exchange of nodes between the ranks of a level. On one rank these functions do nothing.
 #pragma once
 
 #include <exception>
@@ -9,22 +9,25 @@
 
 namespace pnpbs {
 
-// Owned nodes to their owners, and ghosts chosen anew, so many hops deep. Where ranks can agree: on
-// the halo before it, which a first use has to find, and that it went well.
+// Migrates owned nodes to the ranks that own their positions, and selects the ghosts again, to a
+// depth of `hops` hops of the leaf graph. All ranks must call it, and if one rank throws, all ranks
+// throw.
 template <int Dim>
 void exchange(Level<Dim>& level, int hops);
-// For the steps until the next exchange: at the beginning of a row of steps, and once in a while
-// within it. Between agreements only positions and velocities travel, in buffers that are there: a
-// rank that has failed meanwhile sends what it has, and keeps a failure of the messages for the
-// next agreement. Where ranks agree a failure of this rank so far is reported.
+// Makes the ghosts exact for the steps until the next exchange. It selects them again if the
+// present ones do not suffice; the ranks then agree, and a failure of this rank so far is reported.
+// Otherwise only positions and velocities are sent, in buffers that are kept, and nothing is
+// agreed. A rank that has failed still sends its values; failures of the messages are stored in
+// `failure` until the ranks agree.
 template <int Dim>
 void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure);
-// The ghosts there are become exact again. Collective, with an agreement at the beginning; throws
+// Makes the present ghosts exact again. Collective, with an agreement at the beginning. Throws only
 // on a rank that lacks values of its ghosts.
 template <int Dim>
 void update_ghosts(Level<Dim>& level);
 
-// Every node to the rank that owns its place, from wherever it is; most are there already.
+// Migrates each incoming node to the rank that owns its position. Few nodes change their rank. All
+// ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 void scatter_to_owners(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
 

@@ -11,7 +11,8 @@ namespace pnpbs {
 
 namespace {
 
-// Of surfaces alone: they cross leaves of some area each, and the sum is known.
+// Returns the nodes expected in each leaf of a surface without a body. The known total area is
+// divided among the leaves in proportion to the areas of their faces.
 std::vector<double> wanted_on_surfaces(const Level<3>& level) {
   const SizedTree<3>& map = level.map();
   const BackgroundTree<3>& tree = map.tree();
@@ -36,8 +37,9 @@ std::vector<double> wanted_on_surfaces(const Level<2>&) { return {}; }
 
 }  // namespace
 
-// Of the leaves that the boundary crosses we know only what the domain's area (volume) leaves for
-// all of them.
+// Returns the expected nodes of each leaf. The part of the domain in a single boundary leaf is
+// unknown. Together these leaves have what remains of the area (volume) of the domain, so each
+// counts with the same fraction of its size.
 template <int Dim>
 std::vector<double> wanted_nodes(const Level<Dim>& level) {
   if (level.geometry.kind() == GeometryKind::surface) return wanted_on_surfaces(level);
@@ -75,12 +77,12 @@ double expected_nodes(const Level<Dim>& level) {
 
 namespace {
 
-// By which d grows in the chart of a sphere where it does not along the sphere: bubbles of the
-// sphere are bubbles of the chart, and such growth is none to them. Any growth, in leaves across
-// which the chart grows too much for their samples to tell, and in those of the patch of a whole
-// sphere, which is not filled.
+// Returns the growth of d in the chart of a sphere that does not exist on the sphere itself. It
+// does not count as growth, because bubbles of the sphere are bubbles of the chart. It is infinite
+// in leaves across which the chart grows too much for their samples, and in those of the patch of a
+// whole sphere, which is not filled.
 double growth_of_chart(const Level<2>& level, std::int32_t leaf, double d) {
-  constexpr double kTooMuch = 0.5;  // over a leaf
+  constexpr double kTooMuch = 0.5;  // growth across a leaf
   const Embedding<2>& embedding = level.geometry.domain().embedding();
   if (!embedding.is_sphere()) return 0;
   const BackgroundTree<2>& tree = level.map().tree();
@@ -100,12 +102,13 @@ double growth_of_chart(const Level<3>&, std::int32_t, double) { return 0; }
 template <int Dim>
 SpacingVariation spacing_variation(const Level<Dim>& level) {
   const SizedTree<Dim>& map = level.map();
-  constexpr double kBetweenSamples = 0.7;  // the farthest of a leaf, in units of its side
+  // Largest distance of a leaf's points from its samples, over its side.
+  constexpr double kBetweenSamples = 0.7;
   SpacingVariation own;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
     if (!level.tree->owns(leaf) || map.leaf_outside(leaf)) continue;
     const double min = map.leaf_min_spacing(leaf), max = map.leaf_max_spacing(leaf);
-    // Next to the boundary the samples may be those of the cell above.
+    // Leaves next to the boundary may have the samples of their parent cell.
     const double cell = map.tree().cell_side(map.tree().leaf_cell(leaf)),
                  way = kBetweenSamples * (map.leaf_has_facets(leaf) ? 2 * cell : cell);
     own.min = std::min(own.min, min);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the samples of d in the leaves of a level's tree tell: how many nodes d asks for, and how it
+// Estimates from the samples of d in the leaves of a level's tree: the number of nodes, and how d
 // varies.
 #pragma once
 
@@ -9,19 +9,20 @@
 
 namespace pnpbs {
 
-// Nodes that d asks for in each leaf of ours. Collective.
+// Returns the number of nodes that d requires in each leaf, 0 in leaves of other ranks. Collective.
 template <int Dim>
 std::vector<double> wanted_nodes(const Level<Dim>& level);
-// In all. Collective.
+// Returns their sum over all ranks. Collective.
 template <int Dim>
 double expected_nodes(const Level<Dim>& level);
 
+// The range of d in the domain, and its largest growth.
 struct SpacingVariation {
   double min = kFarAway, max = 0;
-  double steepest = 0;  // growth of d per unit of length
+  double steepest = 0;  // largest growth of d per unit of length
 };
 
-// Collective.
+// Measures d over all ranks. Collective.
 template <int Dim>
 SpacingVariation spacing_variation(const Level<Dim>& level);
 

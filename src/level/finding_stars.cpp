@@ -100,17 +100,18 @@ void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<c
   count_stars(level, wanted);
 }
 
-// Before the others are found: those of before, if they hold.
+// Starts the search without stars. If no node has moved since the stored stars were found, these
+// are restored.
 void begin_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) {
   const PhaseTimer timer(level.timers, Phase::stars);
   const VolumeStarInput input = star_input(level, known);
   level.stars.build_none(input);
   if (!taken_hold) return;
-  // These are confirmed at once, as others are one by one.
+  // Restored stars count as computed, as those that are confirmed one by one do.
   count_stars(level, level.stars_before.restore(input, level.stars));
 }
 
-// Of the owned nodes, those whose stars are yet to be found.
+// Returns flags of the owned nodes without a star.
 std::vector<char> owned_without_star(const Level<3>& level) {
   std::vector<char> without = owned_nodes(level.nodes);
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
@@ -118,7 +119,8 @@ std::vector<char> owned_without_star(const Level<3>& level) {
   return without;
 }
 
-// Those of these owned nodes: most are as they were before, if that is known.
+// Finds the stars of the flagged owned nodes. Most stored stars still hold after small moves; these
+// are only confirmed.
 void find_owned_stars(Level<3>& level, const KnownRegion<3>& known,
                       const std::vector<char>& wanted) {
   if (!level.stars_before.any()) return add_stars(level, known, wanted);
@@ -144,8 +146,9 @@ void build_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) 
   level.stars.build(star_input(level, known));
 }
 
-// What must be known for stars that could not be found: one box for the nodes of each leaf and, in
-// the patch of a whole sphere, those of the leaves that are not known.
+// Collects the boxes in which all nodes must be known before the missing stars can be found: one
+// box for the nodes of each leaf and, in the patch of a whole sphere, the leaves with unknown
+// nodes.
 template <int Dim>
 class UnknownBoxes {
  public:
@@ -187,7 +190,8 @@ class UnknownBoxes {
   std::set<std::int32_t> leaves_;
 };
 
-// Owned nodes beside a ghost, by the lists or the stars.
+// Returns the owned nodes that have a ghost as a neighbour in `graph`, which is the lists or the
+// stars.
 template <int Dim, class Graph>
 std::vector<std::int64_t> nodes_at_border(const Nodes<Dim>& nodes, const Graph& graph) {
   std::vector<std::int64_t> at_border;
@@ -200,7 +204,8 @@ std::vector<std::int64_t> nodes_at_border(const Nodes<Dim>& nodes, const Graph& 
   return at_border;
 }
 
-// Finds the stars of all nodes, and returns what must be known for those that are needed.
+// Finds the stars of all nodes. Returns the boxes that must be known for the required stars that
+// are missing.
 template <int Dim>
 std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings,
                                      bool taken_hold) {
@@ -219,12 +224,13 @@ std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& 
   return unknown.boxes();
 }
 
+// A box around nodes, and the largest of their d.
 struct OwnedNodesBox {
   Box<3> box;
-  double max_d = 0;  // 0: there are none
+  double max_d = 0;  // 0: the box has no nodes
 };
 
-// Around the owned ones of nodes begin up to end.
+// Returns the box around the owned nodes in [begin, end).
 OwnedNodesBox owned_nodes_box(const Nodes<3>& nodes, std::int64_t begin, std::int64_t end) {
   OwnedNodesBox owned;
   for (std::int64_t i = begin; i < end; ++i) {
@@ -237,8 +243,9 @@ OwnedNodesBox owned_nodes_box(const Nodes<3>& nodes, std::int64_t begin, std::in
   return owned;
 }
 
-// How far around a box, for nodes there with a d up to this, others must be known that are nearer
-// to one of them than the sum of both reaches, in units of d. By the largest d of the leaves there.
+// Returns how far around a box nodes must be known. The owned nodes in the box have d up to max_d.
+// A node must be known if its distance from one of them is less than the sum of both reaches, in
+// units of d. The bound uses the largest d of the leaves near the box.
 double reach_of_pairs(const Level<3>& level, double reach, const Box<3>& box, double max_d) {
   const double own = reach * max_d;
   double sum = 2 * own;
@@ -248,7 +255,7 @@ double reach_of_pairs(const Level<3>& level, double reach, const Box<3>& box, do
   return sum;
 }
 
-// All that is that near to an owned node is to be known.
+// Requests all nodes within that distance of an owned node.
 void ask_for_pairs(const Level<3>& level, const KnownRegion<3>& known, double reach,
                    UnknownBoxes<3>& unknown) {
   const BackgroundTree<3>& tree = level.tree->tree();
@@ -260,7 +267,7 @@ void ask_for_pairs(const Level<3>& level, const KnownRegion<3>& known, double re
       const double sum = reach_of_pairs(level, reach, box, d);
       return known.covers(tree, widened(box, sum)) ? 0 : sum;
     };
-    // Deep inside, once for all of them.
+    // One test is enough for all nodes of a leaf far from other ranks.
     if (owned.max_d == 0 || reach_around(owned.box, owned.max_d) == 0) continue;
     for (std::int64_t i = buckets.begin(leaf); i < buckets.end(leaf); ++i)
       if (nodes.owned(i))
@@ -268,7 +275,7 @@ void ask_for_pairs(const Level<3>& level, const KnownRegion<3>& known, double re
   }
 }
 
-// Those of these nodes that are not there yet.
+// Finds the stars of these nodes, as far as they are missing.
 void find_stars_of(Level<3>& level, const KnownRegion<3>& known,
                    const std::vector<std::int64_t>& front, UnknownBoxes<3>& unknown) {
   std::vector<char> wanted(static_cast<std::size_t>(level.nodes.count), 0);
@@ -283,7 +290,7 @@ void find_stars_of(Level<3>& level, const KnownRegion<3>& known,
   for (const std::int64_t i : front) unknown.ask_around(i);
 }
 
-// Those of ghosts, ring by ring around owned nodes whose stars are there.
+// Finds the stars of ghosts, ring by ring around owned nodes that have stars.
 void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<std::int64_t> front,
                       int rings, UnknownBoxes<3>& unknown) {
   std::vector<char> reached = owned_nodes(level.nodes);
@@ -293,8 +300,9 @@ void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<
   }
 }
 
-// The same in a volume, where a star costs much: first only those of owned nodes beside ghosts,
-// then ring by ring those of ghosts. They alone ask for more ghosts, but for rare ones inside.
+// Finds stars near ghosts only, because a star in a volume is expensive: those of owned nodes
+// beside ghosts, then those of ghosts ring by ring. Nearly all requests for more ghosts come from
+// these.
 std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
                                       const std::vector<std::int64_t>& at_border,
                                       const GhostStarDepth& zone, bool taken_hold) {
@@ -306,8 +314,9 @@ std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& kno
   return unknown.boxes();
 }
 
-// After these, those of all other owned nodes; and of ghosts around them, as where d is coarse
-// against the shape a star may reach a ghost that the list does not.
+// Finds the stars of the remaining owned nodes. Where d is coarse for the shape, such a star may
+// contain a ghost that is not in the adjacency list; the stars of ghosts around it are then found
+// as well.
 std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& known, int rings) {
   const Nodes<3>& nodes = level.nodes;
   const std::vector<char> wanted = owned_without_star(level);

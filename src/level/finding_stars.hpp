@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Delaunay stars of a level from its lists: those of the owned nodes and of the ghosts around
-// them, as far as what is known of other ranks' nodes suffices.
+// The search for the Delaunay stars of a level, from its lists: the stars of the owned nodes and of
+// ghosts around them, as far as the known nodes of other ranks suffice.
 #pragma once
 
 #include <vector>
@@ -11,29 +11,31 @@
 
 namespace pnpbs {
 
-// Has no node moved, come or gone, on any rank, since the stars were found that were taken last?
-// From now on level.stars_digest is that of the nodes now. In the plane: no. Collective.
+// Returns whether no node on any rank has moved, appeared or vanished since the stored stars were
+// found. Sets level.stars_digest to that of the present nodes. Returns false in the plane. All
+// ranks must call it, and if one rank throws, all ranks throw.
 bool stars_hold(Level<2>& level);
 bool stars_hold(Level<3>& level);
 
-// Finds the stars of the owned nodes and of the ghosts in that zone around them; if those taken
-// hold, only what is missing. Returns what must be known for those that it could not find; nothing
-// on all ranks: they are all there. Collective.
+// Finds the stars of the owned nodes and of the ghosts to the depth `zone`. If `taken_hold` is
+// true, only missing ones are computed. Returns the boxes that must be known for stars it cannot
+// find. If the result is empty on all ranks, all stars are found. All ranks must call it, and if
+// one rank throws, all ranks throw.
 std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known,
                                const GhostStarDepth& zone, bool taken_hold);
 std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known,
                                const GhostStarDepth& zone, bool taken_hold);
 
-// Of all nodes, on one rank.
+// Finds the stars of all nodes, on one rank.
 template <int Dim>
 void rebuild_stars(Level<Dim>& level);
 
-// The same in the plane where those there are were found before the nodes moved a little, without
-// lists. False if they were not, or on several ranks: then they are as they were, or worth nothing.
+// Restores the stars of the plane by flips, without lists, after nodes have moved a little. Returns
+// false if that is impossible, in space, or on several ranks; the stars may be invalid then.
 bool restore_stars(Level<2>& level);
 bool restore_stars(Level<3>& level);
 
-// What the stars are made from; the region must outlive it.
+// Returns the data that stars are computed from. The result refers to both arguments.
 VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known);
 
 }  // namespace pnpbs

@@ -13,7 +13,7 @@ namespace pnpbs {
 
 namespace {
 
-// A cell of the lattice of all cells with a power of two as side.
+// A cell of the lattice of cells whose side is the power of two up to d: its octave and its index.
 using CellKey = std::pair<int, std::array<std::int64_t, 3>>;
 
 CellKey cell_of(const Point<3>& x, double d) {
@@ -24,12 +24,14 @@ CellKey cell_of(const Point<3>& x, double d) {
   return {octave, index};
 }
 
+// A point that the search has reached.
 struct Reached {
   Point<3> x;
-  double far_finer;  // d below which it is
+  double far_finer;  // the search continues while d is below this
 };
 
-// One step in each direction from what was reached last.
+// Returns the points one step away from the last ones in each axis direction, inside the domain and
+// one per cell.
 std::vector<Reached> neighbours_of(const std::vector<Reached>& last, const std::vector<double>& d,
                                    const std::function<bool(const Point<3>&)>& inside) {
   std::vector<Reached> next;
@@ -50,7 +52,7 @@ SpacingHints<3> finer_region(const std::vector<UndersampledSpacing::Place>& plac
                              const SpacingEvaluator<3>& spacing,
                              const std::function<bool(const Point<3>&)>& inside) {
   constexpr std::size_t kMaxPlaces = 1 << 18;
-  // No place in a leaf is farther from the nearest of its samples, in sides of it.
+  // Largest distance of a point in a leaf from the nearest sample, in sides of the leaf.
   constexpr double kFarthest = 0.44;
   const auto values_at = [&](const std::vector<Reached>& reached) {
     std::vector<Point<3>> x;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is fine around places that nodes have come upon: a layer, say, of which they met a few.
+// The region of fine d around undersampled points that nodes have met, such as a layer of which
+// they met a few points.
 #pragma once
 
 #include <functional>
@@ -11,9 +12,9 @@
 
 namespace pnpbs {
 
-// The places, with d as the spacing has it, and those inside the domain that are reached from them
-// by steps of about d in all directions for as long as it stays far finer than what was sampled
-// around. Where these are very many, those nearest to the places.
+// Returns these points with their d, and the points of the domain that are reached from them by
+// steps of about d, as long as d stays far below the samples around. If there are too many, the
+// nearest ones are returned.
 SpacingHints<3> finer_region(const std::vector<UndersampledSpacing::Place>& places,
                              const SpacingEvaluator<3>& spacing,
                              const std::function<bool(const Point<3>&)>& inside);

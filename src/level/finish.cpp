@@ -8,7 +8,8 @@
 
 namespace pnpbs {
 
-// Lists of the present positions, from which visibility is judged from now on.
+// The lists are made for the present positions, which become the reference positions for
+// visibility.
 template <int Dim>
 void prepare_finish(Level<Dim>& level) {
   take_stars(level);
@@ -34,7 +35,7 @@ void require_finish_lists(Level<Dim>& level) {
   if (!prepared_for_finish(level)) prepare_finish(level);
 }
 
-// From fresh lists. In space stars cost much: where nothing has moved since, they are there.
+// Stars are expensive in space, so they are kept if nothing has moved since they were found.
 template <int Dim>
 void make_finish_stars(Level<Dim>& level, GhostStarDepth zone) {
   require_finish_lists(level);

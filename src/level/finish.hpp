@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finishing a level on the Delaunay stars: sweeps, and the repair of bad triangles or tetrahedra.
+// The finish of a level on its Delaunay stars: sweeps, and the repair of bad elements.
 #pragma once
 
 #include <cstdint>
@@ -13,39 +13,45 @@
 
 namespace pnpbs {
 
-// Asked between parts of the finish, on all ranks at the same place: is the rest to be left out?
-// Collective.
+// A test between the parts of the finish: returns whether the rest is left out. All ranks call it
+// at the same point. Collective.
 using StopTest = std::function<bool()>;
 
+// The results of sweeps and repairs.
 struct FinishResults {
-  PopulationCounts counts;           // of this rank
-  std::vector<EdgeBand> edge_bands;  // edge length over d, of all ranks, with d from before
+  PopulationCounts counts;           // on this rank
+  std::vector<EdgeBand> edge_bands;  // edge length over d on all ranks, for d before the sweeps
   bool stopped = false;
 };
 
-// So many sweeps, and the repair of bad ones if the settings ask for it. In space nodes only move,
-// and their edges are yet to be measured. The nodes are valid where it is stopped. Collective.
+// Does this many sweeps, and repairs bad elements if the settings request it. In space edge_bands
+// stays empty. The nodes are valid if `stops` ends it early. All ranks must call it, and if one
+// rank throws, all ranks throw.
 FinishResults sweep_and_repair(
     Level<2>& level, std::int64_t sweeps, const StopTest& stops = [] { return false; });
 FinishResults sweep_and_repair(
     Level<3>& level, std::int64_t sweeps, const StopTest& stops = [] { return false; });
 
-// For finite volumes, in the plane and on spheres alone. From fresh stars, which stay, so many
-// sweeps to the centroids of Voronoi cells; returns the bands of then, with d from before.
-// Collective.
+// Moves nodes towards the centroids of their Voronoi cells, for finite volumes in the plane and on
+// spheres. It finds the stars once and uses them in all these sweeps. Returns the edge bands for d
+// before the sweeps. All ranks must call it, and if one rank throws, all ranks throw.
 std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps);
 inline std::vector<EdgeBand> sweep_to_centroids(Level<3>&, std::int64_t) { return {}; }
-// In at most so many rounds. Collective.
+// Repairs obtuse triangles in at most this many rounds. All ranks must call it, and if one rank
+// throws, all ranks throw.
 void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds);
 inline void repair_obtuse_triangles(Level<3>&, std::int64_t) {}
 
-// Lists for that, of the present positions. Collective.
+// Exchanges ghosts and builds lists for the finish at the present positions. All ranks must call
+// it, and if one rank throws, all ranks throw.
 template <int Dim>
 void prepare_finish(Level<Dim>& level);
-// The same unless they are there. Collective.
+// Does the same unless such lists exist. All ranks must call it, and if one rank throws, all ranks
+// throw.
 template <int Dim>
 void require_finish_lists(Level<Dim>& level);
-// From fresh lists, the stars of the owned nodes and so many rings around them. Collective.
+// Builds lists for the finish if necessary, and finds the stars of the owned nodes and of the
+// ghosts to the depth `zone`. All ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 void make_finish_stars(Level<Dim>& level, GhostStarDepth zone);
 

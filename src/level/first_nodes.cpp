@@ -13,7 +13,8 @@ namespace pnpbs {
 
 namespace {
 
-// Where the tree is not refined here, the owners of the cells tell what is in them.
+// Returns summaries of d for the leaves that this rank has not refined. The owners of the cells
+// send them. Collective.
 template <int Dim>
 std::vector<LeafSummary<Dim>> summaries_of_unrefined_leaves(const Level<Dim>& level) {
   if (!level.distributed()) return {};
@@ -44,7 +45,8 @@ std::vector<LeafSummary<Dim>> summaries_of_unrefined_leaves(const Level<Dim>& le
   return unrefined;
 }
 
-// Of our steep leaves. Collective.
+// Returns the nodes of the owned leaves in which d grows too fast for a lattice. All ranks must
+// call it, and if one rank throws, all ranks throw.
 template <int Dim>
 std::vector<Point<Dim>> graded_fill(const Level<Dim>& level,
                                     const std::function<bool(std::int32_t)>& owned) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First inner nodes where there were none (section 2.1).
+// The first inner nodes of a level without nodes (section 2.1).
 #pragma once
 
 #include <functional>
@@ -9,13 +9,15 @@
 
 namespace pnpbs {
 
-// Those of this rank, yet to be numbered. Calls beat() again and again. Collective.
+// Returns the inner nodes of this rank, without ids. Calls beat() regularly. `stretched` allows
+// lattices that are stretched to fit. All ranks must call it, and if one rank throws, all ranks
+// throw.
 template <int Dim>
 IncomingNodes<Dim> first_inner_nodes(
     const Level<Dim>& level, const std::function<void()>& beat = [] {}, bool stretched = true);
 
-// They become those of the level, beside those of the boundary. Calls beat() again and again: if it
-// throws on one rank, all throw. Collective.
+// Fills a level: its nodes become the boundary nodes `laid` and first_inner_nodes(). Calls beat()
+// regularly. All ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 void fill(
     Level<Dim>& level, BoundaryNodes<Dim> laid, const std::function<void()>& beat = [] {},

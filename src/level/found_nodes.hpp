@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Something that is looked for at nodes, over all ranks: how often it was found, and one place.
+// The nodes with some property, over all ranks: their number, and one example.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace pnpbs {
 
-// So many, and the place of the node with the least id.
+// The number of nodes found, and the position of the one with the smallest id.
 template <int Dim>
 struct FoundNodes {
   std::int64_t count = 0, id = std::numeric_limits<std::int64_t>::max();
@@ -26,7 +26,7 @@ struct FoundNodes {
   }
 };
 
-// Collective.
+// Combines the results of all ranks. Collective.
 template <int Dim>
 FoundNodes<Dim> over_ranks(const Communicator& comm, const FoundNodes<Dim>& own) {
   Bytes mine;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The adjacency lists of ghosts. Of many thousands that a rank holds, few are asked for their
-// lists: those are made when they are.
+// The adjacency lists of ghosts. A rank has many thousands of ghosts but needs few of their lists,
+// so these are built on request.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace pnpbs {
 
-// Of which nodes lists are made before stars are found. In bodies a ghost has its list before its
-// star is found.
+// Returns the nodes whose lists are built before stars are found. In bodies the list of a ghost is
+// built right before its star is found.
 ListsOf lists_of_stars(const Level<2>& level);
 ListsOf lists_of_stars(const Level<3>& level);
 
-// The lists of these nodes, too, if only those of owned nodes were made.
+// Adds the lists of these nodes, as far as they are missing.
 template <int Dim>
 void add_lists_of(Level<Dim>& level, const std::vector<std::int32_t>& nodes);
-// The lists of these nodes and of those within so many rings around them.
+// Adds the lists of these nodes and of all nodes within this many hops of them.
 template <int Dim>
 void add_lists_around(Level<Dim>& level, const std::vector<std::int32_t>& nodes, int rings);
 

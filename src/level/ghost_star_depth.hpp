@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known and found around the owned nodes besides their own stars.
+// The depth to which ghosts have stars or must be known.
 #pragma once
 
 namespace pnpbs {
 
 struct GhostStarDepth {
-  // The stars of ghosts so many neighbours away, by the stars.
+  // Number of rings of ghosts around the owned nodes whose stars are found.
   int rings = 0;
-  // In space: all nodes that are nearer to an owned one than the sum of both nodes' reaches, in
-  // units of d, are known, however many neighbours lie between (across a gap of the domain none
-  // do).
+  // In space: every node is known whose distance from an owned node is less than the sum of both
+  // reaches, in units of d. That includes nodes across a gap of the domain, which no chain of
+  // neighbours connects.
   double reach = 0;
 };
 

@@ -53,7 +53,7 @@ void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const
     incoming = comm.exchange(halo.neighbours(), outgoing, failure);
     travel.reserve(nodes, kept, incoming);
   });
-  // All ranks have what they need: from here on no node can be lost.
+  // From here on no rank can fail, so no node is lost.
   collective_try(comm, [&] {
     neighbourhood.keep_nodes(nodes, stay, kept);
     travel.append_arriving(nodes, incoming);
@@ -89,7 +89,7 @@ template <int Dim>
 void Ghosts<Dim>::fetch(const Communicator& comm, const LevelTree<Dim>& tree,
                         const std::vector<Box<Dim>>& boxes, Nodes<Dim>& nodes,
                         const Buckets<Dim>& buckets) {
-  const int hops = std::exchange(hops_, 0);  // until all is well
+  const int hops = std::exchange(hops_, 0);  // restored on success
   Outbox questions;
   for (const Box<Dim>& box : boxes) {
     std::set<int> ranks;
@@ -116,7 +116,8 @@ void Ghosts<Dim>::fetch(const Communicator& comm, const LevelTree<Dim>& tree,
   hops_ = hops;
 }
 
-// Our nodes in the boxes that a rank asks about, if it does not have them yet; from now on it has.
+// Returns the owned nodes in the boxes of the message that its sender lacks. They are added to the
+// halo exchange plan.
 template <int Dim>
 Bytes Ghosts<Dim>::nodes_for(const Message& asked, const LevelTree<Dim>& tree,
                              const Nodes<Dim>& nodes, const Buckets<Dim>& buckets) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ghosts of a level: which nodes of other ranks are held here, how far they reach, and whether
-// they are where their owners have them.
+// The ghosts of a level: which nodes of other ranks this rank has, how far they reach, and whether
+// their positions are exact.
 #pragma once
 
 #include <cstdint>
@@ -16,31 +16,35 @@
 
 namespace pnpbs {
 
+// The halo exchange of a level, and the state of its ghosts.
 template <int Dim>
 class Ghosts {
  public:
-  // Owned nodes go to the ranks that own their leaves by now, and ghosts are chosen anew, so many
-  // hops deep. Collective; it fails on all ranks or on none.
+  // Migrates owned nodes to the ranks that own their leaves, and selects the ghosts again, to a
+  // depth of `hops`. All ranks must call it, and if one rank throws, all ranks throw.
   void exchange(const Communicator& comm, LevelTree<Dim>& tree, const Settings& settings, int hops,
                 Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood);
-  // Owned nodes go to their owners by a new partition, however far; there are no ghosts until the
-  // next exchange. Collective.
+  // Migrates owned nodes to their owners in a new partition, over any distance. There are no ghosts
+  // until the next exchange. All ranks must call it, and if one rank throws, all ranks throw.
   void migrate(const Communicator& comm, const LevelTree<Dim>& tree, Nodes<Dim>& nodes,
                Neighbourhood<Dim>& neighbourhood);
-  // The same ghosts, exact again. All neighbours at the same time, without an agreement. Throws on
-  // a rank that lacks some of them.
+  // Sends positions and velocities of the present ghosts, which are exact afterwards. All
+  // neighbours must call it at the same time, without an agreement. Throws only on a rank that
+  // lacks values.
   void update(Nodes<Dim>& nodes);
-  // Fills values at ghosts with those of their owners. Collective.
+  // Fills the values at ghosts with those of their owners. All ranks must call it.
   void fill(const Communicator& comm, const View<double>& values) const {
     halo_.fill(comm, values);
   }
-  // All nodes in these boxes become ghosts of ours, until the next exchange. Each is with the rank
-  // that owns its place, so nobody else is asked. Collective.
+  // Makes all nodes in these boxes ghosts of this rank until the next exchange. Every node must be
+  // on the rank that owns its position, because only the owners of the boxes send nodes. All ranks
+  // must call it, and if one rank throws, all ranks throw.
   void fetch(const Communicator& comm, const LevelTree<Dim>& tree,
              const std::vector<Box<Dim>>& boxes, Nodes<Dim>& nodes, const Buckets<Dim>& buckets);
 
-  // Sends news of these owned nodes, news_of(i), to the ranks that have them as ghosts; returns
-  // what came from the others. Collective.
+  // Sends the records news_of(i) of these owned nodes to the ranks that have them as ghosts.
+  // Returns the records from other ranks. All ranks must call it, and if one rank throws, all ranks
+  // throw.
   template <class Record, class NewsOf>
   std::vector<Record> tell(const Communicator& comm, const Nodes<Dim>& nodes,
                            const std::vector<std::int32_t>& owned, const NewsOf& news_of) const {
@@ -54,17 +58,17 @@ class Ghosts {
     return deliver<Record>(comm, outgoing);
   }
 
-  // The next exchange must choose them.
+  // Requires the next exchange to select the ghosts again.
   void invalidate() { hops_ = 0; }
   void count_step() { ++steps_since_choice_; }
   // Allocates memory for permute(), which then cannot fail.
   void reserve_order(std::int64_t count) { halo_.reserve_order(count); }
-  // The nodes were put into another order: what was at from(i) is at i now.
+  // Adapts to a new order of the nodes: the node with index from(i) gets index i.
   void permute(const View<std::int32_t>& from, std::int64_t count) { halo_.permute(from, count); }
 
-  // Do they reach so far, for steps until the next exchange, too?
+  // Returns whether the ghosts reach `hops` hops and suffice for the steps until the next exchange.
   bool can_stay(const Settings& settings, int hops) const;
-  // Do they, and are they where their owners have them?
+  // Returns whether the ghosts reach `hops` hops and have the positions of their owners.
   bool are_exact(const Nodes<Dim>& nodes, int hops) const {
     return hops_ >= hops && exact_at_ == nodes.positions();
   }
@@ -72,7 +76,7 @@ class Ghosts {
   int hops() const { return hops_; }
   std::int64_t steps_since_choice() const { return steps_since_choice_; }
   std::int64_t neighbour_ranks() const { return halo_.neighbour_count(); }
-  // That this rank sends at an update.
+  // Returns the bytes that this rank sends in an update.
   std::int64_t update_bytes() const {
     return halo_.nodes_sent() * static_cast<std::int64_t>(HaloExchange<Dim>::kRecordSize);
   }
@@ -82,9 +86,9 @@ class Ghosts {
                   const Buckets<Dim>& buckets);
 
   HaloExchange<Dim> halo_;
-  int hops_ = 0;  // they reach so far; 0: they must be chosen anew
+  int hops_ = 0;  // depth of the ghosts; 0: they must be selected again
   std::int64_t steps_since_choice_ = 0;
-  std::int64_t exact_at_ = -1;  // stamp of the positions
+  std::int64_t exact_at_ = -1;  // stamp of the positions for which ghosts are exact
 };
 
 }  // namespace pnpbs

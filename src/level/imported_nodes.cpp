@@ -11,7 +11,7 @@
 
 namespace pnpbs {
 
-// Boundary nodes keep their ids where they stay in place.
+// Boundary nodes whose position is unchanged keep their ids.
 BoundaryNodes<2> boundary_nodes(const LevelGeometry<2>& geometry,
                                 const IncomingNodes<2>& incoming) {
   const Boundary& boundary = geometry.boundary();
@@ -26,7 +26,7 @@ BoundaryNodes<2> boundary_nodes(const LevelGeometry<2>& geometry,
   return BoundaryNodes<2>(boundary, std::move(ids));
 }
 
-// In space they come with the others.
+// In space the boundary nodes are among the incoming ones.
 BoundaryNodes<3> boundary_nodes(const LevelGeometry<3>&, const IncomingNodes<3>& incoming) {
   IncomingNodes<3> laid;
   for (const IncomingNode<3>& node : incoming)
@@ -36,7 +36,7 @@ BoundaryNodes<3> boundary_nodes(const LevelGeometry<3>&, const IncomingNodes<3>&
 
 namespace {
 
-// In the domain, and not too close to its boundary.
+// Returns whether the node is in the domain and not too close to its boundary.
 template <int Dim>
 bool has_room(const Level<Dim>& level, const IncomingNode<Dim>& node) {
   if (is_closed_at(level, node.position)) return false;

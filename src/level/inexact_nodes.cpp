@@ -14,14 +14,15 @@ namespace pnpbs {
 
 namespace {
 
-// What a node is moved or judged by: nodes nearer than so many desired distances, which may have
-// drifted by `drift` of their d since the ghosts were chosen; are those judged, too, that stay?
+// The range of a computation: nodes within `radius` desired distances of a node affect it. They may
+// have drifted by `drift` of their d since the ghosts were selected. If of_all is true, nodes that
+// do not move are affected as well.
 struct Sight {
   double radius, drift;
   bool of_all;
 };
 
-// May a node be in sight that is in a leaf which this rank does not know?
+// Returns whether a node of a leaf unknown to this rank may affect node i.
 template <int Dim>
 bool sees_unknown(const Level<Dim>& level, const KnownRegion<Dim>& known, const Sight& sight,
                   std::int64_t i) {
@@ -30,7 +31,7 @@ bool sees_unknown(const Level<Dim>& level, const KnownRegion<Dim>& known, const 
   const double d = level.nodes.d(i);
   bool sees = false;
   const auto look = [&](std::int32_t cell) { return !sees && known.unknown_in(cell); };
-  // Beyond twice its own d a node in sight would be of one that grows faster than nodes can follow.
+  // A node beyond twice its own d in reach would require a growth of d that nodes cannot follow.
   const double farthest = 2 * sight.radius * d + sight.drift * d;
   tree.for_leaves_in(box_around<Dim>(x, farthest), look, [&](std::int32_t leaf) {
     const double there = level.map().leaf_max_spacing(leaf);
@@ -53,7 +54,7 @@ bool sees_inexact(const Level<Dim>& level, const InexactNodes& inexact, const Si
   return sees;
 }
 
-// Adds those that see an inexact node, or may see one that is not known, `hops` times.
+// Adds the nodes that an inexact or possibly unknown node affects, `hops` times.
 template <int Dim>
 void spread(Level<Dim>& level, InexactNodes& inexact, const Sight& sight, int hops) {
   const Nodes<Dim>& nodes = level.nodes;
@@ -92,7 +93,7 @@ void track_inexact_nodes(Level<Dim>& level, int evaluations) {
       settings.motion.max_move * static_cast<double>(level.ghosts.steps_since_choice());
   spread(level, level.inexact, {settings.force_range(), drift, false}, evaluations);
   if (level.neighbourhood.listed() == ListsOf::all_nodes) return;
-  for (std::int64_t i = 0; i < level.nodes.count; ++i)  // no force moves these
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)  // forces are not computed for these
     if (!level.nodes.owned(i)) level.inexact.insert(level.nodes.id(i));
 }
 

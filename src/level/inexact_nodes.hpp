@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which nodes a rank may not have where their owners have them. Ghosts reach so far that these are
-// never owned when the next exchange comes; in builds that look (PNPBS_COUNT_UNKNOWN_USES) that is
-// seen to be so, and what is not is counted in Level::unknown_uses. Elsewhere this is nothing.
+// A check that ghosts reach far enough. A node is inexact on a rank if its position may differ from
+// that on its owner. Ghosts are so deep that owned nodes are never inexact before the next
+// exchange. Builds with PNPBS_COUNT_UNKNOWN_USES verify this and count violations in
+// Level::unknown_uses. In other builds these functions do nothing.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +19,20 @@ inline constexpr bool kCountsUnknownUses = true;
 inline constexpr bool kCountsUnknownUses = false;
 #endif
 
-using InexactNodes = std::unordered_set<std::int64_t>;  // ids
+using InexactNodes = std::unordered_set<std::int64_t>;  // ids of inexact nodes
 
-// Before nodes move by so many evaluations of the force: they are inexact then if what it reaches
-// is, or may be in leaves that this rank does not know.
+// Updates the inexact nodes before a step with this many evaluations of the force. A node becomes
+// inexact if an inexact node is within the range of the force, or may be in a leaf unknown to this
+// rank.
 template <int Dim>
 void track_inexact_nodes(Level<Dim>& level, int evaluations);
 
-// Before an exchange, after which none are: owned ones were used beyond what is known.
+// Counts the owned nodes that are inexact, and clears the set, because an exchange follows.
 template <int Dim>
 void count_inexact_nodes(Level<Dim>& level);
 
-// For an event that decides by the lists, so many hops far, with the ghosts of an exchange right
-// before it. Makes the lists of all nodes.
+// Counts the owned nodes that an event of this depth decides about with inexact data. The ghosts
+// must be those of an exchange right before. Builds the lists of all nodes.
 template <int Dim>
 void count_uses_by_event(Level<Dim>& level, int hops);
 

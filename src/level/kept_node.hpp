@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A node of one level on its way into another, or into the same one anew.
+// The conversion of a node of a level into an incoming node of the same or another level.
 #pragma once
 
 #include <cstdint>

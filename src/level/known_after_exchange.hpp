@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a rank knows all nodes.
+// The region in which a rank knows all nodes.
 #pragma once
 
 #include "level/level.hpp"
@@ -7,8 +7,8 @@
 
 namespace pnpbs {
 
-// After an exchange that deep: in the leaves that it owns, those of which it has the ghosts, and
-// those that have no nodes.
+// Returns the region after an exchange of this depth: the leaves that the rank owns, those of which
+// it has ghosts, and those without nodes.
 template <int Dim>
 KnownRegion<Dim> known_after_exchange(Level<Dim>& level, int hops);
 

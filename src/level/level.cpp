@@ -94,8 +94,8 @@ void Level<Dim>::change_settings(const Settings& next) {
   ghosts.invalidate();
   if (widest_radius(settings) != widest_radius(before) ||
       settings.list_radius != before.list_radius)
-    tree->forget_hops();  // a hop has another length now
-  // Nodes count as far from the boundary by the steps that were left since their reference
+    tree->forget_hops();  // the length of a hop has changed
+  // Nodes count as far from the boundary according to the number of steps since their reference
   // positions.
   if (meeting_radius(settings) != meeting_radius(before)) nodes.set_reference_positions();
   if (edge_radius(settings) != neighbourhood.near_boundary().radius())

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One level of the simulation: what it stands on, its tree and partition, its nodes, and all that
-// is found from them. What is done with a level, the steps of the method, are the functions of this
-// folder; when they are done is the placement's business. Each of its parts knows what it was found
-// from, and is found again by the function that needs it.
+// One level of the simulation: its geometry, its tree and partition, its nodes, and everything
+// derived from them. The functions of this folder are the steps of the method on a level; the
+// folder run decides when they are called. Derived data carry a stamp of what they were derived
+// from, and the function that needs them derives them again if it has changed.
 #pragma once
 
 #include <cstdint>
@@ -26,31 +26,32 @@
 
 namespace pnpbs {
 
-// What a level's results follow from, besides the ground that it stands on. All else is derived
-// from this. A copy is taken before work that may fail, and put back if it does.
+// The state of a level. Together with the geometry it determines the results; everything else is
+// derived from it. Work that may fail copies it first and restores the copy on failure.
 template <int Dim>
 struct LevelState {
   std::shared_ptr<LevelTree<Dim>> tree;
   Nodes<Dim> nodes;
   Ghosts<Dim> ghosts;
   Settings settings;
-  std::int64_t next_id = 0;                // no node has had it or a larger one
-  PatchMargin margin = PatchMargin::laid;  // of a whole sphere
+  std::int64_t next_id = 0;                // smallest id that was never used
+  PatchMargin margin = PatchMargin::laid;  // of the patch of a whole sphere
   std::int64_t rebalances = 0;
-  std::int64_t left_out = 0;      // of the nodes on features, over all ranks (loose_pieces.hpp)
-  std::int64_t held_rounds = 0;   // in which d was held down before this level
-  std::int64_t unknown_uses = 0;  // of data that this rank does not know exactly
-  InexactNodes inexact;           // since the last exchange, in builds that look
+  std::int64_t left_out = 0;  // feature nodes that were removed, over all ranks (loose_pieces.hpp)
+  std::int64_t held_rounds = 0;   // number of rounds before this level that reduced d
+  std::int64_t unknown_uses = 0;  // uses of data that this rank does not know exactly
+  InexactNodes inexact;           // since the last exchange, in builds that check it
 };
 
-// A copy of a level's state, and the figures that statistics tell of what is derived from it. It
-// takes about 100 bytes for each node and ghost in space, 80 in the plane.
+// A copy of the state of a level and of the figures of its derived data. It takes about 100 bytes
+// per node and ghost in space, and 80 in the plane.
 template <int Dim>
 struct LevelCopy {
   LevelState<Dim> state;
   typename Neighbourhood<Dim>::Figures figures;
 };
 
+// A level: its state, the geometry, and the derived data.
 template <int Dim>
 struct Level : LevelState<Dim> {
   using LevelState<Dim>::tree;
@@ -58,38 +59,41 @@ struct Level : LevelState<Dim> {
   using LevelState<Dim>::ghosts;
   using LevelState<Dim>::settings;
 
-  // Discretizes the boundary. The tree is yet to be grown, the nodes are yet to come.
+  // Discretizes the boundary. The level has no tree and no nodes yet.
   Level(std::shared_ptr<const Communicator> comm, std::shared_ptr<const Domain<Dim>> domain,
         std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings, Timers& timers);
 
-  // And partitions it: as another level, if that is given and balances the work. Collective.
+  // Grows the tree and partitions it, like another level if that is given and balances the work.
+  // All ranks must call it, and if one rank throws, all ranks throw.
   void grow_tree(const Level<Dim>* like = nullptr);
-  // Another partition; the nodes are yet to migrate. If it fails, all stays as it was. Collective.
+  // Replaces the tree by one for another partition. Nodes do not migrate yet. If it fails, the
+  // level is unchanged. All ranks must call it, and if one rank throws, all ranks throw.
   void adopt_partition(Distribution<Dim> next);
-  // A copy of what counts, which shares nothing that changes. Local.
+  // Returns a copy of the state that shares no mutable data with it. Local.
   LevelCopy<Dim> copy() const;
-  // Puts back a copy that was taken of this level. What was derived is forgotten. Local.
+  // Restores a copy of this level, and releases the derived data. Local.
   void restore(LevelCopy<Dim>&& earlier) noexcept;
-  // Forgets what is derived from the nodes: it is found again when it is asked for. All ranks do
-  // this together, so that they agree on what is there. Local.
+  // Releases everything derived from the nodes, which is derived again on request. All ranks must
+  // do so together, to agree on what exists. Local.
   void forget_derived() noexcept;
-  // For the steps to come; the growth limit belongs to the spacing and is not among them.
+  // Changes the settings for later steps. The growth limit is part of the spacing and has no effect
+  // here.
   void change_settings(const Settings& next);
 
   bool distributed() const { return comm->size() > 1; }
   const SizedTree<Dim>& map() const { return tree->map(); }
   const AdjacencyList<Dim>& lists() const { return neighbourhood.lists(); }
-  // Changes with the nodes and with the lists.
+  // Returns a stamp that changes with the nodes, the lists and the settings.
   std::int64_t version() const {
     return nodes.version() + neighbourhood.rebuilds() + settings_version;
   }
   LevelStamp stamp() const { return {number, version()}; }
   std::int64_t owned_count() const;
 
-  // Forgets the stars and what was derived from them.
+  // Releases the stars and what is derived from them.
   void forget_stars() noexcept;
 
-  const std::int64_t number;  // of the levels that this process has made
+  const std::int64_t number;  // unique among the levels of this process
   std::shared_ptr<const Communicator> comm;
   Timers& timers;
 
@@ -97,16 +101,18 @@ struct Level : LevelState<Dim> {
   Neighbourhood<Dim> neighbourhood;
   Stars<Dim> stars;
   KeptStarsBefore<Dim> stars_before;
-  std::uint64_t stars_digest = 0;  // in space: of the nodes for which the stars are right; 0: none
-  ChangedLabels changed_labels;    // of elements in space, once they are settled
-  std::int64_t finish_stars =
-      -1;  // version in which the stars are those that finishing begins with
+  // In space: digest of the nodes that the stars belong to; 0: none.
+  std::uint64_t stars_digest = 0;
+  ChangedLabels changed_labels;  // of elements in space, after settle_elements()
+  // Version in which the stars are those that the finish begins with, or -1.
+  std::int64_t finish_stars = -1;
   TimeIntegration<Dim> time_integration;
 
-  std::int64_t settings_version = 0;  // counts what makes derived data stale, but the nodes do not
+  // Counts changes that invalidate derived data but not the nodes.
+  std::int64_t settings_version = 0;
 };
 
-// Of all ranks. Collective in space.
+// Returns the number of boundary nodes on all ranks. Collective in space.
 std::int64_t boundary_nodes(const Level<2>& level);
 std::int64_t boundary_nodes(const Level<3>& level);
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The stamp by which derived data recognize the state of a level that they belong to.
 #pragma once
 
 #include <cstdint>
 
 namespace pnpbs {
 
-// Of a level's nodes and lists: as long as it is the same, what was found of them holds. Levels
-// have different ones.
+// A stamp of a level's nodes and lists. Data that were derived at an equal stamp are valid.
+// Different levels have different stamps.
 struct LevelStamp {
   std::int64_t level = -1, version = -1;
 

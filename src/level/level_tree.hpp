@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The background tree of a level and its partition: who owns which cells, and the tree refined on
-// this rank wherever its own nodes and ghosts can be. Another partition is another tree.
+// The background tree of a level and its partition: which rank owns which cells, and the tree
+// refined on this rank wherever its nodes and ghosts can be. A new partition requires a new tree.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,18 @@
 
 namespace pnpbs {
 
+// The tree of a level. All ranks have the same cells of the partition, but different leaves.
 template <int Dim>
 class LevelTree {
  public:
-  // Partitioned by the work that d asks for or, where that balances it, as another level is whose
-  // spacing is a multiple of this one's. Collective.
+  // Grows a tree and partitions it by the work that d implies. If `like` is given and balances that
+  // work, its partition is used; its spacing must be a multiple of this one. All ranks must call
+  // it, and if one rank throws, all ranks throw.
   static std::unique_ptr<LevelTree<Dim>> grow(const Communicator& comm,
                                               const LevelGeometry<Dim>& geometry,
                                               const Settings& settings, const LevelTree<Dim>* like);
-  // For these cells and owners. Collective.
+  // Grows a tree for these cells and owners. All ranks must call it, and if one rank throws, all
+  // ranks throw.
   static std::unique_ptr<LevelTree<Dim>> grow(const Communicator& comm,
                                               const LevelGeometry<Dim>& geometry,
                                               const Settings& settings,
@@ -36,16 +39,16 @@ class LevelTree {
   const LevelGeometry<Dim>& geometry() const { return geometry_; }
   const SizedTree<Dim>& map() const { return map_; }
   const BackgroundTree<Dim>& tree() const { return map_.tree(); }
-  // Leaves of which one reaches the other.
+  // Returns the pairs of leaves that interact.
   const std::shared_ptr<const LeafLinks<Dim>>& links() const { return links_; }
   const Distribution<Dim>& distribution() const { return distribution_; }
   bool owns(std::int32_t leaf) const { return distribution_.owns(leaf); }
-  // Rank that owns what is there.
+  // Returns the rank that owns this point.
   int owner_at(const Point<Dim>& x) const { return distributed() ? distribution_.owner_at(x) : 0; }
-  // Refined so far around the leaves that this rank owns.
+  // Returns the depth in hops around this rank's leaves to which the tree is refined.
   int hops() const { return hops_; }
-  void forget_hops() { hops_ = 0; }  // the next exchange grows another tree
-  // Made on first use, and kept.
+  void forget_hops() { hops_ = 0; }  // requires the next exchange to grow another tree
+  // Returns the halo of this depth, which is computed on first use and stored.
   const Halo& halo(int hops, const Settings& settings);
 
  private:

@@ -15,7 +15,7 @@ namespace pnpbs {
 
 namespace {
 
-// Calls visit(leaf, owned nodes there) for the leaves with any.
+// Calls visit(leaf, number of owned nodes) for the leaves with owned nodes.
 template <int Dim, class Visit>
 void for_leaves_with_own(const Level<Dim>& level, const Visit& visit) {
   const Buckets<Dim>& buckets = level.neighbourhood.buckets();
@@ -33,8 +33,9 @@ Box<Dim> box_of_lists(const Level<Dim>& level, double radius, std::int32_t leaf)
   return widened(tree.cell_box(tree.leaf_cell(leaf)), radius * level.map().leaf_max_spacing(leaf));
 }
 
-// Of a whole sphere, in the chart of which that box may be all there is: the leaves that lists look
-// into, which are linked as far as they reach along the sphere.
+// Calls visit(leaf) for the unknown leaves that are linked with `leaf`, for a whole sphere. The box
+// of lists may cover the whole chart there, whereas leaves are linked by their reach along the
+// sphere.
 template <int Dim, class Visit>
 void for_unknown_linked(const Level<Dim>& level, const KnownRegion<Dim>& known, std::int32_t leaf,
                         const Visit& visit) {
@@ -43,7 +44,8 @@ void for_unknown_linked(const Level<Dim>& level, const KnownRegion<Dim>& known, 
   });
 }
 
-// Where d is very steep, lists may look farther than the exchange has brought nodes.
+// Returns the boxes that lists reach into and that the exchange does not cover, which happens where
+// d is very steep.
 template <int Dim>
 std::vector<Box<Dim>> unknown_to_lists(const Level<Dim>& level, const KnownRegion<Dim>& known,
                                        double radius) {
@@ -71,8 +73,8 @@ bool lists_know_all(const Level<Dim>& level, const KnownRegion<Dim>& known, doub
   return all;
 }
 
-// Owned nodes whose lists could miss a node, as their leaf is nobody's: there are none, or results
-// would depend on the ranks.
+// Returns the number of owned nodes whose lists may miss a node, or whose leaf has no owner. If it
+// is not 0, results may depend on the number of ranks.
 template <int Dim>
 std::int64_t lists_beyond_known(const Level<Dim>& level, const KnownRegion<Dim>& known,
                                 double radius) {
@@ -85,7 +87,8 @@ std::int64_t lists_beyond_known(const Level<Dim>& level, const KnownRegion<Dim>&
   return found;
 }
 
-// All nodes in these boxes become known, and the lists are those of then.
+// Fetches all nodes in these boxes as ghosts and rebuilds the lists. All ranks must call it, and if
+// one rank throws, all ranks throw.
 template <int Dim>
 void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double radius,
                 KnownRegion<Dim>& known) {
@@ -97,7 +100,7 @@ void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double ra
   collective_try(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
 }
 
-// Ghosts follow the order of the nodes also where sorting fails after it has changed that.
+// The ghosts must follow the new order of the nodes even if the sort fails after changing it.
 template <int Dim>
 void sort_nodes(Level<Dim>& level) {
   if (!level.neighbourhood.is_for(*level.tree))
@@ -154,7 +157,7 @@ void make_stars(Level<Dim>& level, int hops, double radius, GhostStarDepth zone)
   level.unknown_uses += lists_beyond_known(level, known, radius);
 }
 
-// Where labels were changed, the stars are not those of the nodes alone.
+// Stars with changed labels are not a function of the nodes alone, so they get no digest.
 template <int Dim>
 void take_stars(Level<Dim>& level) {
   collective_try(*level.comm, [&] {

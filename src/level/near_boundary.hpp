@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary near nodes: who of them sees whom, and how inner ones keep off it.
-//
-// NearBoundary<2> and NearBoundary<3> have in common:
-// - NearLeaves near_leaves(tree, radius): once per tree, what is near its leaves; adopt() takes it,
-// - reset(ground): another boundary,
-// - build(nodes, at, buckets, map, ground): at every rebuild of the lists, what is within
-//   radius() * d_i of each node, the nodes being at `at`,
-// - visibility(nodes, map, ground): what AdjacencyList::build asks; in space it is kept of which
-//   nodes others are hidden,
-// - within(i, reach): does the boundary come nearer to node i than this, if that is no more than
-//   radius() * d_i?
-// - constrains(nodes, i, reach): may it be in the way of node i, if steps lead no farther?
-// - hold_off(i, nodes, map, ground, to): where node i may go that wants to go to `to`; a node on a
-//   surface is on the facet there from then on.
+// The boundary near nodes: which nodes see each other past it, and how inner nodes keep their
+// distance from it.
+// NearBoundary<2> and NearBoundary<3> have these members in common:
+//   - near_leaves(tree, radius) returns what is near the leaves of a tree, once per tree; adopt()
+//     stores it.
+//   - reset(geometry) adopts another boundary.
+//   - build(nodes, at, buckets, map, geometry) finds what is within radius() * d_i of each node,
+//     for the positions `at`. It is called at every rebuild of the lists.
+//   - visibility(nodes, map, geometry) returns the visibility test for AdjacencyList::build. In
+//     space it records the nodes from which others are hidden.
+//   - within(i, reach) returns whether the boundary is closer to node i than `reach`, which may be
+//     at most radius() * d_i.
+//   - constrains(nodes, i, reach) returns whether the boundary may block node i if steps lead no
+//     farther than `reach`.
+//   - hold_off(i, nodes, map, geometry, to) returns the position of node i for the desired position
+//     `to`. A node on a surface is assigned to the facet at that position.
 #pragma once
 
 #include "level/plane/near_boundary.hpp"

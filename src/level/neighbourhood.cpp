@@ -12,7 +12,7 @@ namespace pnpbs {
 
 namespace {
 
-// What a node costs besides its listed pairs, in units of one pair.
+// Cost of a node in addition to its listed pairs. [pairs]
 constexpr std::int64_t kNodeWork = 8;
 
 }  // namespace
@@ -71,7 +71,7 @@ template <int Dim>
 void Neighbourhood<Dim>::rebuild_here(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                                       const LevelTree<Dim>& tree, double radius, ListsOf listed) {
   listed_ = {};
-  // What is near was measured from there, also when nodes have moved on.
+  // Near facets are found from the reference positions, even if nodes have moved since.
   rebuild(nodes, geometry, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x,
           listed);
 }
@@ -96,9 +96,9 @@ void Neighbourhood<Dim>::rebuild(Nodes<Dim>& nodes, const LevelGeometry<Dim>& ge
   if (work_counted_ != nodes.references()) count_work(nodes);
 }
 
-// A pair that was not listed, farther apart than radius times its desired distance, must not have
-// come within the range of the force: each node may travel half of the difference, and a scheme
-// with stages looks one move ahead. d does not change between rebuilds.
+// A pair that is not listed is farther apart than the list radius times its desired distance. It
+// must not come within the range of the force, so each node may move by half of the difference. A
+// scheme with stages evaluates forces one move ahead. d does not change between rebuilds.
 template <int Dim>
 bool Neighbourhood<Dim>::needs_rebuild(const Nodes<Dim>& nodes, const Settings& settings) const {
   if (!for_steps_ || arrangement_ != nodes.arrangement() || references_ != nodes.references() ||
@@ -151,7 +151,7 @@ std::int64_t Neighbourhood<Dim>::work_of(std::int64_t i) const {
 
 template <int Dim>
 void Neighbourhood<Dim>::count_work(const Nodes<Dim>& nodes) {
-  const auto none = static_cast<std::int32_t>(nodes.count);  // what short lists are filled with
+  const auto none = static_cast<std::int32_t>(nodes.count);  // padding of short lists
   owned_work_ = static_cast<std::int64_t>(
       sum_of("pnpbs::Neighbourhood::count_work", lists_.block_count(), [&](std::int64_t b) {
         const ListBlock list = lists_.block(b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is near the nodes of a level: buckets, the boundary near nodes, adjacency lists. All
-// of it is derived from the nodes and the tree, and stamped with what it was derived from.
+// The neighbourhood of the nodes of a level: buckets, the boundary near nodes, and adjacency lists.
+// All of it is derived from the nodes and the tree, and carries stamps of what it was derived from.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,18 @@
 
 namespace pnpbs {
 
+// The buckets, near boundary and lists of one level on this rank. All functions are local.
 template <int Dim>
 class Neighbourhood {
  public:
-  // A new boundary.
+  // Adopts a new boundary.
   void reset_boundary(const LevelGeometry<Dim>& geometry) { near_boundary_.reset(geometry); }
-  // For another tree, or another radius of what is near nodes.
+  // Adopts a new tree, or another radius of what is near nodes. Lists must be rebuilt afterwards.
   void adopt(const LevelTree<Dim>& tree, typename NearBoundary<Dim>::NearLeaves near_leaves);
-  // Are the nodes and the tree others since then?
+  // Returns whether adopt() was called with this tree and nothing was released since.
   bool is_for(const LevelTree<Dim>& tree) const { return prepared_for_ == &tree; }
 
-  // What statistics tell of the lists, and what the partition is judged by.
+  // Figures for statistics and for the test of the balance.
   struct Figures {
     std::int64_t rebuilds = 0, owned_work = 0;
     bool work_is_current = false;
@@ -34,44 +35,47 @@ class Neighbourhood {
   Figures figures(const Nodes<Dim>& nodes) const {
     return {rebuilds_, owned_work_, work_counted_ == nodes.references()};
   }
-  // Forgets everything but these figures: the nodes or the tree are others. adopt() comes next.
+  // Releases everything but these figures, because the nodes or the tree have changed. adopt() must
+  // follow.
   void forget(const LevelTree<Dim>& tree, const Nodes<Dim>& nodes, const Figures& figures) noexcept;
 
-  // Sorts the nodes in memory by bucket; returns whether they changed their places. First of all
-  // before lists are made.
+  // Sorts the nodes in memory by bucket, which must precede every rebuild of lists. Returns whether
+  // their order changed.
   bool sort_nodes(Nodes<Dim>& nodes, const LevelTree<Dim>& tree, const Settings& settings);
-  // Lists for the time loop: visibility is judged from the reference positions, so that it does not
-  // matter when they are made.
+  // Builds lists for the time loop. Visibility is determined at the reference positions, so the
+  // result does not depend on the time of the rebuild.
   void rebuild_for_steps(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                          const LevelTree<Dim>& tree, const Settings& settings, ListsOf listed);
-  // The lists of these nodes, too, where only those of owned nodes were made.
+  // Adds the lists of these nodes if only those of owned nodes were built.
   void add_lists(const Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                  const LevelTree<Dim>& tree, const std::vector<std::int32_t>& more);
-  // Lists of that radius for where the nodes are. The next step makes its own again; until then
-  // there are stars, and no need to know where nodes were: the two take their memory in turn.
+  // Builds lists of this radius at the present positions. The next step then rebuilds its own
+  // lists. Releases the positions that displacements are measured from, because stars need the
+  // memory.
   void rebuild_here(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                     const LevelTree<Dim>& tree, double radius, ListsOf listed);
-  // Might the lists for steps lack a pair within the range of the force?
+  // Returns whether the lists for steps may lack a pair within the range of the force.
   bool needs_rebuild(const Nodes<Dim>& nodes, const Settings& settings) const;
 
-  // Were the lists made with that radius for where the nodes are?
+  // Returns whether the lists were built with this radius at the present positions.
   bool made_here(const Nodes<Dim>& nodes, double radius) const {
     return !for_steps_ && arrangement_ == nodes.arrangement() && positions_ == nodes.positions() &&
            references_ == nodes.references() && lists_.radius() == radius;
   }
 
-  // The largest displacement since the lists for steps were made, in units of d, of the nodes from
-  // `first` up to `last` if they were at x; squared.
+  // Returns the square of the largest displacement since the lists for steps were built, in units
+  // of d, of the nodes in [first, last) for the positions x.
   double squared_displacement(const Nodes<Dim>& nodes, const Field<Dim>& x, std::int64_t first,
                               std::int64_t last) const;
-  // The largest one so far, of all nodes.
+  // Sets the largest displacement of all nodes.
   void set_max_displacement(double displacement) { max_displacement_ = displacement; }
-  // Finds it, as the update of ghosts moves them, too.
+  // Computes it for the present positions, after an update has moved ghosts.
   void measure_displacement(const Nodes<Dim>& nodes);
 
-  // Nodes come and go: those named stay, in this order.
+  // Keeps the nodes with these indices, in this order, and removes the others.
   void keep_nodes(Nodes<Dim>& nodes, const View<std::int32_t>& places, std::int64_t kept);
-  // New nodes instead of all: the bucket of each is to be written.
+  // Returns an array in which the caller stores the bucket of each node, after all nodes were
+  // replaced.
   View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes) {
     return buckets_.buckets_of_new(nodes);
   }
@@ -83,11 +87,11 @@ class Neighbourhood {
   ListsOf listed() const { return listed_nodes_; }
   NodesWorkedFor nodes_listed() const { return nodes_listed_; }
 
-  // Of owned nodes: listed pairs, and as much again for each node as it costs besides. Counted when
-  // lists are made for the first time after an event, or after this.
+  // Returns the work of the owned nodes, in listed pairs plus a constant per node. It is counted
+  // when lists are built for the first time after an event or after recount_work().
   std::int64_t owned_work() const { return owned_work_; }
   void recount_work() { work_counted_ = -1; }
-  // The same of one node.
+  // Returns the work of one node.
   std::int64_t work_of(std::int64_t i) const;
 
  private:
@@ -100,16 +104,16 @@ class Neighbourhood {
   NearBoundary<Dim> near_boundary_;
   AdjacencyList<Dim> lists_;
   std::int64_t rebuilds_ = 0;
-  NodesWorkedFor nodes_listed_;  // when they were made last
+  NodesWorkedFor nodes_listed_;  // in the last rebuild
 
-  // What the lists were made of: stamps of the nodes; -1: they must be made anew.
+  // Stamps of the nodes that the lists were built for; -1: they must be rebuilt.
   std::int64_t arrangement_ = -1, positions_ = -1, references_ = -1;
   bool for_steps_ = false;
   ListsOf listed_nodes_ = ListsOf::all_nodes;
-  Field<Dim> listed_;  // if they are for steps: positions at which they were made
+  Field<Dim> listed_;  // positions at the rebuild, for lists for steps
   double max_displacement_ = 0;
 
-  std::int64_t owned_work_ = 0, work_counted_ = -1;  // for these reference positions
+  std::int64_t owned_work_ = 0, work_counted_ = -1;  // counted for these reference positions
 };
 
 }  // namespace pnpbs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers for where the nodes of a level are, of all ranks: nodes that come, go or move by a bit
-// change them.
+// Digests of the nodes of a level over all ranks. They change if a node appears, vanishes or moves
+// by a single bit.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace pnpbs {
 
-// The sum over all nodes of with(i, hash of its id and position); a sum, so that it has no order.
-// The same on all ranks, however the nodes are distributed. Collective.
+// Returns the sum over all nodes of with(i, hash of its id and position). A sum does not depend on
+// the order. It is the same on all ranks, however the nodes are distributed. Collective.
 template <int Dim, class With>
 std::uint64_t sum_of_node_hashes(const Level<Dim>& level, const With& with) {
   const Nodes<Dim>& nodes = level.nodes;
@@ -24,7 +24,7 @@ std::uint64_t sum_of_node_hashes(const Level<Dim>& level, const With& with) {
       }));
 }
 
-// Of all that the stars depend on: d, too. Never 0. Collective.
+// Returns a digest of everything that stars depend on, which includes d. It is never 0. Collective.
 std::uint64_t node_digest(const Level<3>& level);
 
 }  // namespace pnpbs

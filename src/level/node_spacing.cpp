@@ -7,11 +7,11 @@ namespace pnpbs {
 
 namespace {
 
-// The spacing is evaluated equally often on all ranks: it may live distributed over them.
+// The spacing may be distributed over the ranks, so all ranks evaluate it equally often.
 template <int Dim>
 View<double> spacing_at(const Level<Dim>& level, const Spacing<Dim>& spacing, bool ghosts) {
   const Nodes<Dim>& nodes = level.nodes;
-  constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points handed out
+  constexpr std::int64_t kBatch = 1 << 14;  // limits the memory for the points
   const std::int64_t last =
       static_cast<std::int64_t>(level.comm->allreduce_max(static_cast<double>(nodes.count)));
   View<double> all;
@@ -57,7 +57,7 @@ View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>&
   return spacing_at(level, spacing, false);
 }
 
-// If the callback fails, all stays as it is.
+// A failure of the callback leaves the nodes unchanged.
 template <int Dim>
 void refresh_spacing(Level<Dim>& level) {
   const PhaseTimer timer(level.timers, Phase::spacing);

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// d at the nodes of a level.
+// The values of d at the nodes of a level.
 #pragma once
 
 #include "level/level.hpp"
 
 namespace pnpbs {
 
-// Of any spacing, at the places of the nodes and their ghosts. Collective.
+// Returns a spacing at the nodes and ghosts of this rank. All ranks must call it, and if one rank
+// throws, all ranks throw.
 template <int Dim>
 View<double> spacing_at_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing);
-// The same, but what is at the places of ghosts means nothing.
+// Returns the same with undefined values at ghosts.
 template <int Dim>
 View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing);
 
-// An event: d at the owned nodes becomes what the spacing is there, and visibility is judged from
-// where nodes are now. Ghosts get theirs with the next exchange. Collective.
+// Sets d of the owned nodes to the spacing at their positions, and makes the present positions the
+// reference for visibility. Ghosts get their d in the next exchange. All ranks must call it, and if
+// one rank throws, all ranks throw.
 template <int Dim>
 void refresh_spacing(Level<Dim>& level);
 

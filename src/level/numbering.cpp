@@ -13,14 +13,14 @@ namespace pnpbs {
 
 namespace {
 
-// Places are sorted by their last coordinate first.
+// Positions are sorted by their last coordinate first.
 template <int Dim>
 Point<Dim> reversed(Point<Dim> x) {
   std::reverse(x.begin(), x.end());
   return x;
 }
 
-// What tells nodes in one place apart: so that their order is none of memory.
+// Returns a sort key for nodes at the same point, so that their order does not depend on memory.
 auto kind_of(const IncomingNode<2>& node) { return node.inner; }
 auto kind_of(const IncomingNode<3>& node) {
   return std::tuple(node.carrier, node.boundary_node, node.tag);
@@ -61,11 +61,11 @@ std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, IncomingNodes<D
 namespace {
 
 struct LeafNode {
-  std::int32_t leaf, node;  // of the boundary
+  std::int32_t leaf, node;  // leaf, and index of the boundary node
 };
 
-// Boundary and inner nodes, both sorted by leaf, as they follow each other: leaf by leaf, boundary
-// nodes first. All threads walk along them, each in its own blocks of leaves.
+// A sequence of boundary and inner nodes, both sorted by leaf: leaf by leaf, and boundary nodes
+// first. Threads process it in blocks of leaves.
 template <int Dim>
 class LeafBlocks {
  public:
@@ -73,7 +73,8 @@ class LeafBlocks {
              const IncomingNodes<Dim>& inner)
       : leaves_(leaves), boundary_(boundary), inner_(inner) {}
 
-  // Calls of_boundary(place, node) or of_inner(place, node) for every node.
+  // Calls of_boundary(index in the sequence, node) or of_inner(index in the sequence, node) for
+  // every node.
   template <class OfBoundary, class OfInner>
   void for_each_node(const OfBoundary& of_boundary, const OfInner& of_inner) const {
     constexpr std::int32_t kBlock = 256;
@@ -99,7 +100,8 @@ class LeafBlocks {
   const IncomingNodes<Dim>& inner_;
 };
 
-// Nodes in one place would never part: the first of them counts. They are sorted by place.
+// Removes all but the first of the nodes at the same point, because forces cannot separate them.
+// The nodes must be sorted by sort_by_place().
 template <int Dim>
 void leave_out_coinciding(IncomingNodes<Dim>& inner) {
   const auto same_place = [](const IncomingNode<Dim>& a, const IncomingNode<Dim>& b) {
@@ -113,7 +115,7 @@ void leave_out_coinciding(IncomingNodes<Dim>& inner) {
   if (coinciding > 0) inner.erase(std::unique(inner.begin(), inner.end(), same_place), inner.end());
 }
 
-// Those that this rank owns, by leaf.
+// Returns the boundary nodes that this rank owns, sorted by leaf.
 template <int Dim>
 std::vector<LeafNode> own_boundary_nodes(const Level<Dim>& level, const BoundaryNodes<Dim>& laid) {
   std::vector<LeafNode> own;
@@ -127,7 +129,8 @@ std::vector<LeafNode> own_boundary_nodes(const Level<Dim>& level, const Boundary
   return own;
 }
 
-// In two parts: not every id is a double.
+// Returns the largest id of all ranks. It is reduced in two parts, because a double cannot hold
+// every id.
 std::int64_t largest_of_ranks(const Communicator& comm, std::int64_t id) {
   constexpr std::int64_t kPart = std::int64_t{1} << 32;
   const auto high = static_cast<std::int64_t>(comm.allreduce_max(static_cast<double>(id / kPart)));
@@ -136,7 +139,7 @@ std::int64_t largest_of_ranks(const Communicator& comm, std::int64_t id) {
   return high * kPart + low;
 }
 
-// An id larger than all there are.
+// Returns an id that is larger than all ids on this rank.
 template <int Dim>
 std::int64_t next_id_after(const Level<Dim>& level, const IncomingNodes<Dim>& incoming) {
   std::int64_t next = level.next_id;
@@ -144,7 +147,7 @@ std::int64_t next_id_after(const Level<Dim>& level, const IncomingNodes<Dim>& in
   return next;
 }
 
-// By leaf: the ids for those without one. Moves level.next_id on.
+// Returns for each leaf the first new id of its nodes without one. Advances level.next_id.
 template <int Dim, class BoundaryId>
 std::vector<std::int64_t> new_ids(Level<Dim>& level, const LeafBlocks<Dim>& blocks,
                                   const BoundaryId& boundary_id) {
@@ -166,8 +169,8 @@ void reserve_ids(Level<Dim>& level, const IncomingNodes<Dim>& incoming) {
   level.next_id = largest_of_ranks(*level.comm, next_id_after(level, incoming));
 }
 
-// New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
-// ids is nearly the order in memory.
+// New ids follow the Morton order of the leaves, in a leaf the boundary nodes before the inner
+// ones, and then the positions. The order of ids is then nearly that in memory.
 template <int Dim>
 void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes<Dim> laid) {
   leave_out_coinciding<Dim>(inner);
@@ -186,7 +189,7 @@ void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes
   };
   const auto count = static_cast<std::int64_t>(own_boundary.size() + inner.size());
   Nodes<Dim>& nodes = level.nodes;
-  // Room for births and, over several ranks, for ghosts.
+  // Reserve memory for insertions and, on several ranks, for ghosts.
   nodes.reset(count, count + count / (level.distributed() ? 16 : 64) + 64);
   const View<std::int32_t> bucket = level.neighbourhood.buckets_of_new(nodes);
   blocks.for_each_node(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How nodes on their way into a level are sorted, numbered and stored.
+// The sorting, numbering and storing of nodes that enter a level.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,20 @@
 
 namespace pnpbs {
 
-// Of inner nodes; a boundary node has none, it is laid afresh.
+// Sets the leaves of inner nodes. Boundary nodes get -1.
 template <int Dim>
 void find_leaves(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
-// By leaf, in Morton order, and by place within it, so that nothing depends on where nodes came
-// from; those that have no leaf are left out. Returns the first place of each leaf.
+// Sorts the nodes by leaf, in Morton order, and then by position, so that the order does not depend
+// on where they came from. Removes nodes without a leaf. Returns the index of the first node of
+// each leaf.
 template <int Dim>
 std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
-// Nodes that are numbered from now on get ids larger than these have. Collective.
+// Makes level.next_id larger than all ids of these nodes. Collective.
 template <int Dim>
 void reserve_ids(Level<Dim>& level, const IncomingNodes<Dim>& incoming);
-// The boundary nodes of this rank and these inner ones, sorted by place, become the nodes of the
-// level. Those without an id get new ones. Collective.
+// Stores these boundary nodes and inner nodes, sorted by sort_by_place(), as the nodes of the
+// level. Nodes without an id get new ones. All ranks must call it, and if one rank throws, all
+// ranks throw.
 template <int Dim>
 void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes<Dim> laid);
 

@@ -26,7 +26,7 @@ std::vector<std::int32_t> integers_of(const Bytes& bytes) {
   return values;
 }
 
-// Parts get the numbers that let most of the work stay where it is.
+// Renumbers the parts so that most of the work remains on its rank.
 template <int Dim>
 std::vector<std::int32_t> keep_numbers(const LevelTree<Dim>& level,
                                        const PartitionCells<Dim>& cells,
@@ -34,7 +34,7 @@ std::vector<std::int32_t> keep_numbers(const LevelTree<Dim>& level,
                                        const std::vector<std::int64_t>& work) {
   const Communicator& comm = level.comm();
   const BackgroundTree<Dim>& tree = level.tree();
-  std::map<std::int32_t, std::int64_t> kept;  // of ours, by part
+  std::map<std::int32_t, std::int64_t> kept;  // work of this rank's leaves, by part
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const std::int64_t leaf_work = work[static_cast<std::size_t>(leaf)];
     if (!level.owns(leaf) || leaf_work == 0) continue;
@@ -94,7 +94,7 @@ template <int Dim>
 std::vector<std::int32_t> cut_like(const Communicator& comm, const Settings& settings,
                                    const Distribution<Dim>& other,
                                    const PartitionCells<Dim>& cells) {
-  constexpr double kBalanced = 1.05;  // a coarse level has few nodes, and little of the work
+  constexpr double kBalanced = 1.05;  // the level has few nodes, and little of the work
   std::vector<std::int32_t> owner;
   for (std::int32_t c = 0; c < cells.count(); ++c)
     owner.push_back(other.owner_at(cells.tree().cell_centre(cells.tree().leaf_cell(c))));

@@ -39,7 +39,7 @@ void delete_nodes(Level<Dim>& level, const std::vector<std::int32_t>& deleted) {
 
 namespace {
 
-// Where a new bubble would come beside node i.
+// Returns the position of a new bubble beside node i.
 Point<2> place_beside(const Level<2>& level, std::int64_t i) {
   return free_place<2>(level.nodes, level.lists(), i);
 }
@@ -48,7 +48,7 @@ Point<3> place_beside(const Level<3>& level, std::int64_t i) {
                                                 : free_place<3>(level.nodes, level.lists(), i);
 }
 
-// What new bubbles lie on, while their parents are at hand.
+// Finds the facets that new bubbles lie on, while the indices of their parents are valid.
 void find_carriers(const Level<2>&, PopulationChange<2>&) {}
 void find_carriers(const Level<3>& level, PopulationChange<3>& change) {
   if (level.nodes.moving != Carrier::surface) return;
@@ -62,8 +62,8 @@ std::int32_t tag_of_birth(const Level<3>& level, const Birth<3>& birth) {
   return level.geometry.boundary().facets[static_cast<std::size_t>(birth.boundary_node)].tag;
 }
 
-// The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
-// parent, then by place, so that no order of threads or ranks comes in.
+// The owner of the leaf that contains a new node assigns its id. Ids follow the Morton order of the
+// buckets, then the parent, then the position, so that they do not depend on threads or ranks.
 template <int Dim>
 void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
   const BackgroundTree<Dim>& tree = level.tree->tree();
@@ -85,7 +85,8 @@ void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
                        tag_of_birth(level, birth), level.nodes.moving, birth.boundary_node);
 }
 
-// From their owners, who alone know all that a bid depends on. Collective.
+// Receives the bids of ghosts from their owners, because only an owner knows everything that a bid
+// depends on. Collective.
 template <int Dim>
 void learn_bids_of_ghosts(const Level<Dim>& level, const std::vector<std::int32_t>& bidders,
                           const View<Bid<Dim>>& bids) {
@@ -106,7 +107,7 @@ PopulationCounts carry_out(Level<Dim>& level, PopulationChange<Dim> change) {
   Nodes<Dim>& nodes = level.nodes;
   const PhaseTimer timer(level.timers, Phase::population);
   find_carriers(level, change);
-  // Each is its owner's to count and to number, a birth the parent's owner's.
+  // Owners count their own nodes. The owner of the parent counts and sends an insertion.
   PopulationCounts counts;
   std::vector<Birth<Dim>> born;
   for (std::size_t k = 0; k < change.born.size(); ++k)
@@ -117,15 +118,15 @@ PopulationCounts carry_out(Level<Dim>& level, PopulationChange<Dim> change) {
       level.comm->allreduce_sum(static_cast<std::uint64_t>(counts.inserted));
   const std::uint64_t deleted =
       level.comm->allreduce_sum(static_cast<std::uint64_t>(counts.deleted));
-  if (inserted + deleted == 0)
-    return counts;  // what ghosts at the border seem to do does not count
+  if (inserted + deleted == 0) return counts;  // changes of ghosts do not count
   delete_nodes(level, change.deleted);
   if (inserted > 0) number_births(level, std::move(born));
   exchange(level, step_hops(level.settings));
   return counts;
 }
 
-// Those of owned nodes, and of ghosts as their owners tell them. Collective.
+// Returns the bids of all nodes: computes those of owned nodes, and receives those of ghosts.
+// Collective.
 template <int Dim>
 View<Bid<Dim>> gather_bids(Level<Dim>& level, const View<double>& ratios,
                            const PopulationThresholds& thresholds,
@@ -154,7 +155,7 @@ template <int Dim>
 PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
   const Nodes<Dim>& nodes = level.nodes;
   level.nodes.set_reference_positions();
-  // As deep as the steps need that follow if nothing changes.
+  // Deep enough also for the steps that follow if nothing changes.
   exchange(level, std::max(kPopulationHops, step_hops(level.settings)));
   View<double> ratios;
   collective_try(*level.comm, [&] {
@@ -191,7 +192,7 @@ PopulationCounts repair_defects(Level<2>& level) {
   return carry_out(level, std::move(change));
 }
 
-// Its stars have no cyclic order to tell defects by.
+// Defects are recognized by the cyclic order of the neighbours, which stars in space do not have.
 PopulationCounts repair_defects(Level<3>&) { return {}; }
 
 PopulationCounts lay_first_row(Level<2>& level) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The population of a level changes (section 2.4): bubbles are inserted and deleted.
+// The events that insert and delete nodes of a level (section 2.4).
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,29 @@
 
 namespace pnpbs {
 
+// Numbers of inserted and deleted nodes.
 struct PopulationCounts {
   std::int64_t inserted = 0;
   std::int64_t deleted = 0;
 };
 
-// By the thresholds of the settings and, where the mean distance is off by more than the tolerance,
-// by those that it asks for. Counts are of this rank. Collective.
+// Inserts and deletes bubbles by the thresholds of the settings. Where the mean distance deviates
+// by more than the tolerance, the thresholds are adapted to it. Returns the counts of this rank.
+// All ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 PopulationCounts adjust_population(Level<Dim>& level,
                                    double tolerance = method::kDistanceTolerance);
-// Deletes and inserts where defects of the Delaunay stars are repaired by it. Collective.
+// Inserts and deletes nodes where this repairs defects of the Delaunay stars. Does nothing in
+// space. All ranks must call it, and if one rank throws, all ranks throw.
 PopulationCounts repair_defects(Level<2>& level);
 PopulationCounts repair_defects(Level<3>& level);
 
-// Makes one node over each regular edge of the boundary the first row of the inner nodes; in the
-// plane only. Collective.
+// Makes one node over each regular edge of the boundary the first row of inner nodes. Does nothing
+// in space. All ranks must call it, and if one rank throws, all ranks throw.
 PopulationCounts lay_first_row(Level<2>& level);
 PopulationCounts lay_first_row(Level<3>& level);
 
-// Of this rank, ghosts among them; in the order of memory.
+// Deletes nodes of this rank, including ghosts, given by ascending memory index. Local.
 template <int Dim>
 void delete_nodes(Level<Dim>& level, const std::vector<std::int32_t>& deleted);
 

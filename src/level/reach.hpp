@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a level looks, by its settings: the radii of lists and edges, in units of d, and the hops
-// of the leaf graph that ghosts must reach.
+// The ranges that a level needs for its settings: the radii of lists and edges, in units of d, and
+// the depths of the ghosts, in hops of the leaf graph.
 #pragma once
 
 #include <cstdint>
@@ -10,39 +10,42 @@
 
 namespace pnpbs {
 
-// In hops of the lists: a candidate looks two hops far for room, and may not act if a stronger one
-// is within three; what those bid their owners tell. A hop of the leaf graph is the longer one.
+// Depth for population events, in hops of the lists; a hop of the leaf graph is longer. A candidate
+// checks for room within two hops and has rivals within three, whose bids their owners send. [hops]
 inline constexpr int kPopulationHops = 3;
-// The same where each rank finds itself what its ghosts do, three hops farther.
+// Depth for repairs of defects, where each rank computes the repairs of its ghosts, three hops
+// farther. [hops]
 inline constexpr int kDefectHops = 6;
-// For the stars of our nodes and their neighbours, and for lists of any radius, where d is even;
-// what they need farther away is asked for, and then all stars are found again.
+// Depth for lists and for the stars of the owned nodes and their neighbours, where d varies little.
+// If stars need nodes farther away, these are fetched, and all stars are found again. [hops]
 inline constexpr int kStarHops = 3;
-// The same for the stars that sweeps and repairs look at, some neighbours farther away. In space
-// spheres are larger over d than circles in the plane: with 5, a graded cube asks in each repair.
+// The same depth for the stars of sweeps and repairs, which extend some neighbours farther. Spheres
+// are larger over d than circles. With 5 in space, each repair of a graded cube fetches nodes.
+// [hops]
 template <int Dim>
 inline constexpr int kRepairHops = Dim == 2 ? 4 : 6;
 
-// Evaluations of the force in a step of the classical fourth order.
+// Evaluations of the force in a step of the classical Runge-Kutta scheme of fourth order.
 inline constexpr int kRungeKuttaStages = 4;
 
-// The larger one of the lists' radius and of that of the adjacency lists.
+// Returns the larger of the radii of the lists for steps and of the extracted lists.
 double widest_radius(const Settings& settings);
-// Nodes this near to an edge may come within its clearance until the next event.
+// Returns the distance from an edge up to which a node may come within its clearance before the
+// next event.
 double meeting_radius(const Settings& settings);
-// Edges this near to a node are known.
+// Returns the distance from a node up to which edges are found.
 double edge_radius(const Settings& settings);
 
-// Do ghosts move between exchanges? Where those follow each evaluation of the force, only owned
-// nodes need it, and lists.
+// Returns whether ghosts are moved between exchanges. If an exchange follows every evaluation of
+// the force, only owned nodes need forces and lists.
 bool ghosts_move(const Settings& settings);
-// The lists that steps need.
+// Returns the nodes whose lists steps need.
 ListsOf lists_of_steps(const Settings& settings);
-// Steps after which ghosts are chosen anew, because nodes drift.
+// Returns the number of steps after which ghosts are selected again, because nodes drift.
 std::int64_t ghost_life(const Settings& settings);
-// How many hops ghosts must reach for owned nodes to stay exact:
-int step_hops(const Settings& settings);         // over the steps until the next exchange
-int runge_kutta_hops(const Settings& settings);  // over the stages of one step
-int deepest_hops(const Settings& settings);      // over anything; the tree is refined so far
+// Return the depth of ghosts that keeps owned nodes exact:
+int step_hops(const Settings& settings);         // until the next exchange
+int runge_kutta_hops(const Settings& settings);  // in one Runge-Kutta step
+int deepest_hops(const Settings& settings);      // in any computation; the tree is refined to it
 
 }  // namespace pnpbs

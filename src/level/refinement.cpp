@@ -18,8 +18,8 @@ namespace pnpbs {
 
 namespace {
 
-// Into how many pieces of length d a length is cut; in the plane one that is long by 1.4 is halved,
-// in space, where what is too much is thinned, by 1.25.
+// Returns the number of pieces of length d for an edge. The plane halves an edge from 1.4 d on.
+// Space does so from 1.25 d on, because surplus nodes are thinned there.
 template <int Dim>
 int pieces_of(double length, double d) {
   constexpr double kMax = 1e9,
@@ -27,8 +27,8 @@ int pieces_of(double length, double d) {
   return static_cast<int>(std::min(length / d + kRoundUp, kMax));
 }
 
-// Calls visit(place) for the new nodes on the edge from x to y, cut into equal pieces: so many
-// where it is long enough.
+// Calls visit(position) for the new nodes on the edge from x to y. The edge is cut into equal
+// pieces, at most `max`.
 template <int Dim, class Visit>
 void cut_edge(const Point<Dim>& x, const Point<Dim>& y, double d, int max, const Visit& visit) {
   const int pieces = std::min(max, pieces_of<Dim>(distance<Dim>(x, y), d));
@@ -40,7 +40,8 @@ void cut_edge(const Point<Dim>& x, const Point<Dim>& y, double d, int max, const
   }
 }
 
-// The same for those within a triangle whose edges are cut into three pieces or more.
+// Calls visit(position) for the new nodes inside a triangle whose edges are cut into three pieces
+// or more.
 template <class Visit>
 void fill_triangle(const std::array<Point<2>, 3>& x, double d, int max, const Visit& visit) {
   const double around = distance<2>(x[0], x[1]) + distance<2>(x[1], x[2]) + distance<2>(x[2], x[0]);
@@ -54,7 +55,7 @@ void fill_triangle(const std::array<Point<2>, 3>& x, double d, int max, const Vi
     }
 }
 
-// Triangles are their node's with the least id.
+// Visits the new nodes in the triangles in which node i has the smallest id.
 template <class Visit>
 void for_new_nodes_in_triangles(const Level<2>& level, std::int64_t i, double d, int pieces,
                                 const Visit& visit) {
@@ -66,7 +67,9 @@ void for_new_nodes_in_triangles(const Level<2>& level, std::int64_t i, double d,
   });
 }
 
-// Nodes on the boundary of a volume are refined with it. What comes on top of it has no room.
+// Returns whether both nodes lie on one boundary edge of the plane, which is discretized again
+// instead of refined. The surface nodes of a volume are refined with the others; nodes too close to
+// them find no room later.
 bool on_one_edge(const LevelGeometry<2>& geometry, const Nodes<2>& nodes, std::int64_t i,
                  std::int64_t j) {
   return geometry.on_one_edge(nodes, i, j);
@@ -75,12 +78,13 @@ bool on_one_edge(const LevelGeometry<3>&, const Nodes<3>&, std::int64_t, std::in
   return false;
 }
 
-// Calls visit(place) for the new nodes of an owned node, where the spacing will be d. Edges are
-// their node's with the least id.
+// Calls visit(position) for the new nodes around owned node i, for the spacing d of the next level.
+// An edge belongs to its node with the smaller id.
 template <int Dim, class Visit>
 void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visit& visit) {
   const Nodes<Dim>& nodes = level.nodes;
-  // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
+  // The ratio of the spacings limits the pieces. Nearly every node then keeps its number of
+  // neighbours, whatever the lengths are.
   const int pieces = pieces_of<Dim>(level.geometry.spacing_at(nodes, i), d);
   if (pieces < 2 || level.geometry.kind() == GeometryKind::surface) return;
   const Point<Dim> x = nodes.position(i);
@@ -92,14 +96,15 @@ void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visi
     if (pieces >= 3) for_new_nodes_in_triangles(level, i, d, pieces, visit);
 }
 
-// Nodes that close a whole sphere are nodes as others where the next level's patch does not reach.
+// Makes nodes of the closing patch inner nodes, in case the patch of the next level does not
+// contain them.
 void leave_patch(const Level<2>& level, IncomingNode<2>& node) {
   node.inner = node.inner || level.geometry.domain().is_in_patch(node.position);
 }
 void leave_patch(const Level<3>&, IncomingNode<3>&) {}
 
-// Where d stays or falls, none is too many. It is at the node that this is known: within a leaf, of
-// which d is one number when nodes are thinned, d may vary by more than it has grown.
+// Exempts a node from thinning unless d has grown at it. Thinning uses one value of d per leaf, and
+// d may vary more within a leaf than it has grown.
 template <int Dim>
 void stay_unless_coarser(IncomingNode<Dim>& node, double d) {
   if (d <= method::kThinnedAbove * node.d) node.d = 0;
@@ -108,8 +113,8 @@ void stay_unless_coarser(IncomingNode<Dim>& node, double d) {
 void append_surface_midpoints(const Level<2>&, const View<double>&, IncomingNodes<2>&) {}
 
 IncomingNode<2> new_node(const Point<2>& x, double, double) { return {x, -1}; }
-// Where the spacing was `before` and will be d. Cutting edges in space may bring more nodes than d
-// asks for.
+// Returns a new node where the spacing was `before` and will be d. Cutting edges in space may
+// create more nodes than d requires, so the node records the spacing that it counts as placed for.
 IncomingNode<3> new_node(const Point<3>& x, double before, double d) {
   IncomingNode<3> node{x, -1};
   const double cuts = pieces_of<3>(before, d) - 1;
@@ -119,8 +124,8 @@ IncomingNode<3> new_node(const Point<3>& x, double before, double d) {
 
 }  // namespace
 
-// Counted first, then written, in chunks of nodes: so that all threads can do it, and nothing has
-// to grow.
+// Counts the nodes first and then writes them, in chunks, so that all threads take part and no
+// array grows.
 template <int Dim>
 IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   constexpr std::int64_t kChunk = 512;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes that a level hands on to a finer one: its own, and new ones between them.
+// The refinement of a level: its nodes and new ones between them, for a level of finer spacing.
 #pragma once
 
 #include "initial/incoming_nodes.hpp"
@@ -7,9 +7,10 @@
 
 namespace pnpbs {
 
-// What a level of another spacing begins with: the nodes of this rank and, where that is finer, new
-// ones on the edges of their stars and in their triangles: where it is half of the present one, in
-// the middle of every edge. Collective.
+// Returns the start nodes for a level of another spacing: the owned nodes and, where the spacing is
+// finer, new ones on the edges of their stars and in their triangles. If it is half of the present
+// one, there is one new node in the middle of every edge. All ranks must call it, and if one rank
+// throws, all ranks throw.
 template <int Dim>
 IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next);
 

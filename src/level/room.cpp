@@ -14,7 +14,7 @@ namespace pnpbs {
 
 namespace {
 
-// Has any node of block b a listed neighbour within so many of its d?
+// Returns whether any node of block b has a listed neighbour within `reach` times its d.
 template <int Dim>
 bool any_neighbour_within(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double reach,
                           std::int64_t b) {
@@ -41,7 +41,8 @@ bool any_neighbour_within(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lis
   return within >= 0;
 }
 
-// The nodes with smaller ids that node i nearly coincides with: those push it no more.
+// Calls visit(j) for the nodes j with smaller ids that node i nearly coincides with. The repulsion
+// no longer separates them.
 template <int Dim, class Visit>
 void for_coinciding(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
                     const Visit& visit) {
@@ -53,13 +54,14 @@ void for_coinciding(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, st
   });
 }
 
-// As the boundary was found where the nodes are.
+// Returns whether the boundary is closer to node i than the minimum clearance, for the positions at
+// which the boundary was found.
 template <int Dim>
 bool pressed_to_boundary(const Level<Dim>& level, std::int64_t i) {
   return level.neighbourhood.near_boundary().within(i, method::kMinClearance * level.nodes.d(i));
 }
 
-// What tells the inside and what is near.
+// Returns the index that tests for the inside and for near facets.
 const FacetIndex<2>& facets_of(const Level<2>& level) { return level.map(); }
 const SurfaceIndex& facets_of(const Level<3>& level) { return level.geometry.domain().index(); }
 
@@ -67,7 +69,8 @@ const SurfaceIndex& facets_of(const Level<3>& level) { return level.geometry.dom
 
 template <int Dim>
 bool has_clearance(const Level<Dim>& level, const std::type_identity_t<Point<Dim>>& x, double d) {
-  if (level.nodes.moving == Carrier::surface) return true;  // it was walked to
+  // Positions on surfaces are valid by construction.
+  if (level.nodes.moving == Carrier::surface) return true;
   if (is_closed_at(level, x)) return false;
   const Box<Dim>& box = level.geometry.bounds();
   for (int k = 0; k < Dim; ++k)
@@ -81,7 +84,7 @@ template <int Dim>
 View<char> nodes_without_room(const Level<Dim>& level) {
   const Nodes<Dim>& nodes = level.nodes;
   const AdjacencyList<Dim>& lists = level.lists();
-  constexpr double kALittleMore = 1.001;  // so that rounding decides nothing here
+  constexpr double kALittleMore = 1.001;  // keeps rounding from affecting the result
   const View<char> no_room = make_view<char>("pnpbs::no_room", nodes.count);
   for_each("pnpbs::no_room", lists.block_count(), [&](std::int64_t b) {
     const bool look = any_neighbour_within(nodes, lists, kALittleMore * method::kNearlyCoincide, b);
@@ -97,7 +100,8 @@ View<char> nodes_without_room(const Level<Dim>& level) {
 
 namespace {
 
-// A node waits if one that it coincides with does so with another.
+// Hops of the lists that a decision about coincident nodes reaches: a node is kept for now if the
+// one it coincides with itself coincides with another.
 constexpr int kCoincidingHops = 2;
 
 template <int Dim>
@@ -129,8 +133,9 @@ std::vector<std::int32_t> crowded_nodes(Level<Dim>& level) {
 }  // namespace
 
 // After the last population event nodes may still be pressed into a corner until they coincide.
-// Here nothing is born, so there is no contest: of many in one place all go at once but the first.
-// One that only coincides with nodes that may go themselves waits for the next round.
+// Nothing is inserted here, so no contest is needed: of several nodes at one point all but the
+// first are deleted at once. A node that only coincides with nodes which may be deleted is decided
+// in the next round.
 template <int Dim>
 PopulationCounts remove_crowded(Level<Dim>& level) {
   PopulationCounts counts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which nodes of a level have no room: between boundary edges, or on top of another node.
+// The nodes of a level that have no room: between boundary edges, or at the point of another node.
 #pragma once
 
 #include <type_traits>
@@ -9,17 +9,18 @@
 
 namespace pnpbs {
 
-// Is there room at x for a node that d is the spacing of: inside, and clear of the boundary?
+// Returns whether a new node with spacing d has room at x: inside the domain, and far enough from
+// its boundary.
 template <int Dim>
 bool has_clearance(const Level<Dim>& level, const std::type_identity_t<Point<Dim>>& x, double d);
 
-// A flag for each node that is between boundary edges, or on top of another node: of two that
-// nearly coincide it is the one with the larger id. Lists must be fresh, and made where the nodes
-// are.
+// Returns a flag for each node without room. Of two nodes that nearly coincide it is set for the
+// one with the larger id. The lists must have been built at the present positions.
 template <int Dim>
 View<char> nodes_without_room(const Level<Dim>& level);
 
-// At the end of a run, before its sweeps: such nodes go. Counts are of this rank. Collective.
+// Deletes the nodes without room at the end of a run, before its sweeps. Returns the counts of this
+// rank. All ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 PopulationCounts remove_crowded(Level<Dim>& level);
 

@@ -15,8 +15,8 @@ Speeds speeds_of(const Level<Dim>& level) {
     for (int k = 0; k < Dim; ++k) square += nodes.v[k](i) * nodes.v[k](i);
     return std::sqrt(square) / nodes.d(i);
   };
-  // No force moves a node farther than max_move in a step. Being held off the boundary may, to and
-  // fro between two sheets of it for ever.
+  // Forces move a node by at most max_move per step. The clearance from the boundary may move it
+  // farther, and back and forth between two sheets without end.
   const double by_force = level.settings.motion.max_move / level.settings.motion.dt;
   Speeds speeds;
   speeds.max =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How deep the ghost layers of steps are. Apart from the rest of reach.hpp, because tests put other
-// depths in its place (tests/parallel/thin_halo.cpp).
+// Depths of the ghosts for steps. They are in a file of their own because tests replace it
+// (tests/parallel/thin_halo.cpp).
 #include <cmath>
 
 #include "level/reach.hpp"
@@ -9,9 +9,9 @@ namespace pnpbs {
 
 namespace {
 
-// For so many force evaluations. What an evaluation brings in comes from no farther than the range
-// of the force and the ways of both nodes; a hop spans a list radius. Both nodes drift while the
-// ghosts stay the same ones.
+// Returns the depth for this many evaluations of the force. Each evaluation adds the range of the
+// force and the moves of both nodes. A hop spans one list radius. Both nodes also drift as long as
+// the same ghosts are kept.
 int hops_for(const Settings& settings, std::int64_t evaluations) {
   const double max = settings.motion.max_move;
   const auto n = static_cast<double>(evaluations);

@@ -12,14 +12,15 @@ namespace pnpbs {
 
 namespace {
 
-// Of a node placed for a smaller d, so many nodes are left in M dimensions.
+// Returns the fraction of nodes to keep in M dimensions, of those that were placed for the smaller
+// spacing of `node`.
 template <int M, int Dim>
 double share_for(const IncomingNode<Dim>& node, double d) {
   return node.d > 0 && d > method::kThinnedAbove * node.d ? power<M>(node.d / d) : 1;
 }
 
-// Each node counts for the share that should stay, and along the Morton order of the leaves a node
-// stays whenever the sum of the shares passes a whole number.
+// Thins nodes to their shares. Along the Morton order of the leaves, a node is kept whenever the
+// sum of the shares passes a whole number.
 template <int Dim, class Share>
 void keep_shares(const Level<Dim>& level, IncomingNodes<Dim>& incoming,
                  const std::vector<std::int32_t>& begin, const Share& share) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thinning nodes that are many times too dense for d, because d has grown since they were placed or
-// because they were given so: contests would take long to delete them.
+// The thinning of nodes that are many times too dense for d, because d has grown since they were
+// placed or because the user gave them so. Contests would take long to delete them.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,24 @@
 
 namespace pnpbs {
 
-// The spacing that a new node counts as placed for, which comes with so many others in the place of
-// one in M dimensions, where the spacing was `before` and will be d: as many of them should stay.
-// If that is most of them all do: the spacing may have been another where the node was before.
+// Returns the spacing that a new node counts as placed for. Refinement adds new_nodes of them per
+// old node in M dimensions, where the spacing was `before` and will be d. Thinning then keeps as
+// many of them as d requires. If that is most of them, all are kept, because the spacing may have
+// been different at the old node.
 template <int M>
 double placed_for(double before, double d, double new_nodes) {
   const double share = (power<M>(before / d) - 1) / new_nodes;
   return share > method::kMostStay ? d : d * root<M>(share);
 }
 
-// Of nodes inside, sorted by place; `begin` is each leaf's first. Collective.
+// Thins inner nodes, sorted by sort_by_place(). `begin` has the first index of each leaf. All ranks
+// must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 void thin(const Level<Dim>& level, IncomingNodes<Dim>& inner,
           const std::vector<std::int32_t>& begin);
 
-// Of this rank's nodes on surfaces, which it owns. Sorts them by place. Collective.
+// Thins nodes on surfaces that this rank owns, and sorts them by sort_by_place(). All ranks must
+// call it, and if one rank throws, all ranks throw.
 void thin_on_surfaces(const Level<3>& level, IncomingNodes<3>& on_surfaces);
 
 }  // namespace pnpbs

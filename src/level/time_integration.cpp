@@ -64,7 +64,7 @@ void TimeIntegration<Dim>::move_by(const Law& law, Scheme scheme, Nodes<Dim>& no
   }
 }
 
-// Inner nodes near the boundary are held off it; then the new positions become the positions.
+// Corrects new positions that are too close to the boundary, and then makes them the positions.
 template <int Dim>
 void TimeIntegration<Dim>::accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
                                   const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,

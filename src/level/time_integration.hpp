@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time integration of a level (section 2.2): one step of the equation of motion, after which
-// inner nodes are held off the boundary.
+// The time integration of a level (section 2.2): a step of the equation of motion, after which
+// inner nodes keep their clearance from the boundary.
 #pragma once
 
 #include "dynamics/schemes.hpp"
@@ -10,18 +10,19 @@
 
 namespace pnpbs {
 
+// Steps of the nodes of one rank, with the memory that they need. Local.
 template <int Dim>
 class TimeIntegration {
  public:
-  // By the scheme of the settings. Lists must be made for it.
+  // Does a step of the scheme in the settings. The lists must be those for steps.
   void step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood, const SizedTree<Dim>& map,
             const LevelGeometry<Dim>& geometry, const Settings& settings);
-  // One of the classical fourth order, the paper's last.
+  // Does a step of the classical Runge-Kutta scheme of fourth order, the last step in the paper.
   void runge_kutta_step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
                         const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,
                         const Settings& settings);
 
-  // Room for other positions of the nodes, padded as theirs are.
+  // Returns an array for other positions of the nodes, with the same padding.
   Field<Dim>& scratch(const Nodes<Dim>& nodes);
 
  private:
@@ -38,9 +39,9 @@ class TimeIntegration {
                          const SizedTree<Dim>& map, const LevelGeometry<Dim>& geometry,
                          const Settings& settings);
 
-  Field<Dim> next_;  // positions after the step in progress
+  Field<Dim> next_;  // positions after the present step
   Stages<Dim> stages_;
-  View<double> squares_;  // of the largest displacement in each chunk of nodes
+  View<double> squares_;  // largest displacement in each chunk of nodes, squared
 };
 
 }  // namespace pnpbs

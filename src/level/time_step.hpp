@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One time step of a level: lists where they are needed anew, forces and motion.
+// One time step of a level: a rebuild of the lists if they require it, forces, and motion.
 #pragma once
 
 #include <exception>
@@ -8,12 +8,13 @@
 
 namespace pnpbs {
 
-// On this rank; its failure waits in `failure` until ranks agree, and until then nothing more is
-// done. The step counts, done or not: all ranks must count alike.
+// Does a step on this rank. A failure is stored in `failure`, and later calls then do nothing until
+// the ranks agree. The step counts in any case, because counts must be the same on all ranks.
+// Local.
 template <int Dim>
 void step(Level<Dim>& level, std::exception_ptr& failure);
-// The last one by the classical Runge-Kutta scheme, whose stages look ahead: exchange, lists and
-// step. Collective.
+// Does the last step, by the classical Runge-Kutta scheme, including the exchange and the lists
+// that its stages need. All ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 void finish_by_runge_kutta(Level<Dim>& level);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the tree of a level grows: the same everywhere on one rank, and over several in full only
-// where a rank's own nodes and ghosts can be.
+// The growth of a level's tree. One rank refines it everywhere; several ranks refine it only where
+// their own nodes and ghosts can be.
 #include <limits>
 #include <numeric>
 
@@ -46,14 +46,15 @@ void LevelTree<Dim>::grow_whole(const Settings& settings) {
   link_leaves(settings);
 }
 
-// What samples may miss of the spacing: places where it is held down, and those that nodes have
-// come upon. (A cone of d that is as narrow as a leaf is seen by one of its samples, or by none.)
+// Returns points where samples may miss small values of d: where d is reduced, and undersampled
+// points that nodes have met. A cone of d as narrow as a leaf is seen by at most one of its
+// samples.
 template <int Dim>
 std::vector<GrowthSource<Dim>> LevelTree<Dim>::spacing_hints() const {
   return geometry_.spacing().spacing_hints().in_domain;
 }
 
-// First roughly; then what lies in each part is known, and is cut again.
+// Partitions roughly first. The work in each part is then known, and the tree is partitioned again.
 template <int Dim>
 void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* like) {
   if (like)
@@ -72,7 +73,7 @@ void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* l
   grow_own_part(settings);
 }
 
-// By a few samples of d.
+// Partitions by a few samples of d, along the Morton order.
 template <int Dim>
 void LevelTree<Dim>::take_rough_cells(const Settings& settings) {
   PartitionCells<Dim> cells(geometry_.bounds(), rough_cells(settings));
@@ -80,7 +81,7 @@ void LevelTree<Dim>::take_rough_cells(const Settings& settings) {
   distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank());
 }
 
-// From samples of d in large cells, the same on every rank: enough to begin with.
+// Returns large cells with the work that samples of d imply. They are the same on every rank.
 template <int Dim>
 std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& settings) {
   constexpr int kUniformDepth = 3, kPasses = 3, kCellsPerRank = 32;
@@ -108,7 +109,7 @@ std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& sett
   return cells;
 }
 
-// The tree in full in the cells marked.
+// Refines the tree to its leaves in the marked cells.
 template <int Dim>
 void LevelTree<Dim>::refine(const Settings& settings, const std::vector<char>& refined) {
   const BackgroundTree<Dim>& cells = distribution_.cells().tree();
@@ -142,8 +143,8 @@ void LevelTree<Dim>::link_leaves(const Settings& settings) {
       std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach), std::move(stretch));
 }
 
-// In full wherever own nodes and ghosts can be. What is within the hops is known only once it is
-// there: more is refined until nothing is missing.
+// Refines the tree wherever own nodes and ghosts can be. Only the refined tree shows what lies
+// within the hops, so cells are added until none is missing.
 template <int Dim>
 void LevelTree<Dim>::grow_own_part(const Settings& settings) {
   const int hops = deepest_hops(settings);
@@ -169,7 +170,7 @@ constexpr const char* kSpacingsDiffer =
 
 }  // namespace
 
-// Ranks whose callbacks tell different things would wait for each other for ever.
+// Ranks whose callbacks return different values would wait for each other without end.
 template <int Dim>
 void LevelTree<Dim>::require_same_geometry() const {
   const PartitionCells<Dim>& cells = distribution_.cells();
@@ -181,8 +182,8 @@ void LevelTree<Dim>::require_same_geometry() const {
   if (!comm_.same_on_all(fingerprint)) throw Error(ErrorKind::spacing, kSpacingsDiffer);
 }
 
-// The same, once the leaves are there: what each rank finds in cells of others must be what their
-// owners find.
+// Checks the leaves as well: what a rank finds in cells of others must equal what their owners
+// find.
 template <int Dim>
 void LevelTree<Dim>::require_same_leaves() const {
   std::vector<std::uint64_t> found(static_cast<std::size_t>(distribution_.cells().count()), 0);

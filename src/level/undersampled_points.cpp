@@ -22,7 +22,7 @@ void keep_finest(std::vector<Place>& places) {
   if (places.size() > kMaxPlaces) places.resize(kMaxPlaces);
 }
 
-// The finest place of each leaf of this rank's.
+// Returns the finest undersampled point of each leaf, among the nodes of this rank.
 std::vector<Place> undersampled_points_of_own(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
   const BackgroundTree<3>& tree = level.map().tree();

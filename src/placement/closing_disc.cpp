@@ -18,7 +18,7 @@ std::vector<Point<3>> nodes_around(const StereographicChart& other, const Spacin
   disc->add_arc(CurveRole::boundary, {0, 0}, 2 * other.radius() * std::tan(radius / 2), 0,
                 2 * std::numbers::pi, 1);
   PlacementImpl<2> placement(serial_communicator(), disc, Options());
-  // It lives as long as the placement.
+  // The spacing outlives the placement, so the pointer does not own it.
   placement.set_spacing(std::shared_ptr<const Spacing<2>>(&spacing, [](const Spacing<2>*) {}));
   if (placement.run() == Outcome::stopped)
     throw Error(ErrorKind::state, "the nodes that close the sphere were not placed");

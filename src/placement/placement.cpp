@@ -8,22 +8,24 @@
 
 namespace pnpbs {
 
-// Ranks with other options or another domain would wait for each other for ever.
+// Ranks with different options take part in different collective calls and wait for each other
+// without end.
 void Placement::require_same_options() const {
   if (!comm_->same_on_all(options_.fingerprint()))
     throw Error(ErrorKind::argument,
                 "the options differ between ranks: set the same ones on all of them");
 }
 
-// What was tried has failed: nothing is told of it but that a monitor has stopped it.
+// Restores the state from before a failed call. Only the information that a monitor has stopped the
+// run is kept.
 void Placement::restore_run(RunState before) noexcept {
   const StopReason reason = state_.stop_reason;
   state_ = std::move(before);
   if (reason == StopReason::monitor) state_.stop_reason = reason;
 }
 
-// A run that was at its end goes on from its nodes where there is something to do: with other
-// options than the number of steps it begins again.
+// Adds a warning about the changes. A finished run goes on if they affect it: with more steps it
+// continues, and with other options, except those for first nodes, it begins again.
 void Placement::adopt_changes(const std::vector<OptionChange>& changes) {
   constexpr std::string_view kOfFirstNodes[] = {"levels", "coarsest_steps", "refined_steps"};
   if (changes.empty()) return;

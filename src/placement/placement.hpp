@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A placement: nodes in a domain, and the time loop that brings them to rest.
+// The placement of nodes in a domain: its options, its state, and the calls of the interface.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@
 
 namespace pnpbs {
 
-// What is the same in any dimension. PlacementImpl<Dim> is the rest of it.
+// The part of a placement that does not depend on the dimension. PlacementImpl<Dim> implements the
+// rest.
 class Placement {
  public:
   Placement(std::shared_ptr<const Communicator> comm, Options options)
@@ -32,18 +33,20 @@ class Placement {
   virtual int dimension() const = 0;
   Options& options() { return options_; }
   const Options& options() const { return options_; }
-  virtual void forget_nodes() = 0;  // lets go of everything that lives in Kokkos' memory
+  virtual void forget_nodes() = 0;  // releases all Kokkos memory
   Monitoring& monitoring() { return monitoring_; }
   const Monitoring& monitoring() const { return monitoring_; }
 
-  // converged, or stopped by the monitor
+  // These calls return `converged` if they reach their end, `stopped` if the monitor stops them, or
+  // another outcome of a finished run. All ranks must call them, and if one rank throws, all ranks
+  // throw.
   virtual Outcome initialise() = 0;
   virtual Outcome step(std::int64_t n) = 0;
   virtual Outcome run() = 0;
-  // The counts are of what was done before a stop, too.
+  // Sets `change` to the counts of this call, also if the monitor stops it.
   virtual Outcome adjust_population(PopulationCounts& change) = 0;
   virtual Outcome rebalance() = 0;
-  // Of a run from nothing; the nodes there are stay. Collective.
+  // Estimates a run that begins without nodes. The present nodes are not changed. Collective.
   virtual Estimate estimate() = 0;
 
   virtual NodalResults& results() = 0;
@@ -67,29 +70,34 @@ class Placement {
   std::int64_t dropped() const { return state_.dropped; }
   std::int64_t unknown_uses() const { return state_.unknown_uses; }
   std::int64_t missing_faces() const { return state_.surface_fit.faces_off; }
-  // Of a body; of other domains all are 0. Collective.
+  // Measures of a body in space. They are 0 for other domains. Collective.
   virtual double volume_of_elements() = 0;
   virtual double volume_of_domain() const = 0;
   virtual BoundaryDistance boundary_distance() = 0;
   virtual std::int64_t unresolved_places() const = 0;
-  virtual std::int64_t unresolved_nodes() const = 0;  // expected where it is held down
-  virtual double unresolved_spacing() const = 0;      // the least there, before it was held down
-  // Of a body in space; of others all are 0.
+  // Returns the number of nodes that was expected when d was last reduced at unresolved places.
+  virtual std::int64_t unresolved_nodes() const = 0;
+  // Returns the smallest d at unresolved places before it was reduced.
+  virtual double unresolved_spacing() const = 0;
+  // Returns the distances of the repaired surface of a body in space, or zeros for other domains.
   virtual RepairDistances repair_distances() const = 0;
   StopReason stop_reason() const { return state_.stop_reason; }
-  Outcome outcome() const { return state_.outcome; }  // of the last run that came to its end
-  // Has a run come to its end, and no step been done since?
+  Outcome outcome() const { return state_.outcome; }  // of the last run that reached its end
+  // Returns whether a run has reached its end and no step has been done since.
   bool finished() const {
     return shows_its_level() && state_.schedule.ended() &&
            state_.stop_reason != StopReason::monitor;
   }
 
  protected:
-  // Are the results those of the level that the schedule is of, and of none on the way to one?
+  // Returns whether the results show the level that the schedule belongs to. While a level is being
+  // built they may show an intermediate one.
   virtual bool shows_its_level() const = 0;
   std::int64_t global_count() const { return results().global_count(); }  // collective
+  // Throws Error(ErrorKind::argument) on all ranks if the options differ between ranks. Collective.
   void require_same_options() const;
-  // Since the checkpoint that is read.
+  // Adapts the schedule and the warnings to the options that changed since the checkpoint was
+  // written.
   void adopt_changes(const std::vector<OptionChange>& changes);
   void restore_run(RunState before) noexcept;
 

@@ -63,8 +63,8 @@ void PlacementImpl<Dim>::roll_back(PlacementBefore<Dim>& before) noexcept {
 
 // ------------------------------------------------------------------ levels ---------------------
 
-// Bubbles on surfaces alone are those of the plane. Ways along a surface are not measured, so the
-// growth of d is not limited there.
+// Bubbles on a surface without a body interact as in the plane. Distances along a surface are not
+// computed, so the growth of d is not limited there.
 template <int Dim>
 Settings PlacementImpl<Dim>::present_settings() const {
   Settings settings(options_, bubble_dimension(results_.kind()));
@@ -72,7 +72,8 @@ Settings PlacementImpl<Dim>::present_settings() const {
   return settings;
 }
 
-// A level for the present spacing and options. Stopped if the monitor has stopped what leads to it.
+// Ensures that there is a level for the present spacing and options. Returns `stopped` if the
+// monitor stops its construction.
 template <int Dim>
 Outcome PlacementImpl<Dim>::prepare_level() {
   const Settings settings = present_settings();
@@ -86,7 +87,9 @@ Outcome PlacementImpl<Dim>::prepare_level() {
   return Outcome::converged;
 }
 
-// Once spacing and domain are there, right, and the same on all ranks. Collective.
+// Returns the settings of a new level and updates now_.closed. Checks that there is a spacing, and
+// that the domain is valid and the same on all ranks. All ranks must call it, and if one rank
+// throws, all ranks throw.
 template <int Dim>
 Settings PlacementImpl<Dim>::settings_for_new_level() {
   if (!now_.spacing.has_source())
@@ -125,8 +128,8 @@ Outcome PlacementImpl<Dim>::make_level() {
       builder.with_first_nodes(std::move(next), std::move(placed), settings, start_nodes()));
 }
 
-// Nothing has failed: from here on the new level counts. Where nobody asks for the one that it
-// replaces, that is what it was when the call began.
+// Installs a level whose construction has succeeded. The replaced level moves to `replaced`.
+// Without `replaced` it returns to its state from the beginning of the call, for a later roll-back.
 template <int Dim>
 Outcome PlacementImpl<Dim>::adopt(BuiltLevel<Dim> made, std::shared_ptr<Level<Dim>>* replaced) {
   std::shared_ptr<Level<Dim>> before = replace_level(std::move(made.level), std::move(made.placed));
@@ -148,7 +151,7 @@ void PlacementImpl<Dim>::let_go_of_nodes() {
   if (before_) before_->restore_level();
 }
 
-// Returns the one before.
+// Returns the replaced level.
 template <int Dim>
 std::shared_ptr<Level<Dim>> PlacementImpl<Dim>::replace_level(std::shared_ptr<Level<Dim>> next,
                                                               PlacedSpacing<Dim> placed) {
@@ -179,8 +182,8 @@ Outcome PlacementImpl<Dim>::initialise() {
   });
 }
 
-// Changes the nodes there are. Afterwards every node is with the rank that owns its place, so that
-// none changes its rank when it is asked for.
+// Runs `work`, which changes nodes of the present level. Afterwards it migrates nodes to the ranks
+// that own their positions, so that later requests for results change no owner.
 template <int Dim>
 template <class Work>
 auto PlacementImpl<Dim>::with_rollback(const Work& work) {
@@ -189,9 +192,10 @@ auto PlacementImpl<Dim>::with_rollback(const Work& work) {
   return result;
 }
 
-// Does what makes a level, or takes steps on one. Where nodes come upon places that its tree was
-// not made for, these are known from then on and it is done again: from the nodes there are, where
-// these were taken over, else from nothing.
+// Runs `work`, which builds a level or takes steps on one. If nodes meet undersampled points of d,
+// these are added to the spacing and the work is done again on a refined tree. It then starts from
+// the present nodes if these were taken over from the user or an earlier level, and otherwise
+// without nodes.
 template <int Dim>
 template <class Work>
 Outcome PlacementImpl<Dim>::retry_with_refined_tree(const Work& work) {
@@ -209,7 +213,7 @@ Outcome PlacementImpl<Dim>::retry_with_refined_tree(const Work& work) {
   }
 }
 
-// On a level for the present spacing, whose steps begin anew where they had ended.
+// Runs `steps` on a level for the present spacing. A schedule that has ended begins again.
 template <int Dim>
 template <class Steps>
 Outcome PlacementImpl<Dim>::taking_steps(const Steps& steps) {
@@ -249,9 +253,10 @@ Outcome PlacementImpl<Dim>::run_to_end() {
   return outcome;
 }
 
-// The number of nodes over the requested one; 1 if none is requested, if they are so near that no
-// run would come nearer, if they are so far apart that the vertices of the boundary are the reason,
-// or if d was reduced for the elements, which takes more nodes on purpose.
+// Returns the number of nodes over the requested number, or 1 if no correction is to be made. The
+// latter is the case if no number is requested, if the two are so close that another run would not
+// be closer, if they are so far apart that the vertices of the boundary must be the cause, or if d
+// was reduced deliberately for the sake of the elements.
 template <int Dim>
 double PlacementImpl<Dim>::count_error() const {
   constexpr double kNear = 0.01, kFar = 0.25;
@@ -261,8 +266,8 @@ double PlacementImpl<Dim>::count_error() const {
   return std::fabs(error - 1) <= kNear || std::fabs(error - 1) > kFar ? 1 : error;
 }
 
-// Runs once more, from nothing, with d corrected by the error in the number of nodes: a slightly
-// different d would not change the number of the nodes there are. Collective.
+// Repeats the run without start nodes, with d corrected by the error in the number of nodes. With
+// start nodes, a slightly different d would not change their number. Collective.
 template <int Dim>
 Outcome PlacementImpl<Dim>::run_with_corrected_number() {
   const Settings settings = now_.level->settings;
@@ -276,7 +281,7 @@ Outcome PlacementImpl<Dim>::run_with_corrected_number() {
   return begun == Outcome::stopped ? begun : rounds_with_spacing_held(steps_and_finish());
 }
 
-// Ends with whether the elements are such as can be used.
+// Runs the time loop and the finish, and then checks the elements.
 template <int Dim>
 Outcome PlacementImpl<Dim>::steps_and_finish() {
   state_.forget_warnings_of_run();
@@ -295,9 +300,9 @@ Outcome PlacementImpl<Dim>::steps_and_finish() {
   return !conforms ? Outcome::not_conforming : missed ? Outcome::spacing_missed : outcome;
 }
 
-// Rounds after the first one, as long as the elements cannot be used, or fewer and fewer of them
-// have small angles. Where one that is only to be better is stopped, or fails for want of room, the
-// best one before it counts. Collective.
+// Repeats the run with d reduced locally, as long as the elements do not conform or the number of
+// small angles decreases. If a round that only improves angles is stopped or runs out of nodes or
+// memory, the best earlier round is the result. Collective.
 template <int Dim>
 Outcome PlacementImpl<Dim>::rounds_with_spacing_held(Outcome first) {
   BestRound<Dim> best;
@@ -334,15 +339,17 @@ Outcome PlacementImpl<Dim>::return_to(FinishedRound<Dim> round) {
   state_.keep_counts(*now_.level);
   state_.go_back_to(std::move(round.state), *round.level);
   keep(std::move(round.level));
-  const double unresolved = now_.placed.held.least_before;  // known even if the first round counts
+  // reported even if the first round is the result
+  const double unresolved = now_.placed.held.least_before;
   now_.placed = std::move(round.placed);
   now_.placed.held.least_before = unresolved;
   return round.outcome;
 }
 
-// Begins a round with d held down where the last one does not conform or has small angles:
-// converged, or stopped. Not conforming, as it is, if there is nothing to hold, it was tried often
-// enough, or would take far more nodes than were asked for; then all stays as it is. Collective.
+// Begins a round in which d is reduced where the elements of the last one do not conform or have
+// small angles. Returns `converged` if it has begun and `stopped` if the monitor stops it. Returns
+// `not_conforming` and changes nothing if there is nothing to reduce, or if the round exceeds the
+// limit of rounds or of nodes. Collective.
 template <int Dim>
 Outcome PlacementImpl<Dim>::hold_spacing(bool conforms, std::shared_ptr<Level<Dim>>& replaced) {
   PlacedSpacing<Dim> placed = now_.placed;
@@ -352,18 +359,18 @@ Outcome PlacementImpl<Dim>::hold_spacing(bool conforms, std::shared_ptr<Level<Di
     if (add_unresolved_places<Dim>(*now_.level, now_.unresolved, placed.held))
       outcome = begin_held_round(std::move(placed), conforms, replaced);
   } catch (const UndersampledSpacing&) {
-    throw;  // it is tried again with these
+    throw;  // retry_with_refined_tree() handles it
   } catch (const Error& error) {
     if (!is_lack_of_room(error)) throw;
     restore_run(before);
   }
-  // Of the call that the round belongs to.
+  // These counts belong to the call as a whole, of which the round is a part.
   state_.dropped = before.dropped;
   state_.coarser_levels = before.coarser_levels;
   return outcome;
 }
 
-// On a level for the spacing as it is held now, with the nodes there were. Collective.
+// Begins a round on a level for the reduced spacing, from the present nodes. Collective.
 template <int Dim>
 Outcome PlacementImpl<Dim>::begin_held_round(PlacedSpacing<Dim> placed, bool conforms,
                                              std::shared_ptr<Level<Dim>>& replaced) {
@@ -428,7 +435,7 @@ template <int Dim>
 Estimate PlacementImpl<Dim>::estimate() {
   require_kokkos();
   require_same_options();
-  const Settings settings = settings_for_new_level();  // sets now_.closed
+  const Settings settings = settings_for_new_level();  // updates now_.closed
   return estimate_of(to_place(), settings);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A placement in the plane or in space: its domain, its spacing and the level that has its nodes.
-// It says when a level is made, moved and finished; how is its parts' business.
+// A placement in the plane or in space: its domain, its spacing and the level that owns its nodes.
+// It decides when levels are built, advanced and finished; the components implement these steps.
 #pragma once
 
 #include <cstdint>
@@ -85,18 +85,20 @@ class PlacementImpl : public Placement {
   }
 
   // --- checkpoints ---
-  // What is one for all, and the nodes of this rank; between two steps even in a monitor's turn.
-  // Throws Error(ErrorKind::state) where the nodes wait for something that they were not yet placed
-  // for. Collective.
+  // Returns the state to store: the global state and the owned nodes of this rank. A monitor may
+  // call it between two steps. Throws Error(ErrorKind::state) if there are no nodes, or if the
+  // spacing or an option that they depend on was changed after they were placed. All ranks must
+  // call it, and if one rank throws, all ranks throw.
   Saved<Dim> saved();
-  // Throws unless it is of this dimension, domain and these options. Collective.
+  // Throws unless the state belongs to this dimension, this domain and these options. Collective.
   void require_same_as(const SavedState& saved);
-  // Goes on from there, if the spacing is that of then, too. `nodes`: anyone's, all of them over
-  // all ranks. If it fails, all stays as it was. Collective.
+  // Continues from a stored state. The spacing must be the one it was stored with. `nodes` may be
+  // distributed over the ranks in any way; together they must be complete. If it fails, the
+  // placement is unchanged. All ranks must call it, and if one rank throws, all ranks throw.
   void restore(const SavedState& saved, std::vector<SavedNode<Dim>> nodes, Patch<Dim> patch);
 
  private:
-  // The spacing, during whose evaluations the monitor is asked.
+  // Returns the spacing, with a callback that runs the monitor during long evaluations.
   SizingField<Dim> field_from(std::shared_ptr<const Spacing<Dim>> spacing) {
     SizingField<Dim> field(std::move(spacing));
     field.set_beat([this] { monitoring_.beat(); });
@@ -104,19 +106,21 @@ class PlacementImpl : public Placement {
   }
 
   // --- transactions ---
-  // Does work that may fail: then nodes, spacing, schedule and counts are those from before, on all
-  // ranks, and so is the result when the work is done again. Collective.
+  // Runs `work`. If it throws on any rank, all ranks restore the nodes, the spacing, the schedule
+  // and the counts from before, and throw. Repeating the call gives the result that it would have
+  // given in the first place. All ranks must call it.
   template <class Work>
   auto transaction(const Work& work);
   void roll_back(PlacementBefore<Dim>& before) noexcept;
 
-  // --- the level there is ---
-  // Makes this the level whose results are handed out; none if it is null.
+  // --- the present level ---
+  // Installs `level` as the one whose results are accessible, or clears the results if it is null.
   void keep(std::shared_ptr<Level<Dim>> level) {
     now_.level = std::move(level);
     results_.show(now_.level.get());
   }
-  // Lets go of the nodes there are; those from before the call stay with its copy.
+  // Releases the present nodes. The copy for a roll-back keeps those from the beginning of the
+  // call.
   void let_go_of_nodes();
   bool shows_its_level() const override {
     return now_.level && results_.shown() == now_.level.get();
@@ -132,7 +136,7 @@ class PlacementImpl : public Placement {
   std::shared_ptr<Level<Dim>> replace_level(std::shared_ptr<Level<Dim>> next,
                                             PlacedSpacing<Dim> placed);
 
-  // --- what moves its nodes ---
+  // --- steps and finish of the present level ---
   Simulation<Dim> simulation() { return {*now_.level, state_.schedule, state_, monitoring_}; }
   template <class Work>
   auto with_rollback(const Work& work);
@@ -154,20 +158,20 @@ class PlacementImpl : public Placement {
 
   std::shared_ptr<Domain<Dim>> domain_;
   PlacementState<Dim> now_;
-  PlacementBefore<Dim>* before_ = nullptr;  // while a call that moves nodes is in progress
+  PlacementBefore<Dim>* before_ = nullptr;  // set during a transaction
   Results<Dim> results_;
-  BoundaryDistance boundary_distance_;  // measured at this stamp of the level
+  BoundaryDistance boundary_distance_;  // valid for boundary_stamp_
   LevelStamp boundary_stamp_;
-  IncomingNodes<Dim> given_;  // nodes to start from instead of a fill
+  IncomingNodes<Dim> given_;  // start nodes of the user, used instead of a fill
   bool start_from_given_ = false;
-  // In which d is held down or the number of nodes is corrected, in the call in progress.
+  // Number of repeated rounds in the call in progress: with d reduced, or the number corrected.
   int rounds_of_run_ = 0;
 };
 
 extern template class PlacementImpl<2>;
 extern template class PlacementImpl<3>;
 
-// Calls work(placement) with it as what it is.
+// Calls work(placement) with the placement cast to its dimension.
 template <class Work>
 auto visit_dimension(Placement& placement, const Work& work) {
   if (placement.dimension() == 2) return work(static_cast<PlacementImpl<2>&>(placement));

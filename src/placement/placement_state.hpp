@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a call of a placement may change, as a value. A call that moves nodes takes a copy when it
-// begins, and the copy is put back on all ranks where it fails.
+// The state of a placement that a call may change, as a value. A call that changes nodes copies it
+// at its beginning. If the call fails, all ranks restore the copy.
 #pragma once
 
 #include <memory>
@@ -18,25 +18,27 @@ namespace pnpbs {
 
 template <int Dim>
 struct PlacementState {
-  SizingField<Dim> spacing;       // the user's, with the places that runs have found to be finer
-  bool spacing_replaced = false;  // since the level was made
-  std::shared_ptr<Level<Dim>> level;          // has the nodes; null before there are any
-  std::shared_ptr<const Domain<Dim>> closed;  // the domain; a whole sphere closed for the spacing
-  PlacedSpacing<Dim> placed;                  // with which the level was made
-  Options level_options;                      // with which it was
-  Unresolved<Dim> unresolved;                 // by the last finish
+  // The user's spacing, with the undersampled points that runs have found.
+  SizingField<Dim> spacing;
+  bool spacing_replaced = false;      // true if the spacing was set after the level was built
+  std::shared_ptr<Level<Dim>> level;  // owns the nodes; null before there are any
+  // The domain. A whole sphere has its closing patch added.
+  std::shared_ptr<const Domain<Dim>> closed;
+  PlacedSpacing<Dim> placed;   // the spacing that the level was built for
+  Options level_options;       // the options that the level was built with
+  Unresolved<Dim> unresolved;  // found by the last finish
 };
 
-// What a placement was when a call began. The level is the same object, which the call may change:
-// so a copy of its nodes is kept beside it.
+// The state of a placement at the beginning of a call. The call changes the level in place, so a
+// copy of the nodes is stored in addition to the pointer.
 template <int Dim>
 struct PlacementBefore {
   PlacementState<Dim> state;
   RunState run;
-  std::optional<LevelCopy<Dim>> level;  // none if there was none, or if it has been put back
+  std::optional<LevelCopy<Dim>> level;  // empty if there was no level, or once it is restored
 
-  // Gives the level its nodes back and frees the copy. What was derived from the nodes is freed,
-  // too, so that a level that another one has replaced takes little memory.
+  // Restores the nodes of the level and releases the copy. Derived data are released as well, so
+  // that a replaced level takes little memory.
   void restore_level() noexcept {
     if (level) state.level->restore(std::move(*level));
     level.reset();

@@ -34,7 +34,8 @@ double seconds(P p) {
   return p.timers().seconds(phase);
 }
 
-// Over all ranks. Collective.
+// Returns the number of nodes worked for over the number of owned ones, summed over all ranks.
+// Collective.
 template <Phase phase>
 double redundancy(P p) {
   const NodesWorkedFor& nodes = p.timers().nodes(phase);

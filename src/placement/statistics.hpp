@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The statistics: one table that the report, the interface and the reference read.
+// The table of statistics, which the report, the interface and the reference documentation use.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,22 @@
 
 namespace pnpbs {
 
+// A statistic: its name, its description and the function that returns it.
 struct StatisticRow {
   const char* name;
   const char* help;
-  // Exactly one of these is set and gives the type.
+  // Exactly one of these functions is set. It determines the type.
   std::int64_t (*integer)(Placement&);
   double (*real)(Placement&);
   std::string (*text)(Placement&);
-  bool computes = false;  // over all ranks or from lists, so it cannot be asked from a callback
+  bool computes = false;  // collective or derived from lists, so callbacks must not use it
 
   const char* type() const { return integer ? "integer" : real ? "real" : "string"; }
 };
 
 const std::vector<StatisticRow>& statistic_table();
 
-// Throws Error(ErrorKind::key) with the nearest known name.
+// Returns the row with this name. Throws Error(ErrorKind::key) with the nearest known name.
 const StatisticRow& find_statistic(const std::string& key);
 
 }  // namespace pnpbs

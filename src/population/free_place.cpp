@@ -13,7 +13,8 @@ namespace pnpbs {
 
 namespace {
 
-// Square to `a`: the axis that is least along it, without the part along it.
+// Returns a vector that is perpendicular to `a`, or any unit vector if `a` is zero. It is the
+// coordinate axis with the smallest component of `a`, minus its projection on `a`.
 template <int Dim>
 Point<Dim> square_to(const Point<Dim>& a) {
   int min = 0;
@@ -27,11 +28,11 @@ Point<Dim> square_to(const Point<Dim>& a) {
   return b;
 }
 
-// One spacing away on the side away from its neighbours; where they balance, as in a row of nodes,
-// that is beside the row.
+// Returns the point at distance d from x that lies away from the neighbours. If these balance each
+// other, as in a row of nodes, the point lies at right angles to the nearest of them.
 template <int Dim>
 Point<Dim> place_away(const Point<Dim>& x, double d, const std::vector<Point<Dim>>& around) {
-  constexpr double kBalanced = 0.1;  // of what they would be on one side
+  constexpr double kBalanced = 0.1;  // share of the largest possible length of the sum
   Point<Dim> crowd{}, to_nearest{};
   double weights = 0, nearest = std::numeric_limits<double>::infinity();
   for (const Point<Dim>& y : around) {
@@ -57,7 +58,7 @@ Point<Dim> place_away(const Point<Dim>& x, double d, const std::vector<Point<Dim
   return place;
 }
 
-// The centre of the circle through x and two others; none if they lie on a line.
+// Returns the centre of the circle through x and two points, or nothing if all are collinear.
 std::optional<Point<2>> circumcentre(const Point<2>& x, const std::array<Point<2>, 2>& others) {
   const auto& [b, c] = others;
   const double bx = b[0] - x[0], by = b[1] - x[1], cx = c[0] - x[0], cy = c[1] - x[1];
@@ -67,7 +68,7 @@ std::optional<Point<2>> circumcentre(const Point<2>& x, const std::array<Point<2
   return Point<2>{x[0] + (cy * bb - by * cc) / area, x[1] + (bx * cc - cx * bb) / area};
 }
 
-// The centre of the sphere through x and three others; none if they lie in a plane.
+// Returns the centre of the sphere through x and three points, or nothing if all are coplanar.
 std::optional<Point<3>> circumcentre(const Point<3>& x, const std::array<Point<3>, 3>& others) {
   std::array<Point<3>, 3> to;
   std::array<double, 3> square;
@@ -87,7 +88,8 @@ std::optional<Point<3>> circumcentre(const Point<3>& x, const std::array<Point<3
   return centre;
 }
 
-// Calls visit(corners) for all choices of Dim of the first `end` points; `Left` are to be chosen.
+// Calls visit(corners) for every choice of `Left` of the first `end` points. The first Dim - `Left`
+// corners are already chosen.
 template <int Left, int Dim, class Visit>
 void for_choices(const std::vector<Point<Dim>>& points, std::size_t end,
                  std::array<Point<Dim>, Dim>& corners, const Visit& visit) {
@@ -101,9 +103,9 @@ void for_choices(const std::vector<Point<Dim>>& points, std::size_t end,
   }
 }
 
-// The middle of the largest hole beside x: of the circles (spheres) through it and two (three)
-// neighbours that hold none, the one with the largest radius up to d. None if there is a larger
-// one, or there are too few.
+// Returns the centre of the largest hole beside x: of the empty circles (spheres) through x and two
+// (three) neighbours, the one with the largest radius. Returns nothing if that radius exceeds d or
+// if there are too few neighbours.
 template <int Dim>
 std::optional<Point<Dim>> hole_beside(const Point<Dim>& x, double d,
                                       const std::vector<Point<Dim>>& around) {

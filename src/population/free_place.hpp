@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a new bubble comes (section 2.4 of the paper): into the free place beside a sparse one.
+// The position of a new bubble (section 2.4 of the paper): in the largest hole beside a bubble
+// whose overlap ratio is small.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +10,13 @@
 
 namespace pnpbs {
 
-// Beside a bubble at x whose spacing is d, among its neighbours: the middle of the largest hole,
-// or if there is none d away from x on the side away from them.
+// Returns a position for a new bubble beside a bubble at x with spacing d. `around` has the
+// positions of the neighbours. If the largest hole has a radius of at most d, the result is its
+// centre. Otherwise it is the point at distance d from x that lies away from the neighbours.
 template <int Dim>
 Point<Dim> free_place(const Point<Dim>& x, double d, const std::vector<Point<Dim>>& around);
 
-// The same of node i among its listed neighbours.
+// Returns the same position beside node i, whose neighbours are those of its adjacency list.
 template <int Dim>
 Point<Dim> free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i) {
   std::vector<Point<Dim>> around;

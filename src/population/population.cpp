@@ -15,15 +15,16 @@ namespace pnpbs {
 
 namespace {
 
-// In a volume that are 600 nodes, of which one could act at a time while dozens are missing: in
-// space those are rivals whose places are so near that what one does changes the ratios about the
-// other.
+// The distance up to which two candidates are rivals, in spacings. In the plane all candidates
+// within kContestHops hops are rivals. In space as many hops contain 600 nodes, of which only one
+// could act per event while dozens are missing. Rivals in space are therefore only those whose
+// changes affect each other's overlap ratio.
 template <int Dim>
 constexpr double kReach{Dim == 2 ? std::numeric_limits<double>::infinity()
-                                 : method::kContestReachInSpace};  // spacings
+                                 : method::kContestReachInSpace};
 
-// Is there room at `place` among the neighbours of i and theirs? Boundary nodes give no way, so
-// they always need the full gap.
+// Returns whether a bubble at `place` keeps the required distance from node i, its neighbours and
+// theirs. Boundary nodes do not move away, so the distance from them is always at least min_gap.
 template <int Dim>
 bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
               const Point<Dim>& place, double gap, const PopulationRule& rule) {
@@ -35,12 +36,13 @@ bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int
   return leaves_room(i, 0) && for_rings(lists, i, kRoomHops, leaves_room);
 }
 
-// The overlap ratio that a bubble like i would have at `place`, as far as i, its neighbours and
-// theirs tell.
+// Returns the overlap ratio that a bubble with the spacing of node i has at `place`. Only node i,
+// its neighbours and theirs contribute.
 template <int Dim>
 double overlap_ratio_at(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
                         const Point<Dim>& place) {
-  std::vector<std::pair<std::int64_t, double>> overlaps;  // by id, so that the sum has an order
+  // sorted by id, which fixes the order of the sum
+  std::vector<std::pair<std::int64_t, double>> overlaps;
   const auto add = [&](std::int64_t j, int) {
     const double gap = distance<Dim>(nodes.position(j), place);
     overlaps.emplace_back(nodes.id(j), overlap(nodes.d(i), nodes.d(j), gap));
@@ -54,7 +56,7 @@ double overlap_ratio_at(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists
   return sum / (0.5 * nodes.d(i));
 }
 
-// The contest: does no rival of node i bid more?
+// Returns whether node i wins the contest: no rival has a larger bid.
 template <int Dim>
 bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<Bid<Dim>>& bids,
           std::int64_t i) {
@@ -65,7 +67,7 @@ bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<B
   });
 }
 
-// Below this a new bubble may come beside the node.
+// Returns the overlap ratio below which a node bids for an insertion.
 double least_ratio(const PopulationRule& rule, const PopulationThresholds::Pair& threshold) {
   return std::max(rule.insert_below, threshold.insert_below);
 }
@@ -106,8 +108,8 @@ View<Bid<Dim>> bids_of_owned(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& 
       } else if (ratio < least_ratio(rule, threshold)) {
         const double gap = ratio < threshold.insert_below ? rule.min_gap_to_aim : rule.min_gap;
         const Point<Dim> place = free_place(i);
-        // Between boundary nodes that are dense for d a new bubble may be one too many: it would
-        // go at once, and come again.
+        // A bubble between boundary nodes that are dense for d may have too large a ratio. It is
+        // not inserted, because the next event deletes it and the one after inserts it again.
         if (has_room<Dim>(nodes, lists, i, place, gap, rule) && fits(place, nodes.d(i)) &&
             overlap_ratio_at<Dim>(nodes, lists, i, place) <= rule.delete_above)
           bid = {rule.ideal - ratio, nodes.id(i), place, Action::insert};
@@ -120,7 +122,7 @@ View<Bid<Dim>> bids_of_owned(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& 
 
 template <int Dim>
 std::vector<std::int32_t> own_bidders(const Nodes<Dim>& nodes, const View<Bid<Dim>>& bids) {
-  std::vector<std::int32_t> bidders;  // mostly few
+  std::vector<std::int32_t> bidders;
   for (std::int32_t i = 0; i < nodes.count; ++i)
     if (nodes.owned(i) && bids(i).action != Action::none) bidders.push_back(i);
   return bidders;

@@ -11,9 +11,9 @@ namespace pnpbs {
 
 namespace {
 
-// What is counted in an octave of d, in this order: owned bubbles by their overlap ratios; the
-// pairs of touching bubbles, from either end.
-constexpr int kBinsPerUnit = 32;  // of the overlap ratio
+// Counts per octave of d: first a histogram of the overlap ratios of owned bubbles, then the number
+// of pairs of touching bubbles. A pair counts once for each of its bubbles.
+constexpr int kBinsPerUnit = 32;  // histogram bins per unit of the overlap ratio
 template <int Dim>
 constexpr int kBins{kBinsPerUnit * Lattice<Dim>::kOverlapEnd};
 template <int Dim>
@@ -21,9 +21,11 @@ constexpr int kPairs = kBins<Dim>;
 template <int Dim>
 constexpr int kCounts = kBins<Dim> + 1;
 
+// Counts of all octaves of d, to be summed over threads and ranks.
 struct OctaveCounts {
-  std::vector<std::int64_t> values;      // kCounts per octave
-  std::vector<FixedPointSum> distances;  // of the pairs of each octave
+  std::vector<std::int64_t> values;  // kCounts<Dim> numbers per octave
+  // per octave: sum of the distances of touching pairs, in desired distances
+  std::vector<FixedPointSum> distances;
 
   void add(const OctaveCounts& other) {
     for (std::size_t k = 0; k < values.size(); ++k) values[k] += other.values[k];
@@ -33,8 +35,8 @@ struct OctaveCounts {
 
 int octave_of(double d) { return std::ilogb(d); }
 
-// A bubble that is squeezed between boundary nodes, which are where they must be, tells nothing of
-// the density.
+// Returns whether a bubble is squeezed against boundary nodes. Boundary nodes do not move, so the
+// ratio of such a bubble says nothing about the density.
 template <int Dim>
 bool is_squeezed(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double ratio,
                  const PopulationRule& rule, std::int64_t i) {
@@ -59,7 +61,7 @@ void count_node(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double
   });
 }
 
-// From the least ratio up, or from the largest down, the bins of so many bubbles.
+// Returns the number of bins, beginning with bin(0), that together hold at most `bubbles` bubbles.
 template <int Dim, class Bin>
 int bins_of(double bubbles, const Bin& bin) {
   double sum = 0;
@@ -78,7 +80,7 @@ PopulationThresholds::Pair thresholds_of_octave(const std::int64_t* counts,
   for (int k = 0; k < kBins<Dim>; ++k) bubbles += static_cast<double>(counts[k]);
   const double mean = distances.value() / static_cast<double>(counts[kPairs<Dim>]);
   if (std::fabs(mean - rule.mean_distance) <= tolerance) return pair;
-  // A bubble's share of the domain goes with the square (cube) of the distance.
+  // The area (volume) per bubble is proportional to the square (cube) of the distance.
   const double t = mean / rule.mean_distance,
                missing = bubbles * ((rule.dimension == 2 ? power<2>(t) : power<3>(t)) - 1);
   const int act = bins_of<Dim>(std::fabs(missing), [&](int k) {

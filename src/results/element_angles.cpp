@@ -14,7 +14,8 @@ namespace pnpbs {
 
 namespace {
 
-// By memory index, ghosts too, which may be corners: is the node less than d from a sharp edge?
+// Returns, by memory index and for ghosts as well, whether a node is less than d from a sharp edge.
+// Ghosts can be corners of elements.
 std::vector<char> nodes_at_sharp_edges(const Level<3>& level, const SharpEdges& edges) {
   const Nodes<3>& nodes = level.nodes;
   std::vector<char> at_edge(static_cast<std::size_t>(nodes.count));
@@ -36,8 +37,9 @@ bool any_of(const std::vector<char>& nodes, const std::array<std::int64_t, 4>& c
 
 std::array<Point<3>, 4> positions(const Tetrahedron& t) { return {t[0].x, t[1].x, t[2].x, t[3].x}; }
 
-// In degrees: below that it is asked whether an element is in a thin wall, where angles are at most
-// that of a wall of kThinWall d, tan^-1(0.25 / 0.87) = 16.
+// The largest dihedral angle of elements that connect the sides of a wall of kThinWall d:
+// tan^-1(0.25 / 0.87) = 16. Only smaller angles require the test for a thin wall. [degrees]
+// geometry.
 constexpr double kLeastInBulk = 16;
 
 bool is_in_thin_wall(const Level<3>& level, const Tetrahedron& t) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In which region of the domain elements lie.
+// The regions of the domain in which elements lie.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,11 @@
 
 namespace pnpbs {
 
+// Finds the region of an element or a node. Tags of nodes are stored once they are computed.
 template <int Dim>
 class ElementRegions {
  public:
-  // Of elements as they come from results.for_elements.
+  // Prepares for the elements of results.for_elements().
   explicit ElementRegions(const Results<Dim>& results)
       : results_(results),
         regions_(results.has_nodes() ? results.level().geometry.domain().regions() : nullptr) {
@@ -23,9 +24,10 @@ class ElementRegions {
 
   bool any() const { return regions_ != nullptr; }
 
-  // The tag of its region, 0 if that has none. Elements end at the facets of regions, so it is that
-  // of any of its corners that is on none of them: of the one with the least id. If all are, that
-  // of its middle.
+  // Returns the tag of the region of an element, or 0 without one. `places` are the result indices
+  // of its corners. Elements end at the facets of regions, so their tag is that of any corner that
+  // lies on no facet; the one with the smallest id is used. If all corners lie on facets, it is the
+  // tag at the centroid.
   std::int32_t operator()(const std::array<std::int64_t, Dim + 1>& places) {
     if (!regions_) return 0;
     std::array<std::int64_t, Dim + 1> nodes;
@@ -39,7 +41,7 @@ class ElementRegions {
     return regions_->tag_at(middle);
   }
 
-  // The same of a node, by its place alone. If there are any.
+  // Returns the tag of the region that contains node i, by its position. Requires any().
   std::int32_t at_node(std::int64_t i) {
     std::int64_t& known = of_node_[static_cast<std::size_t>(i)];
     if (known == kUnknown) known = regions_->tag_at(all().position(i));
@@ -47,7 +49,7 @@ class ElementRegions {
   }
 
  private:
-  static constexpr std::int64_t kUnknown = std::int64_t{1} << 40;  // is no tag
+  static constexpr std::int64_t kUnknown = std::int64_t{1} << 40;  // no tag has this value
 
   const Nodes<Dim>& all() const { return results_.level().nodes; }
 

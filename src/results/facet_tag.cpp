@@ -10,7 +10,8 @@ namespace pnpbs {
 
 namespace {
 
-// None of a free node, which is on the outside where triangles of the surface are missing.
+// Returns the patches that meet at node i. There are none at a free node, which can be on the
+// boundary of the tetrahedra where triangles of the surface are missing.
 std::vector<std::int32_t> patches_at(const Level<3>& level, std::int64_t i) {
   std::vector<std::int32_t> patches;
   if (level.nodes.carrier(i) == Carrier::free) return patches;
@@ -20,7 +21,7 @@ std::vector<std::int32_t> patches_at(const Level<3>& level, std::int64_t i) {
   return patches;
 }
 
-// Those of the first, once each, that the others have as well.
+// Returns the patches that all three nodes lie on, without repetition.
 std::vector<std::int32_t> common_patches(const Level<3>& level,
                                          const std::array<std::int64_t, 3>& nodes) {
   std::vector<std::int32_t> common = patches_at(level, nodes[0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tag of a triangle of the tetrahedra's boundary: that of the surface there.
+// The tag of a boundary facet of the tetrahedra, which is that of the surface it represents.
 #pragma once
 
 #include <array>
@@ -9,9 +9,10 @@
 
 namespace pnpbs {
 
-// nodes: the triangle's, counter-clockwise as seen from outside, that of the least id first. If one
-// lies inside of a surface, it knows; if all are on its features, the patches tell that they have
-// in common. The same on every rank that has the nodes.
+// Returns the tag of a triangle. `nodes` are its corners, counter-clockwise as seen from outside,
+// the one with the smallest id first. If a corner lies inside a surface, its tag is used; if all
+// lie on features, the patches that they have in common decide. The result is the same on every
+// rank that has the nodes.
 std::int32_t facet_tag(const Level<3>& level, const std::array<std::int64_t, 3>& nodes);
 
 }  // namespace pnpbs

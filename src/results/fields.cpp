@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that a solver has at nodes: brought to ghosts and back, and summed.
+// Fields of values that a solver has at nodes: their ghost updates, and sums over all ranks.
 #include <algorithm>
 #include <exception>
 #include <mutex>
@@ -26,8 +26,8 @@ void require_values(const double* values, std::int64_t n, const char* argument) 
     throw Error(ErrorKind::argument, std::string("argument ") + argument + " is NULL");
 }
 
-// Does this rank's part of a collective call, and compares a number on the way: in the one
-// reduction in which the ranks agree on failures.
+// Runs this rank's part of a collective call and checks that `number` is the same on all ranks. One
+// reduction serves both the check and the agreement on failures.
 template <class Work>
 void agreed_with_same(const Communicator& comm, std::int64_t number, const char* argument,
                       const Work& work) {
@@ -39,8 +39,8 @@ void agreed_with_same(const Communicator& comm, std::int64_t number, const char*
                                          " here; all ranks must give the same");
 }
 
-// Of one component, the products of the values of two fields, or the values if there is no other;
-// the entries are the sum's.
+// Sums one component of a field, or of the products of two fields if y is not null. Writes the
+// entries of an ExactSum.
 void sum_component(std::int64_t n, std::int64_t components, const double* x, const double* y,
                    std::int64_t* entries) {
   constexpr std::int64_t kChunk = 1 << 13;
@@ -61,7 +61,7 @@ void sum_component(std::int64_t n, std::int64_t components, const double* x, con
 
 }  // namespace
 
-// Once the ranks have agreed, nothing can fail before the messages are on their way.
+// After the ranks have agreed, nothing can fail before the messages are posted.
 void NodalResults::begin_ghost_update(std::int64_t n, std::int64_t components,
                                       const double* values) {
   agreed_with_same(*comm_, components, "components", [&] {
@@ -95,7 +95,7 @@ void NodalResults::end_ghost_update(std::int64_t n, std::int64_t components, dou
   ghost_update_.unpack(values);
 }
 
-// Once the ranks have agreed, nothing can fail before the messages have come.
+// After the ranks have agreed, nothing can fail before the messages are received.
 void NodalResults::add_from_ghosts(std::int64_t n, std::int64_t components, double* values) {
   agreed_with_same(*comm_, components, "components", [&] {
     const auto pattern = exchange_pattern();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values at the nodes of a rank, and behind them those at its ghosts.
+// Values at the nodes of a rank, followed by those at its ghosts.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace pnpbs {
 
-// [places][components], of which the owned ones are given. Collective.
+// Returns `values`, an array [owned nodes][components], extended by the values of the ghosts. All
+// ranks must call it, and if one rank throws, all ranks throw.
 inline std::vector<double> with_ghosts(NodalResults& results, std::int64_t components,
                                        const double* values) {
   const Communicator& comm = results.communicator();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The elements that touch a rank's own nodes, whoever else has them, too: what a solver needs to
-// assemble the rows of these nodes by itself.
+// The elements that touch a rank's owned nodes, even if other ranks have them as well. A solver
+// needs them to assemble the rows of these nodes without communication.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace pnpbs {
 
 namespace incident {
 
-// Calls visit(other corners) for the elements around node i.
+// Calls visit(other corners) for the elements around node i, by memory indices.
 template <std::size_t Corners, int Dim, class Visit>
 void for_elements_around(const Results<Dim>& results, std::int64_t i, const Visit& visit) {
   if constexpr (Corners == Dim + 1)
@@ -23,8 +23,8 @@ void for_elements_around(const Results<Dim>& results, std::int64_t i, const Visi
     results.level().stars.for_triangles(i, visit);
 }
 
-// Calls visit(places of the corners) for each element once: at its first own node. They turn as the
-// elements of the stars do.
+// Calls visit(result indices of the corners) for each element once, at its owned node with the
+// smallest result index. The orientation is that of the stars.
 template <std::size_t Corners, int Dim, class Visit>
 void for_each_element(const Results<Dim>& results, const Visit& visit) {
   const std::int64_t owned = results.count();
@@ -33,14 +33,15 @@ void for_each_element(const Results<Dim>& results, const Visit& visit) {
       std::array<std::int64_t, Corners> places{place};
       for (std::size_t k = 0; k + 1 < Corners; ++k) {
         places[k + 1] = results.place_of(others[k]);
-        if (places[k + 1] < place) return;  // ghosts have greater places than own nodes
+        if (places[k + 1] < place) return;  // ghosts have larger result indices than owned nodes
       }
       visit(places);
     });
 }
 
-// The node with the least id comes first, of the others in space the one with the least id second;
-// what is left is a matter of orientation.
+// Permutes the corners so that the node with the smallest id is first and, in space, the one with
+// the smallest id of the others second. The orientation does not change, which fixes the remaining
+// order.
 template <std::size_t Corners, class Id>
 void bring_least_id_first(std::array<std::int64_t, Corners>& places, const Id& id) {
   const auto less = [&](std::int64_t a, std::int64_t b) { return id(a) < id(b); };
@@ -48,7 +49,7 @@ void bring_least_id_first(std::array<std::int64_t, Corners>& places, const Id& i
   if constexpr (Corners == 3) {
     std::rotate(places.begin(), places.begin() + least, places.end());
   } else {
-    // Two swaps keep the orientation.
+    // An even number of swaps keeps the orientation.
     if (least != 0) {
       std::swap(places[0], places[static_cast<std::size_t>(least)]);
       const std::size_t one = least == 1 ? 2 : 1, two = least == 3 ? 2 : 3;
@@ -61,8 +62,8 @@ void bring_least_id_first(std::array<std::int64_t, Corners>& places, const Id& i
 
 }  // namespace incident
 
-// Corners: those of an element of the placement, Dim + 1, or 3 on surfaces alone. After
-// prepare_stars.
+// Returns the number of elements that touch owned nodes. Corners is Dim + 1, or 3 for surfaces
+// without a body. Requires prepare_stars().
 template <std::size_t Corners, int Dim>
 std::int64_t count_incident_elements(const Results<Dim>& results) {
   std::int64_t count = 0;
@@ -70,8 +71,8 @@ std::int64_t count_incident_elements(const Results<Dim>& results) {
   return count;
 }
 
-// Places of their corners, in the order of the corners' ids: any two ranks have those that both
-// have in the same order, with the same first corner.
+// Returns the result indices of their corners, sorted by the ids of the corners. Any two ranks have
+// their common elements in the same order and with the same first corner.
 template <std::size_t Corners, int Dim>
 std::vector<std::array<std::int64_t, Corners>> incident_elements(const Results<Dim>& results) {
   const NodeArray<std::int64_t>& ids = results.level().nodes.id;

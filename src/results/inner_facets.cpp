@@ -72,8 +72,8 @@ bool InnerFacets::on_patch(std::int64_t i, std::int32_t patch) const {
   return there;
 }
 
-// The first of the inner surfaces' facets that the way crosses, if it crosses them an odd number of
-// times; else -1.
+// Returns the first facet of the inner surfaces that the segment crosses if it crosses an odd
+// number of them, and -1 otherwise.
 std::int32_t InnerFacets::crossed_facet(const Point<3>& from, const Point<3>& to) {
   const FacetIndex<3>& sides = level_.geometry.domain().index().sides();
   const Point<3> middle = middle_of<3>(from, to);
@@ -83,7 +83,7 @@ std::int32_t InnerFacets::crossed_facet(const Point<3>& from, const Point<3>& to
     if (is_inner_triangle(sides.facet(f)) && crosses(from, to, sides.corners(f)))
       crossed_.push_back(f);
   });
-  std::ranges::sort(crossed_);  // a facet may come more than once
+  std::ranges::sort(crossed_);  // the index may report a facet more than once
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
   return crossed_.size() % 2 == 1 ? crossed_.front() : -1;
 }

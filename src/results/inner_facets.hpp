@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which faces between tetrahedra stand for the surfaces inside of a body.
+// The faces between tetrahedra that represent the surfaces inside a body.
 #pragma once
 
 #include <array>
@@ -10,35 +10,37 @@
 
 namespace pnpbs {
 
+// A face that represents an inner surface.
 struct InnerFacet {
-  std::array<std::int64_t, 3> nodes;  // that of the least id first; they turn as the surface does
-  std::int32_t tag;                   // of the surface there
+  // The one with the smallest id first; oriented like the surface.
+  std::array<std::int64_t, 3> nodes;
+  std::int32_t tag;  // of the surface
 };
 
-// Finds them around one node after the other: the faces whose three nodes lie on one inner surface
-// and whose tetrahedra lie on two sides of it, so that the way between their centroids crosses it.
-// Around an edge of these faces ways go round in a ring, which crosses a surface without a border
-// there an even number of times: the triangles leave no gap.
-//
+// Finds such faces around single nodes. A face represents an inner surface if its three nodes lie
+// on the surface and its two tetrahedra lie on different sides of it, so that the segment between
+// their centroids crosses it. The segments around an edge of these faces form a ring, which crosses
+// a surface without a border an even number of times. Therefore the faces leave no gap.
 // The restricted Delaunay triangulation (H. Edelsbrunner, N. R. Shah, Int. J. Comput. Geom. Appl. 7
-// (1997) 365-378) asks for the way between circumcentres. For tetrahedra that have their fourth
-// node off the surface that is the same; of flat ones, whose four nodes lie on it, circumcentres
-// are anywhere.
+// (1997) 365-378) uses the segment between circumcentres instead. The two agree for tetrahedra with
+// their fourth node off the surface. If all four nodes lie on it, the tetrahedron is flat and its
+// circumcentre can be anywhere.
 class InnerFacets {
  public:
   explicit InnerFacets(const Level<3>& level);
 
-  // Is there a surface inside?
+  // Returns whether the body has inner surfaces.
   bool any() const { return any_; }
-  // Those of which node i is the one with the least id: the same on every rank that has its star.
+  // Returns the faces whose node with the smallest id is node i. They are the same on every rank
+  // that has the star of node i. The reference is valid until the next call.
   const std::vector<InnerFacet>& at(std::int64_t i);
 
  private:
-  // A face of node i and one of the tetrahedra that have it.
+  // A face of node i together with one of its two tetrahedra.
   struct Face {
-    std::array<std::int64_t, 2> ids;    // of the other two nodes, ascending
-    std::array<std::int64_t, 3> nodes;  // in the order of their ids
-    std::int64_t apex;                  // the tetrahedron's fourth node, by its id
+    std::array<std::int64_t, 2> ids;    // ids of the other two nodes, ascending
+    std::array<std::int64_t, 3> nodes;  // memory indices, in the order of ids
+    std::int64_t apex;                  // id of the fourth node of the tetrahedron
     Point<3> centroid;
   };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes as they are handed out, figures of them, and fields of values at them: what is the same in
-// any dimension. Results<Dim> is the rest of it.
+// Results that do not depend on the dimension: the nodes in the order of results, figures, and
+// fields of values. Results<Dim> has the rest.
 #pragma once
 
 #include <array>
@@ -21,17 +21,17 @@
 
 namespace pnpbs {
 
-// The nodes of a rank, as they lie in memory.
+// The attributes of the nodes of a rank, in the order of memory.
 struct NodeColumns {
   std::int64_t count = 0;
-  std::array<View<const double>, 3> x;  // as many as there are coordinates
+  std::array<View<const double>, 3> x;  // of these, coordinates() are set
   View<const double> d;
   View<const std::int64_t> id;
   View<const std::int32_t> tag;
   View<const char> owned;
 };
 
-// Of the level there is, on this rank.
+// Figures of the present level on this rank.
 struct LevelFigures {
   std::int64_t neighbour_ranks = 0;
   std::int64_t exchange_bytes = 0;
@@ -40,10 +40,13 @@ struct LevelFigures {
   std::int64_t left_out = 0;
 };
 
+// Statistics of the nearest-neighbour distance over d.
 struct NearestNeighbourError {
-  double mean = 0, deviation = 0, min = 0;  // of nearest-neighbour distance over d
+  double mean = 0, deviation = 0, min = 0;
 };
 
+// The results of a level that any dimension has. Results have an order of their own: a *result
+// index* numbers the owned nodes by id, and then the ghosts by id.
 class NodalResults {
  public:
   explicit NodalResults(std::shared_ptr<const Communicator> comm) : comm_(std::move(comm)) {}
@@ -51,45 +54,49 @@ class NodalResults {
   NodalResults(const NodalResults&) = delete;
   NodalResults& operator=(const NodalResults&) = delete;
 
-  // Of what the nodes fill; a sphere is filled like the plane.
+  // Returns the dimension of what the nodes fill. It is 2 on a sphere.
   virtual int dimension() const = 0;
-  virtual int coordinates() const = 0;  // of a node, as they are handed out
+  virtual int coordinates() const = 0;  // number of coordinates of a returned node
   virtual GeometryKind kind() const = 0;
   virtual double sphere_radius() const = 0;  // 0 if the domain is not on a sphere
   const Communicator& communicator() const { return *comm_; }
   const std::shared_ptr<const Communicator>& ranks() const { return comm_; }
 
-  // --- nodes, handed out in the order of their ids ---
+  // --- nodes, in the order of results ---
   virtual bool has_nodes() const = 0;
-  virtual std::int64_t count() const = 0;  // of this rank
+  virtual std::int64_t count() const = 0;  // number of owned nodes
   std::int64_t global_count() const;       // collective
-  virtual std::int64_t held() const = 0;   // on this rank, ghosts among them
-  virtual NodeColumns nodes() const = 0;   // as they lie in memory, all that are held
-  // Memory index of each node in the order of ids, and the inverse. Preparing the lists (at their
-  // extraction radius) or the stars prepares the order, too. The order alone changes nothing of
-  // the level and may be asked for from a callback.
+  virtual std::int64_t held() const = 0;   // number of nodes on this rank, including ghosts
+  virtual NodeColumns nodes() const = 0;   // all nodes on this rank, in the order of memory
+  // Prepare the order of results, the adjacency lists (with the radius for extraction) or the
+  // stars. Each of the latter two also prepares the order. The order does not change the level, so
+  // a callback may request it. The other two are collective; if one rank throws, all ranks throw.
   virtual void prepare_order() = 0;
   virtual void prepare_lists() = 0;
   virtual void prepare_stars() = 0;
-  // After a call that has failed on all ranks: if some have derived from the nodes what others have
-  // not, such as lists, all forget it, so that they agree when it is requested again. Collective.
+  // Restores agreement after a call that has failed on all ranks: if some ranks have derived data,
+  // such as lists, that others lack, all ranks release the derived data. Collective.
   virtual void agree_on_derived() noexcept = 0;
+  // Convert a result index to a memory index, and back. Require prepare_order().
   std::int64_t node_at(std::int64_t place) const { return by_id_[static_cast<std::size_t>(place)]; }
   std::int64_t place_of(std::int64_t node) const { return place_[static_cast<std::size_t>(node)]; }
-  // In places; the same object until nodes move or lists are made. Collective.
+  // Returns the pattern of the ghost exchange, in result indices. It is the same object until nodes
+  // move or lists are rebuilt. All ranks must call it, and if one rank throws, all ranks throw.
   virtual std::shared_ptr<const ExchangePattern> exchange_pattern() = 0;
   std::int64_t nodes_on_ranks_before() const;
 
-  // --- fields: values at nodes, [places][components], owned nodes first, then ghosts ---
-  // Starts to bring the values of owned nodes to their ghosts. n: places there are values for.
-  // Collective, and agreed.
+  // --- fields: arrays [result index][components], ghosts included ---
+  // Starts to send the values of owned nodes to their ghosts. n must be held(). All ranks must call
+  // it, and if one rank throws, all ranks throw.
   void begin_ghost_update(std::int64_t n, std::int64_t components, const double* values);
-  // Waits for what the other ranks have started to send, and fills the ghosts. Local.
+  // Waits for the values that other ranks have sent, and stores them at the ghosts. Local.
   void end_ghost_update(std::int64_t n, std::int64_t components, double* values);
-  // Adds the values of ghosts to those of the nodes they stand for. Collective, and agreed.
+  // Adds the values of ghosts to those of the nodes that they copy. All ranks must call it, and if
+  // one rank throws, all ranks throw.
   void add_from_ghosts(std::int64_t n, std::int64_t components, double* values);
-  // Over the owned nodes of all ranks, of each component by itself: the exact sum of the values, or
-  // of the products of two fields, rounded once. Collective, and agreed.
+  // Computes for each component the exact sum, over the owned nodes of all ranks, of the values or
+  // of the products of two fields, and rounds it once. All ranks must call them, and if one rank
+  // throws, all ranks throw.
   void sum(std::int64_t n, std::int64_t components, const double* values, double* sums);
   void dot(std::int64_t n, std::int64_t components, const double* x, const double* y,
            double* products);
@@ -97,34 +104,35 @@ class NodalResults {
   // --- figures ---
   virtual LevelFigures level_figures() const = 0;
   virtual Speeds speeds() const = 0;
-  virtual std::int64_t boundary_nodes() const = 0;  // of all ranks; collective
+  virtual std::int64_t boundary_nodes() const = 0;  // on all ranks; collective
   virtual double imbalance() const = 0;             // collective
   virtual NearestNeighbourError spacing_error() = 0;
-  // Of the simplices of the stars, and their edges. Collective.
+  // Returns the quality of the elements of the stars and of their edges. All ranks must call it,
+  // and if one rank throws, all ranks throw.
   virtual const ElementQuality& element_quality() = 0;
   virtual std::uint64_t hash() const = 0;
 
  protected:
-  // Of the level there is.
+  // Returns the stamp of the present level.
   virtual LevelStamp stamp() const = 0;
 
   std::shared_ptr<const Communicator> comm_;
-  // For which these were prepared last.
+  // The stamps for which each kind of data was prepared last.
   LevelStamp order_stamp_, lists_stamp_, stars_stamp_, quality_stamp_, exchange_stamp_;
   std::vector<std::int32_t> by_id_, place_;
-  std::int64_t owned_in_order_ = 0;  // of by_id_, the first ones
+  std::int64_t owned_in_order_ = 0;  // number of owned nodes at the beginning of by_id_
   std::shared_ptr<const ExchangePattern> exchange_pattern_;
   ElementQuality quality_;
 
  private:
-  void require_places(std::int64_t n) const;  // of all nodes and ghosts
-  void require_owned(std::int64_t n) const;   // of all nodes at least
+  void require_places(std::int64_t n) const;  // throws unless n is held()
+  void require_owned(std::int64_t n) const;   // throws unless n is at least count()
   void gather_terms(std::int64_t components, const double* x, const double* y);
   void finish_sums(double* sums);
 
   GhostUpdate ghost_update_;
   GhostSum ghost_sum_;
-  std::vector<std::int64_t> sum_entries_;  // of the sums in progress, on their way over the ranks
+  std::vector<std::int64_t> sum_entries_;  // of the sums in progress
 };
 
 }  // namespace pnpbs

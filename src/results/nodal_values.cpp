@@ -12,14 +12,15 @@ namespace pnpbs {
 
 namespace {
 
-// Calls visit(places, behind) for the facets of stars beside a gap, each at the owner of its node
-// with the least id; behind: the place of the other corner of its simplex, or -1.
+// Calls visit(result indices, behind) for each facet of a star that borders a gap, at the owner of
+// its node with the smallest id. `behind` is the result index of the fourth (in the plane: third)
+// corner of its simplex, or -1.
 template <class Visit>
 void for_rim_facets(const Results<2>& results, const Visit& visit) {
   const Level<2>& level = results.level();
   const Nodes<2>& nodes = level.nodes;
   std::vector<std::pair<std::int64_t, bool>> star;
-  const std::int64_t owned = results.count();  // which counts
+  const std::int64_t owned = results.count();
   for (std::int64_t p = 0; p < owned; ++p) {
     const std::int64_t i = results.node_at(p);
     star.clear();
@@ -58,7 +59,8 @@ void for_rim_facets(const Results<3>& results, const Visit& visit) {
   });
 }
 
-// Those of the values.
+// Prepares the stars for values that are given in the present order of results. Throws if this
+// changes the owned nodes. All ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 void prepare_same_stars(Results<Dim>& results) {
   const auto ids = [&] {
@@ -105,7 +107,8 @@ void add_rim(const Results<Dim>& results, Patch<Dim, In>& patch) {
   });
 }
 
-// The triangle that closes a whole sphere is no part of the chart: it is a border.
+// Adds the triangle that closes a whole sphere as three border edges, because it is not part of the
+// chart. Returns false for other elements.
 template <class Row>
 bool add_what_closes(const Results<2>& results, const std::array<std::int64_t, 3>& places,
                      const Row& row, Patch<2>& patch) {

@@ -12,7 +12,7 @@ namespace pnpbs {
 namespace {
 
 Point<3> mean_of(const Point<3>& sum) {
-  constexpr double kAgainst = 1e-6;  // the length of what is left of unit vectors that cancel
+  constexpr double kAgainst = 1e-6;  // unit vectors whose sum is shorter cancel each other
   return length(sum) > kAgainst ? unit_vector(sum) : Point<3>{};
 }
 
@@ -25,12 +25,14 @@ Point<3> normal_of_facets(const Level<3>& level, std::int64_t i) {
   return mean_of(sum);
 }
 
-// The gradient as the facets look: a level set may bound a cavity.
+// Returns the gradient, reversed if it points against the normal of the facets: a level set may
+// bound a cavity.
 Point<3> as_seen(const Point<3>& gradient, const Point<3>& facets) {
   return dot(gradient, facets) < 0 ? shifted({}, -1, gradient) : gradient;
 }
 
-// Where a facet and those around it look: by area, so that thin ones do not count.
+// Returns the sum of the area vectors of a facet and its neighbours. The weights make the influence
+// of thin facets small.
 Point<3> area_around(const Surface& surface, std::int32_t facet) {
   Point<3> sum{};
   const auto add = [&](std::int32_t f) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the surfaces look at a node.
+// The normals of the surfaces at nodes.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace pnpbs {
 
-// Unit: of the facet that each of these nodes lies on, or the mean of those on the sides of its
-// feature; 0 where there is no surface, or where these look against each other. On level sets, but
-// for their corners, the gradient of f counts.
+// Returns a unit normal for each of these nodes: that of the facet it lies on, or the mean over the
+// sides of its feature. It is 0 if the node lies on no surface or if the normals of the sides
+// cancel. On level sets it is the gradient of f, except at their corners.
 std::vector<Point<3>> node_normals(const Level<3>& level, std::span<const std::int64_t> nodes);
 
 }  // namespace pnpbs

@@ -12,9 +12,9 @@
 
 namespace pnpbs {
 
-// Calls visit(element, corners) for the elements whose node with the least id is this owned one:
-// the nodes at the corners in the order of ids, so that the bits of what is computed of it do not
-// depend on ranks, and the corners' memory indices. From the stars there are.
+// Calls visit(element, corners) for the elements whose node with the smallest id is the owned node
+// i. The nodes of `element` are in the order of ids, so that values computed from it have the same
+// bits on any number of ranks. `corners` are memory indices. Uses the present stars.
 template <class Visit>
 void for_own_elements_at(const Level<3>& level, std::int64_t i, const Visit& visit) {
   const Nodes<3>& nodes = level.nodes;
@@ -26,7 +26,8 @@ void for_own_elements_at(const Level<3>& level, std::int64_t i, const Visit& vis
   });
 }
 
-// The same for those of all nodes for which holds(element, corners); all threads look for them.
+// Calls visit(element, corners) for the elements of all owned nodes for which holds(element,
+// corners) returns true. All threads search, and one thread calls visit.
 template <class Holds, class Visit>
 void for_own_elements_where(const char* label, const Level<3>& level, const Holds& holds,
                             const Visit& visit) {

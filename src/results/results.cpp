@@ -20,11 +20,11 @@ namespace pnpbs {
 
 namespace {
 
-// The nodes that are owned, or those that are not, in the order of their ids. These are nearly
-// dense where a rank has them all; then no sort is needed.
+// Appends the owned nodes, or the ghosts, in the order of ids. Where a rank has nearly all nodes
+// the ids are nearly dense, and no sort is needed.
 template <int Dim>
 void append_by_id(const Nodes<Dim>& nodes, bool owned, std::vector<std::int32_t>& order) {
-  constexpr std::int64_t kDense = 4;  // ids to a node
+  constexpr std::int64_t kDense = 4;  // ids per node up to which no sort is done
   const auto first = static_cast<std::ptrdiff_t>(order.size());
   std::int64_t min = std::numeric_limits<std::int64_t>::max(), max = -1;
   for (std::int32_t i = 0; i < nodes.count; ++i) {
@@ -40,7 +40,7 @@ void append_by_id(const Nodes<Dim>& nodes, bool owned, std::vector<std::int32_t>
     std::vector<std::int32_t> node_of(static_cast<std::size_t>(max - min + 1), -1);
     for (auto i = begin; i != order.end(); ++i) {
       std::int32_t& node = node_of[static_cast<std::size_t>(nodes.id(*i) - min)];
-      sort = sort || node >= 0;  // two ranks were given the same id
+      sort = sort || node >= 0;  // two ranks assigned the same id
       node = *i;
     }
     if (!sort)
@@ -73,7 +73,6 @@ template <int Dim>
 void Results<Dim>::prepare_order() {
   require_nodes();
   if (order_stamp_ == level_->stamp()) return;
-  // Owned nodes first, then ghosts, each by id.
   const Nodes<Dim>& nodes = level_->nodes;
   by_id_.clear();
   by_id_.reserve(static_cast<std::size_t>(nodes.count));
@@ -122,7 +121,7 @@ void Results<Dim>::agree_on_derived() noexcept {
   bool agreed = false;
   try {
     agreed = comm_->same_on_all(derived);
-  } catch (...) {  // ranks cannot tell each other any more
+  } catch (...) {  // the ranks can no longer communicate
   }
   if (!agreed) level_->forget_derived();
 }
@@ -133,7 +132,7 @@ std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
   if (level_->distributed())
     prepare_lists();
   else
-    prepare_order();  // no ghosts
+    prepare_order();  // a single rank has no ghosts
   if (exchange_stamp_ == level_->stamp()) return exchange_pattern_;
   const Nodes<Dim>& nodes = level_->nodes;
   const std::int64_t owned = count();
@@ -216,7 +215,7 @@ NearestNeighbourError Results<Dim>::spacing_error() {
   const Nodes<Dim>& nodes = level_->nodes;
   const MeasuredNodes<Dim> measured{nodes, embedding()};
   const AdjacencyList<Dim>& lists = level_->lists();
-  // Nodes with no listed neighbour count as far as the lists reach.
+  // Nodes without listed neighbours count with the radius of the lists.
   View<double> ratio;
   collective_try(*comm_,
                  [&] { ratio = make_view<double>("pnpbs::spacing_error::ratio", nodes.count); });

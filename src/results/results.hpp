@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a level of a placement tells: its nodes in the order of their ids, lists, stars, elements,
-// facets and figures. They are prepared on request and kept until its nodes move.
+// The results of a level: its nodes in the order of results, lists, stars, elements, facets and
+// figures. They are prepared on request and kept until the nodes move.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,15 @@
 
 namespace pnpbs {
 
+// Results in the plane or in space. Calls with `visit` use result indices.
 template <int Dim>
 class Results : public NodalResults {
  public:
-  // Of none yet.
+  // Creates results without a level.
   Results(std::shared_ptr<const Communicator> comm, std::shared_ptr<const Domain<Dim>> domain)
       : NodalResults(std::move(comm)), domain_(std::move(domain)) {}
 
-  // From now on of this level, or of none.
+  // Installs `level`, or no level if it is null. The level must outlive its use here.
   void show(Level<Dim>* level) { level_ = level; }
   Level<Dim>* shown() const { return level_; }
 
@@ -36,9 +37,9 @@ class Results : public NodalResults {
   double sphere_radius() const override { return embedding().radius(); }
   bool has_nodes() const override { return level_ != nullptr; }
   const Level<Dim>& level() const { return *level_; }
-  // The user's, who may have changed it since.
+  // The user's domain. The user may have changed it since the level was built.
   const Domain<Dim>& domain() const { return *domain_; }
-  // Counts them, unless the order of nodes has.
+  // Counts the owned nodes, unless the order of results is prepared.
   std::int64_t count() const override;
   std::int64_t held() const override { return level_ ? level_->nodes.count : 0; }
   NodeColumns nodes() const override;
@@ -46,41 +47,43 @@ class Results : public NodalResults {
   void prepare_lists() override;
   void prepare_stars() override;
   void agree_on_derived() noexcept override;
-  // Calls visit(places of its corners) for every element, a triangle or a tetrahedron, once, over
-  // all ranks: at the owner of its node with the least id, which comes first. After prepare_stars.
+  // Calls visit(corners) for every element, a triangle or a tetrahedron, once over all ranks: at
+  // the owner of its node with the smallest id, which is the first corner. Requires
+  // prepare_stars().
   template <class Visit>
   void for_elements(const Visit& visit) const {
     for_elements(0, count(), visit);
   }
-  // Only those whose first node has a place from begin up to end, by that place.
+  // Visits only the elements whose first corner has a result index in [begin, end), in its order.
   template <class Visit>
   void for_elements(std::int64_t begin, std::int64_t end, const Visit& visit) const;
-  // Calls visit(places of its nodes, tag) for every facet of the boundary once, over all ranks. In
-  // the plane an edge comes at the owner of the node it begins with, after prepare_order; in space
-  // it is the open facets, after prepare_stars.
+  // Calls visit(corners, tag) for every facet of the boundary once over all ranks. In the plane,
+  // the owner of its first node visits an edge; this requires prepare_order(). In space, these are
+  // the open facets; this requires prepare_stars().
   template <class Visit>
   void for_boundary_facets(const Visit& visit) const;
   template <class Visit>
   void for_boundary_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
       requires(Dim == 3);
-  // The same in the plane as visit(places of its nodes, edge).
+  // Calls visit(ends, edge) for the boundary edges in the plane.
   template <class Visit>
   void for_boundary_edges(const Visit& visit) const requires(Dim == 2);
-  // Calls visit(places) for every face of only one tetrahedron, once, over all ranks: at the owner
-  // of its node with the least id, which comes first; so that from outside they turn
-  // counter-clockwise. After prepare_stars.
+  // Calls visit(corners) for every face that belongs to only one tetrahedron, once over all ranks:
+  // at the owner of its node with the smallest id, which is the first corner. The order of the
+  // corners is counter-clockwise as seen from outside. Requires prepare_stars().
   template <class Visit>
   void for_open_facets(const Visit& visit) const requires(Dim == 3) {
     for_open_facets(0, count(), visit);
   }
-  // Only those whose first node has a place from begin up to end, by that place. Of surfaces alone,
-  // all triangles.
+  // Visits only the faces whose first corner has a result index in [begin, end), in its order. On a
+  // surface without a body it visits all triangles.
   template <class Visit>
   void for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
       requires(Dim == 3);
-  // Calls visit(places of its nodes, tag) for every face between tetrahedra that stands for a
-  // surface inside, once, over all ranks: at the owner of its node with the least id, which comes
-  // first and has a place from begin up to end. They turn as the surface does. After prepare_stars.
+  // Calls visit(corners, tag) for every face between tetrahedra that represents an inner surface,
+  // once over all ranks: at the owner of its node with the smallest id, which is the first corner
+  // and has a result index in [begin, end). The orientation is that of the surface. Requires
+  // prepare_stars().
   template <class Visit>
   void for_inner_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
       requires(Dim == 3);
@@ -89,14 +92,14 @@ class Results : public NodalResults {
     for_inner_facets(0, count(), visit);
   }
   GeometryKind kind() const override { return level_ ? level_->geometry.kind() : domain_->kind(); }
-  // Calls visit(places of its nodes, tag) for every facet once, over all ranks: those of the
-  // boundary and, in space, those inside. After prepare_stars.
+  // Calls visit(corners, tag) for every facet once over all ranks: those of the boundary and, in
+  // space, those of inner surfaces. Requires prepare_stars().
   template <class Visit>
   void for_facets(const Visit& visit) const {
     for_boundary_facets(visit);
     if constexpr (Dim == 3) for_inner_facets(visit);
   }
-  // The same as visit(places of its nodes): in space a tag takes a search.
+  // Calls visit(corners) for the same facets. It saves the search for the tag in space.
   template <class Visit>
   void for_facets_without_tags(const Visit& visit) const {
     const auto without_tag = [&](const auto& places, auto...) { visit(places); };
@@ -107,7 +110,8 @@ class Results : public NodalResults {
       for_boundary_facets(without_tag);
     }
   }
-  // Of a node, as it is handed out: on a sphere not that of the chart; z is 0 in the plane.
+  // Return position and d of a node by its memory index, in the coordinates of the user. On a
+  // sphere these are not those of the chart. In the plane z is 0.
   Point<3> place_in_space(std::int64_t node) const;
   double spacing_at(std::int64_t node) const;
   int owner_of(std::int64_t node) const {
@@ -131,13 +135,13 @@ class Results : public NodalResults {
 
   std::shared_ptr<const Domain<Dim>> domain_;
   Level<Dim>* level_ = nullptr;
-  // On a sphere: of the nodes as they lie in memory, made when they are asked for.
+  // On a sphere: the attributes of nodes() in the order of memory, computed on request.
   mutable std::array<View<double>, 3> on_sphere_;
   mutable View<double> spacing_on_sphere_;
   mutable LevelStamp on_sphere_stamp_;
 };
 
-// While it is there, results are those of another level, which is worked on.
+// A scope in which results show another level, such as one under construction.
 template <int Dim>
 class ScopedLevel {
  public:
@@ -196,8 +200,9 @@ void Results<Dim>::for_boundary_edges(const Visit& visit) const requires(Dim == 
       place[static_cast<std::size_t>(b)] = place_of(i);
   const std::int64_t owned = count();
   for (const BoundaryEdge& e : boundary.facets) {
-    if (e.begin == e.end) continue;                                   // a fixed node
-    if (level_->geometry.domain().closing() && e.bounds()) continue;  // there is a triangle behind
+    if (e.begin == e.end) continue;  // the edge of a fixed node
+    // The closing triangle lies behind it.
+    if (level_->geometry.domain().closing() && e.bounds()) continue;
     const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
     if (begin >= 0 && begin < owned)
       visit(std::array<std::int64_t, 2>{begin, place[static_cast<std::size_t>(e.end)]}, e);
@@ -225,7 +230,7 @@ void Results<Dim>::for_inner_facets(std::int64_t begin, std::int64_t end, const 
             facet.tag);
 }
 
-// Of the tetrahedra around a node, those of its faces that come once.
+// Faces that occur once among the tetrahedra around a node belong to one tetrahedron only.
 template <int Dim>
 template <class Visit>
 void Results<Dim>::for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
@@ -233,7 +238,7 @@ void Results<Dim>::for_open_facets(std::int64_t begin, std::int64_t end, const V
   const NodeArray<std::int64_t>& id = level_->nodes.id;
   struct Face {
     std::int64_t low, high;               // ids of the other two nodes
-    std::array<std::int64_t, 3> turning;  // places, as seen from outside
+    std::array<std::int64_t, 3> turning;  // result indices, counter-clockwise as seen from outside
   };
   std::vector<Face> faces;
   for (std::int64_t p = begin; p < end; ++p) {
@@ -246,7 +251,8 @@ void Results<Dim>::for_open_facets(std::int64_t begin, std::int64_t end, const V
     if (level_->stars.closed(i)) continue;
     faces.clear();
     level_->stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
-      // (i, a, b, c) turns right-handed: from outside, its faces with i turn as i, b, a.
+      // The corners (i, a, b, c) are right-handed, so as seen from outside the order of the face is
+      // i, b, a.
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int64_t a = others[k], b = others[(k + 1) % 3];
         if (id(a) < id(i) || id(b) < id(i)) continue;
@@ -265,7 +271,7 @@ void Results<Dim>::for_open_facets(std::int64_t begin, std::int64_t end, const V
   }
 }
 
-// Calls work(results) with them as what they are.
+// Calls work(results) with the results cast to their dimension.
 template <class Work>
 auto visit_dimension(NodalResults& results, const Work& work) {
   if (results.dimension() == 2) return work(static_cast<Results<2>&>(results));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run may take several rounds: where elements do not conform, or have small angles, d is held
-// down and it goes on from its nodes.
+// Rounds of a run. A run repeats its steps and finish with d reduced locally if elements do not
+// conform or have small angles. This file holds the result of a round and the choice of the best
+// one.
 #pragma once
 
 #include <cmath>
@@ -19,7 +20,7 @@
 
 namespace pnpbs {
 
-// One that has come to its end.
+// The result of a round that has reached its end.
 template <int Dim>
 struct FinishedRound {
   std::shared_ptr<Level<Dim>> level;
@@ -27,18 +28,18 @@ struct FinishedRound {
   RunState state;
   Outcome outcome;
   ElementFaults faults;
-  std::int64_t small_angles;  // elements with one
+  std::int64_t small_angles;  // number of elements with a small angle
 
   bool conforms() const { return outcome != Outcome::not_conforming; }
 };
 
-// Which round counts. Those whose elements conform are better than others. Of others the one with
-// fewer faults is better; of those that conform, the first, or a later one that leaves at most half
-// of its small angles, and so on from there.
+// The best of the rounds of a run. Rounds whose elements conform are better than others. Among the
+// others, the one with fewer faults is better. Among those that conform, a later round is better
+// only if it leaves at most kSmallAnglesLeft of the small angles of the best one before.
 template <int Dim>
 class BestRound {
  public:
-  // Is there anything to gain by another round after the last one?
+  // Returns whether another round may improve the result. Records whether `last` is the best round.
   bool asks_for_another(const FinishedRound<Dim>& last) {
     last_is_best_ = !best_ || is_better(last);
     if (last.conforms() && last.small_angles == 0) return false;
@@ -49,12 +50,12 @@ class BestRound {
       ++in_vain_;
     return in_vain_ < (any_conforms ? method::kMaxRoundsInVain : method::kMaxRoundsInVainToConform);
   }
-  // That round, once another one has begun; what is not the best is let go.
+  // Stores `last`, once another round has begun, if it is the best one; otherwise releases it.
   void offer(FinishedRound<Dim> last) {
     if (last_is_best_) best_ = std::move(last);
     last_is_best_ = false;
   }
-  // Is a round kept whose elements conform?
+  // Returns whether the stored round has elements that conform.
   bool any_conforms() const { return best_ && best_->conforms(); }
   bool last_counts() const { return last_is_best_ || !best_; }
   FinishedRound<Dim> take() { return std::move(*best_); }
@@ -72,13 +73,14 @@ class BestRound {
   int in_vain_ = 0;
 };
 
-// Of a run's work, what is done when a round after so many others begins. Each does half of the
-// rest.
+// Returns the fraction of a run's work that is done when the round after `rounds` others begins.
+// Each round does half of the remaining work.
 inline double done_by_rounds(int rounds) {
   return rounds == 0 ? 0 : 1 - std::ldexp(1 - kStepsShare, 1 - rounds);
 }
 
-// Of a run's work, the part that the steps of this round are: what has been done is not told again.
+// Returns the range of fractions that the steps of a round cover, for the monitor. The ranges of
+// successive rounds do not overlap, so the reported progress never decreases.
 inline ProgressPart part_of_steps(int rounds, bool refined) {
   const double done = done_by_rounds(rounds);
   if (rounds > 0) return {done, (done + 1) / 2};

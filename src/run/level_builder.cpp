@@ -18,7 +18,7 @@ namespace pnpbs {
 
 namespace {
 
-// All nodes of a level are numbered anew.
+// Returns the nodes without their ids: all nodes of a level get new ids.
 template <int Dim>
 IncomingNodes<Dim> new_nodes(IncomingNodes<Dim> nodes) {
   for_each("pnpbs::new_nodes", static_cast<std::int64_t>(nodes.size()),
@@ -26,8 +26,9 @@ IncomingNodes<Dim> new_nodes(IncomingNodes<Dim> nodes) {
   return nodes;
 }
 
-// The trees of both are partitioned alike: a sphere is closed closer to the point, and so farther
-// out in the chart, where d is less.
+// Gives the domain of a coarser level the bounds of the finest one, so that the trees of both are
+// partitioned alike. The smaller d is, the closer to the projection point a whole sphere is closed,
+// and the larger its domain is in the chart.
 void take_bounds(PlaneDomain& domain, const PlaneDomain& finer) {
   if (domain.is_whole_sphere()) domain.take_bounds(finer.bounds());
 }
@@ -44,7 +45,7 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(const SizingField<Dim
   std::shared_ptr<Level<Dim>> level;
   const auto make = [&] {
     const PhaseTimer timer(timers_, Phase::boundary);
-    // A copy: the caller may go on to change the domain.
+    // The level needs a copy, because the caller may change the domain afterwards.
     auto domain = std::make_shared<Domain<Dim>>(*closed_for(domain_, spacing));
     if (like) take_bounds(*domain, like->geometry.domain());
     level = std::make_shared<Level<Dim>>(comm_, std::move(domain),
@@ -131,10 +132,10 @@ void LevelBuilder<Dim>::take_kept_nodes(BuiltLevel<Dim>& made, Level<Dim>& befor
   level.next_id = before.next_id;
   settle_surfaces(level, kept, made.outcome, LevelRole::surfaces, context_);
   made.taken = take(level, std::move(kept), level.next_id);
-  // Where d was far larger, or the shape is thin.
+  // Gaps remain where d was far larger before or the shape is thin.
   made.inserted = made.taken.numbered;
   made.inserted += fill_gaps_inside(level);
-  made.taken.left_out = 0;  // not the user's
+  made.taken.left_out = 0;  // the count is for nodes of the user only
 }
 
 template <int Dim>
@@ -154,8 +155,8 @@ void LevelBuilder<Dim>::begin_anew(BuiltLevel<Dim>& made, const Settings& settin
   put_first_nodes(*made.level, nodes, 0, made.outcome);
 }
 
-// The nodes that surfaces alone begin with: those there are, those given, or what coarser levels
-// lead to.
+// Puts the first nodes on a level of a surface without a body: the nodes of the level before, the
+// given nodes, or those from coarser levels.
 template <int Dim>
 void LevelBuilder<Dim>::begin_on_surfaces(BuiltLevel<Dim>& made, const Settings& settings,
                                           const StartNodes<Dim>& before) {
@@ -180,8 +181,9 @@ void LevelBuilder<Dim>::begin_on_surfaces(BuiltLevel<Dim>& made, const Settings&
   }
 }
 
-// From the coarsest level down to twice the spacing, each with a simulation of its own. If the
-// monitor stops them, refined nodes are returned nevertheless, as they are.
+// Runs the coarser levels from the coarsest down to twice the spacing, each with its own
+// simulation, and returns the refined nodes of the last. If the monitor stops them, the refined
+// nodes are returned in their present state.
 template <int Dim>
 IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const BuiltLevel<Dim>& finest,
                                                                 const Settings& settings,
@@ -215,8 +217,8 @@ IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const BuiltLevel
   return nodes;
 }
 
-// The nodes that one of several levels begins with: those of the level before, refined, or on the
-// first one a fill.
+// Puts the first nodes on one of several levels: the refined nodes of the level before or, on the
+// first one, a fill. `which` is the number of the level, 0 for the finest.
 template <int Dim>
 void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& from_coarser,
                                         int which, Outcome& outcome) {
@@ -230,7 +232,7 @@ void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& f
                   which > 0 ? LevelRole::coarser : LevelRole::surfaces, context_);
   from_coarser = new_nodes<Dim>(std::move(from_coarser));
   level.next_id = 0;
-  if (which > filled_levels_) return;  // surfaces alone
+  if (which > filled_levels_) return;  // only its surfaces have nodes
   if (which == filled_levels_) {
     fill(level, boundary_nodes(level.geometry, from_coarser));
     return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes levels: boundary, tree, growth limit, and the nodes that they begin with. What is made is
-// handed to the caller, who makes it the level there is.
+// The construction of levels: boundary, tree, growth limit and first nodes. The caller installs the
+// level that is built.
 #pragma once
 
 #include <cstdint>
@@ -20,25 +20,26 @@
 
 namespace pnpbs {
 
-// The nodes that a level may begin with: those of the level before or, if there is none, those
-// given, each null if there are none; else it is filled.
+// The nodes that a new level may start with: those of the level before or, without one, those that
+// the user gives. If both pointers are null, the level is filled.
 template <int Dim>
 struct StartNodes {
   Level<Dim>* level = nullptr;
   const IncomingNodes<Dim>* given = nullptr;
 };
 
+// A new level with its first nodes and the counts of its construction.
 template <int Dim>
 struct BuiltLevel {
   std::shared_ptr<Level<Dim>> level;
   PlacedSpacing<Dim> placed;
   FirstNodes first_nodes = FirstNodes::laid;
   ImportedNodes taken;
-  std::int64_t inserted = 0;             // nodes that came with it, on all ranks
-  Outcome outcome = Outcome::converged;  // or stopped by the monitor
+  std::int64_t inserted = 0;             // nodes inserted during the construction, on all ranks
+  Outcome outcome = Outcome::converged;  // `converged`, or `stopped` by the monitor
 };
 
-// All functions are collective.
+// Builds levels. All ranks must call its functions, and if one rank throws, all ranks throw.
 template <int Dim>
 class LevelBuilder {
  public:
@@ -50,16 +51,16 @@ class LevelBuilder {
         timers_(timers),
         context_(context) {}
 
-  // A level without nodes for the user's spacing, whose growth is limited where the user wants it
-  // so or, by how steep it is, where nodes could not follow it. `placed` tells where it is held
-  // down, and is told what the spacing is.
+  // Returns a level without nodes for the user's spacing. The growth of the spacing is limited if
+  // the user requests it, or if it is too steep for nodes to follow. On entry `placed` says where d
+  // is reduced; on return it has the spacing of the level.
   std::shared_ptr<Level<Dim>> level_to_place(const EffectiveSpacing<Dim>& to_place,
                                              const Settings& settings, PlacedSpacing<Dim>& placed);
-  // A level without inner nodes yet, partitioned like another one if that is given.
+  // Returns a level without inner nodes. It is partitioned like `like` if that is not null.
   std::shared_ptr<Level<Dim>> empty_level(const SizingField<Dim>& spacing, const Settings& settings,
                                           const Level<Dim>* like = nullptr);
-  // Puts nodes on a level that has none: those before, refined where they are of a coarser level,
-  // those that coarser levels lead to, or a fill.
+  // Puts the first nodes on an empty level: those of `before`, refined where d has become finer,
+  // those from coarser levels, or a fill.
   BuiltLevel<Dim> with_first_nodes(std::shared_ptr<Level<Dim>> level, PlacedSpacing<Dim> placed,
                                    const Settings& settings, const StartNodes<Dim>& before);
 
@@ -83,7 +84,7 @@ class LevelBuilder {
   const Options& options_;
   Timers& timers_;
   LevelContext<Dim> context_;
-  int filled_levels_ = 0;  // of the coarser ones, those with their inside filled
+  int filled_levels_ = 0;  // number of coarser levels whose inside is filled as well
 };
 
 extern template class LevelBuilder<2>;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The surroundings in which a level is built: counts, monitor and results.
 #pragma once
 
 #include "results/results.hpp"
@@ -7,13 +8,13 @@
 
 namespace pnpbs {
 
-// What goes with a level while it is made.
+// The objects that the construction of a level uses and updates.
 template <int Dim>
 struct LevelContext {
-  RunState& run;           // counts what is done
-  Monitoring& monitoring;  // may stop it
-  Results<Dim>& results;   // show the level that is worked on
-  double done;             // fraction of the call's work when it begins
+  RunState& run;           // counts steps and nodes
+  Monitoring& monitoring;  // may stop the construction
+  Results<Dim>& results;   // show the level under construction
+  double done;             // fraction of the call's work that is done at the beginning
 };
 
 }  // namespace pnpbs

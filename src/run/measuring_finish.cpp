@@ -30,7 +30,7 @@ void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunStat
   results.prepare_stars();
   const Level<3>& level = results.level();
   const PhaseTimer timer(level.timers, Phase::conformity);
-  const View<char> held = held_nodes(level, placed);  // there d is not the user's
+  const View<char> held = held_nodes(level, placed);  // d is not the user's at these nodes
   collective_try(*level.comm, [&] {
     run.edge_bands = edge_bands_to_judge<3>(*level.comm, {level.nodes}, level.stars, held);
   });
@@ -39,7 +39,8 @@ void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunStat
 
 namespace {
 
-// Elements that can be used, but hardly: d is held down there next, if the user wants that.
+// Warns of small angles in elements that conform. If the option min_angle is set, their corners
+// become the points where d is reduced next.
 void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unresolved) {
   if (level.geometry.kind() == GeometryKind::surface) return;
   const double min_angle = level.settings.min_angle,
@@ -62,7 +63,7 @@ void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unre
 
 }  // namespace
 
-// In the plane they do, as soon as the boundary is one that encloses something.
+// Triangles of the plane always conform, because their stars are constrained to the boundary.
 bool elements_conform(Results<2>&, RunState&, Unresolved<2>&) { return true; }
 
 bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresolved) {
@@ -78,7 +79,8 @@ bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresol
     find_small_angles(results.level(), run, unresolved);
     return true;
   }
-  if (!conformity.any_elements()) return false;  // d means another body
+  // Without elements, reducing d locally would not help.
+  if (!conformity.any_elements()) return false;
   std::vector<Point<3>>& places = unresolved.places;
   const auto none = [&] { return comm.allreduce_sum(places.size()) == 0; };
   places = conformity.torn;

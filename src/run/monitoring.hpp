@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When the user's monitor is asked, and that all ranks stop if one is told to.
+// The calls of the user's monitor. If the monitor of one rank requests a stop, all ranks stop.
 #pragma once
 
 #include <chrono>
@@ -13,45 +13,52 @@
 
 namespace pnpbs {
 
-// The part of a call's work that is in progress, for the monitor: from a fraction to another.
+// The range of the call's work that is in progress, as fractions for the monitor.
 struct ProgressPart {
   double begin = 0, end = 1;
 };
 
-// Shares of a run's work: coarser levels, and steps without the finish.
+// Fractions of a run's work, for the monitor: the coarser levels, and everything before the finish.
 constexpr double kCoarseShare = 0.5, kStepsShare = 0.9;
 
+// Calls the user's monitor at suitable times and spreads its answer over the ranks.
 class Monitoring {
  public:
-  // fraction done of the call in progress, step, nodes, largest scaled speed -> true to stop
+  // Arguments: fraction done of the call in progress, steps done, number of nodes, largest scaled
+  // speed. Returns true to stop.
   using Monitor = std::function<bool(double, std::int64_t, std::int64_t, double)>;
 
-  // The monitor is told where this run is; the run is told if the monitor stops it.
+  // Reads the progress for the monitor from `run`, and records in it that a monitor stops a call.
+  // Both references must outlive this object.
   Monitoring(const Communicator& comm, RunState& run) : comm_(comm), run_(run) {}
   Monitoring(const Monitoring&) = delete;
   Monitoring& operator=(const Monitoring&) = delete;
 
   void set(Monitor monitor) { monitor_ = std::move(monitor); }
-  // Asks this rank's monitor. The nodes told are those of all ranks.
+  // Calls the monitor of this rank and returns whether it requests a stop. `nodes` is the number on
+  // all ranks. Local.
   bool asks_to_stop(double fraction, std::int64_t nodes) const;
 
-  // Has this rank's monitor not been asked for a while?
+  // Returns whether the monitor of this rank was not called for a while. Local.
   bool is_due() const;
-  // The same of any rank: all ask, or none, as a monitor may ask for what is collective.
-  // Collective.
+  // Returns whether that holds on any rank. Either all ranks call their monitors or none does,
+  // since a monitor may call collective functions. Collective.
   bool is_due_anywhere() const { return comm_.allreduce_max(is_due()) > 0; }
 
-  // Asks on all ranks, which have these nodes of their own: all stop if one rank's monitor asks for
-  // it. Collective.
+  // Calls the monitors of all ranks. Returns true on all ranks if one of them requests a stop.
+  // `own_nodes` is the number of nodes that this rank owns. All ranks must call it, and if one rank
+  // throws, all ranks throw.
   bool stops(double fraction, std::int64_t own_nodes);
-  // The same between two steps. Of a level that stays, the nodes can be saved then. Collective.
+  // Does the same between two steps. If `level_stays` is true, the monitor may save the nodes.
+  // Collective.
   bool stops_between_steps(bool at_event, bool level_stays, double fraction,
                            std::int64_t own_nodes);
-  // Is this a monitor's turn in which they can be? At an event?
+  // Return whether a monitor is being called that may save the nodes, and whether it is called at
+  // an event.
   bool between_steps() const { return between_steps_; }
   bool at_event() const { return at_event_; }
 
-  // While there is one for nodes that may not count in the end, they cannot be saved.
+  // A scope in which the nodes may be discarded later, so monitors cannot save them.
   class Provisional {
    public:
     Provisional(Monitoring& monitoring, bool provisional)
@@ -67,11 +74,13 @@ class Monitoring {
     bool before_;
   };
 
-  // Does work that leads to first nodes, or to those of a new spacing, and takes long where they
-  // are many. It calls beat() again and again, so that this rank's monitor is asked by the clock.
-  // Where one rank's stops, all ranks do. Throws Error(ErrorKind::stopped) then. Collective.
+  // Runs `work`, a long computation of first nodes or of nodes for a new spacing. `work` calls
+  // beat() regularly, which calls the monitor of this rank in intervals of time. `what` completes
+  // the message "stopped by the monitor while". Throws Error(ErrorKind::stopped) on all ranks if
+  // the monitor of one rank stops it. Collective.
   void watch(const std::string& what, std::int64_t own_nodes, const std::function<void()>& work);
-  // Asks the monitor if work is watched and the monitor has not been asked for a while. Local.
+  // Calls the monitor if watch() is in progress and the monitor was not called for a while. Throws
+  // Error(ErrorKind::stopped) if it requests a stop. Local.
   void beat();
 
  private:
@@ -83,9 +92,9 @@ class Monitoring {
   RunState& run_;
   Monitor monitor_;
   Clock::time_point last_asked_ = Clock::now();
-  bool between_steps_ = false, at_event_ = false;  // while the monitor is asked
+  bool between_steps_ = false, at_event_ = false;  // while a monitor is called
   bool provisional_ = false;
-  const std::string* watched_ = nullptr;  // what is done while work is watched
+  const std::string* watched_ = nullptr;  // description of the work in watch(), or null
   std::int64_t nodes_when_watched_ = 0;
 };
 

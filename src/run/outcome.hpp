@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The outcomes of the calls of a placement.
 #pragma once
 
 namespace pnpbs {
 
-// How a call that moves nodes has ended, with the numbers of pnpbs_status.
-// spacing_missed: somewhere the nodes do not follow d, whether the bubbles rest or not.
-// not_conforming: the elements do not fill the domain, whatever else is true.
+// The outcome of a call that moves nodes. The values are those of pnpbs_status.
+//   spacing_missed: the nodes do not follow d somewhere, whether or not the bubbles rest.
+//   not_conforming: the elements do not fill the domain; this outcome has precedence.
 enum class [[nodiscard]] Outcome{converged, not_converged, stopped, spacing_missed, not_conforming};
 
 }  // namespace pnpbs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a placement's simulation is, and what is told of it: copied before what may fail, and put
-// back if it does.
+// The state of a placement's simulation, with its counts and warnings. Calls that may fail copy it
+// first and restore the copy on failure.
 #pragma once
 
 #include <cstddef>
@@ -18,26 +18,28 @@
 
 namespace pnpbs {
 
-// Why a run ended, for the report.
+// The reason why a run ended.
 enum class StopReason { none, rest, step_limit, monitor };
 
+// The schedule of the present level, and the counts and warnings of the placement.
 struct RunState {
-  Schedule schedule;  // of the level there is
+  Schedule schedule;  // of the present level
   Speeds last_speeds;
   StopReason stop_reason = StopReason::none;
-  Outcome outcome = Outcome::converged;  // of the last run that came to its end
+  Outcome outcome = Outcome::converged;  // of the last run that reached its end
 
-  int coarser_levels = 0;  // that the nodes came from
+  int coarser_levels = 0;  // levels that the nodes came from
 
-  // Since the placement was made, on all levels.
+  // Totals since the placement was created, on all levels.
   std::int64_t steps_done = 0, inserted = 0, deleted = 0;
   std::int64_t dropped = 0, unknown_uses = 0;  // of the last run
-  // Of levels that are no more; unknown uses are this rank's.
+  // Counts of levels that were released. The unknown uses are those of this rank.
   std::int64_t rebuilds_before = 0, rebalances_before = 0, unknown_uses_before = 0;
 
   std::vector<Warning> warnings;
-  std::size_t warnings_of_level = 0;  // the first of them; the others are of the last run
-  // Of the level's finish.
+  // The first of `warnings` belong to the level, the others to the last run.
+  std::size_t warnings_of_level = 0;
+  // Measures of the level's finish.
   std::vector<EdgeBand> edge_bands;
   SurfaceFit surface_fit;
 
@@ -48,14 +50,14 @@ struct RunState {
     warnings.erase(warnings.begin() + static_cast<std::ptrdiff_t>(warnings_of_level),
                    warnings.end());
   }
-  // What this level has counted goes on to count when it is no more.
+  // Adds the counts of a level that is about to be released.
   template <class Level>
   void keep_counts(const Level& level) {
     rebuilds_before += level.neighbourhood.rebuilds();
     rebalances_before += level.rebalances;
     unknown_uses_before += level.unknown_uses;
   }
-  // As it was when there was that level, but for what has been counted since.
+  // Returns to the state `then`, in which `level` was the present one. Counts continue from now.
   template <class Level>
   void go_back_to(RunState then, const Level& level) {
     then.steps_done = steps_done;
@@ -67,7 +69,7 @@ struct RunState {
     then.unknown_uses_before = unknown_uses_before - level.unknown_uses;
     *this = std::move(then);
   }
-  // No finish has been done on the next one.
+  // Clears the measures of the finish, for a new level.
   void forget_finish() {
     edge_bands.clear();
     surface_fit = {};

@@ -35,8 +35,9 @@ struct NodesByCarrier {
   }
 };
 
-// While only the surfaces have nodes. The partition of a body stays as it is: it is cut for all the
-// nodes that are to come, and parts of even work on the surfaces would have jagged borders inside.
+// Returns the settings for the time in which only the surfaces have nodes. The partition of a body
+// is not changed then: it balances the nodes that the body will have. A partition that balances the
+// surface nodes would have jagged borders inside.
 Settings settings_on_surfaces(const Level<3>& level) {
   Settings settings = surface_settings(level.settings);
   if (level.geometry.kind() != GeometryKind::surface)
@@ -48,7 +49,7 @@ std::int64_t sum_over_ranks(const Communicator& comm, std::int64_t mine) {
   return static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(mine)));
 }
 
-// These nodes become those of the level, and rest on its surfaces.
+// Puts these nodes on the level and lets them come to rest on its surfaces.
 void rest_on_surfaces(Level<3>& level, IncomingNodes<3> on_surfaces,
                       const IncomingNodes<3>& on_features, Outcome& outcome, LevelRole role,
                       const LevelContext<3>& context) {
@@ -65,7 +66,7 @@ void rest_on_surfaces(Level<3>& level, IncomingNodes<3> on_surfaces,
                          {context.done, context.done}) == Outcome::stopped)
     outcome = Outcome::stopped;
   if (outcome == Outcome::stopped) return;
-  simulation.remove_crowded();  // nodes that coincide have no star
+  simulation.remove_crowded();  // coincident nodes have no star
   context.run.inserted += fill_vacancies(level);
   sweep_on_surfaces(level, settings.sweeps);
   if (role != LevelRole::surfaces || level.geometry.kind() != GeometryKind::body) return;
@@ -92,7 +93,7 @@ void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outco
   }
   incoming = surface_nodes(level);
   collective_try(*level.comm, [&] { put_on_level_sets(level.geometry, incoming); });
-  scatter_to_owners(level, incoming);  // some have moved on since the last exchange
+  scatter_to_owners(level, incoming);  // some have moved since the last exchange
   incoming.insert(incoming.end(), nodes.inner.begin(), nodes.inner.end());
 }
 

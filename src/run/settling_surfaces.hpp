@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In space, what has the least freedom comes first: nodes on feature edges lie where d asks for
-// them, those on surfaces rest as bubbles that cannot leave their surface, and then the inside is
-// filled. A simulation of its own moves those on surfaces.
+// The settling of nodes on surfaces, before the inside is filled. Nodes on feature edges are placed
+// where d requires them. Nodes on surfaces then come to rest as bubbles that cannot leave their
+// surface, in a simulation of their own.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +14,29 @@
 
 namespace pnpbs {
 
-// The nodes of the boundary among the incoming ones, which may be from a coarser level, come to
-// rest on the level's surfaces, and are handed back so; if there are none, the surfaces are filled.
-// If the monitor has stopped the call, or does so here, they stay as they are: the outcome is that
-// it is stopped. Collective.
+// Lets the boundary nodes among `incoming`, which may come from a coarser level, come to rest on
+// the surfaces of the level, and replaces them by the result. Without such nodes the surfaces are
+// filled. If the monitor has stopped the call, or stops it here, the nodes stay in their present
+// state and `outcome` is `stopped`. All ranks must call it, and if one rank throws, all ranks
+// throw.
 void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outcome, LevelRole role,
                      const LevelContext<3>& context);
-// Does nothing in the plane, where the nodes of the boundary are laid in their places.
+// Does nothing in the plane, where boundary nodes do not move.
 inline void settle_surfaces(Level<2>&, IncomingNodes<2>&, Outcome&, LevelRole,
                             const LevelContext<2>&) {}
 
-// Coarser levels from which the nodes on surfaces come: where these are flat and d is even there,
-// one lattice fills each; else a few. Collective.
+// Returns how many coarser levels the nodes on surfaces come from. It is 0 if all surfaces are flat
+// and d is nearly constant on them, because one lattice then fills each. Collective.
 int surface_levels_that_pay(const Level<3>& finest);
 inline int surface_levels_that_pay(const Level<2>&) { return 0; }
 
-// These of the surfaces, or a fill of them if there are none, become the nodes of a level of
-// surfaces alone, which the time loop moves. Returns how many of this rank's are too dense for d.
-// Collective.
+// Puts nodes on a level of a surface without a body: the surface nodes among `incoming`, or a fill
+// without them. The time loop moves these nodes. Returns how many nodes this rank deletes because
+// they are too dense for d. Collective.
 std::int64_t put_on_surfaces(Level<3>& level, IncomingNodes<3> incoming);
 
-// Nodes given anywhere go to the nearest point of the surfaces, unless that is farther than d or
-// on top of a feature edge. Returns how many go nowhere.
+// Moves given nodes to the nearest points of the surfaces. Drops nodes that are farther than d from
+// the surfaces or too close to a feature edge. Returns how many it drops. Local.
 std::int64_t bring_to_surfaces(const Level<3>& level, IncomingNodes<3>& incoming);
 
 }  // namespace pnpbs

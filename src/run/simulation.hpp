@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The simulation of a level: steps, the events between them, and the finish. Coarser levels and
-// surfaces have one of their own.
+// surfaces have their own simulations.
 #pragma once
 
 #include <cstdint>
@@ -15,34 +15,37 @@
 
 namespace pnpbs {
 
-// Of a run on this level. Where d is held down it jumps in slope, and bubbles take longer to rest.
+// Returns the maximum number of steps of a run on this level. Where d is reduced locally its slope
+// jumps, and bubbles take longer to rest.
 template <int Dim>
 std::int64_t max_steps(const Level<Dim>& level) {
   return (level.held_rounds > 0 ? method::kStepsWhereHeld : 1) * level.settings.steps;
 }
 
-// All functions are collective.
+// Advances one level. All ranks must call its functions, and if one rank throws, all ranks throw.
 template <int Dim>
 class Simulation {
  public:
-  // On this level, from where its schedule is. What is done is counted in the run.
+  // Continues the simulation of `level` from `schedule`, and adds to the counts of `run`. The
+  // arguments must outlive this object.
   Simulation(Level<Dim>& level, Schedule& schedule, RunState& run, Monitoring& monitoring)
       : level_(level), schedule_(schedule), run_(run), monitoring_(monitoring) {}
 
-  // Steps on to step number `until` of the schedule, or until the bubbles rest. Events happen at
-  // step numbers fixed in advance. `part` is the part of the call's work that this is.
+  // Does steps up to step number `until` of the schedule, or until the bubbles rest. `part` is the
+  // range of the call's work that these steps are.
   Outcome advance(std::int64_t until, ProgressPart part);
-  // After the steps: what options ask for, then sweeps and repairs. Each part of it leaves valid
-  // nodes. `fraction`: of the call's work, what is done by then. Converged, or stopped.
+  // Completes a run after the steps: first what options request, then sweeps and repairs. The nodes
+  // are valid after each part. `fraction` is the fraction of the call's work that is done before
+  // it. Returns `converged` or `stopped`.
   Outcome finish(double fraction);
 
-  // --- parts of these, for who does them one by one ---
-  // The counts are of all ranks.
+  // --- parts of these, for callers that run them one by one ---
+  // Returns the counts of all ranks.
   PopulationCounts adjust_population();
   void remove_crowded();
-  // Where a node is one too many or one is missing that the overlap ratios do not tell.
+  // Inserts or deletes nodes at defects that the overlap ratio does not detect. For the plane.
   void repair_defects();
-  // Repartitions the work over the ranks.
+  // Repartitions the nodes over the ranks.
   void rebalance();
 
  private:

@@ -30,7 +30,7 @@ Outcome Simulation<Dim>::advance(std::int64_t until, ProgressPart part) {
   const double first = static_cast<double>(schedule_.step);
   Outcome outcome = Outcome::not_converged;
   run_.stop_reason = StopReason::step_limit;
-  std::exception_ptr failure;  // of this rank: told to the others at the next event
+  std::exception_ptr failure;  // local failure; reported to the other ranks at the next event
   bool started = true;
   if (std::exchange(schedule_.progress, Progress::steps) == Progress::at_event && bubbles_rest()) {
     run_.stop_reason = StopReason::rest;
@@ -51,7 +51,7 @@ Outcome Simulation<Dim>::advance(std::int64_t until, ProgressPart part) {
     const double fraction = part.begin + done * (part.end - part.begin);
     if (is_event) event();
     if (stops_after_step(is_event, fraction)) {
-      if (!is_event) refresh_spacing(level_);  // as d is at the nodes now
+      if (!is_event) refresh_spacing(level_);  // results have d at the present positions
       outcome = Outcome::stopped;
       run_.stop_reason = StopReason::monitor;
       break;
@@ -65,9 +65,10 @@ Outcome Simulation<Dim>::advance(std::int64_t until, ProgressPart part) {
   return outcome;
 }
 
-// The steps between two events of ten million nodes take some seconds. Several ranks have fewer
-// nodes each, and would have to agree every time: they are asked at events. On coarser levels,
-// which do not stay, nothing can be saved.
+// Calls the monitor after a step. One rank does so between events as well, because those of ten
+// million nodes are seconds apart. Several ranks have fewer nodes each and would need a reduction
+// after every step, so they call it at events only. Nodes of coarser levels cannot be saved,
+// because these levels are released later.
 template <int Dim>
 bool Simulation<Dim>::stops_after_step(bool is_event, double fraction) {
   if (!is_event && (level_.distributed() || !monitoring_.is_due())) return false;
@@ -75,7 +76,7 @@ bool Simulation<Dim>::stops_after_step(bool is_event, double fraction) {
                                          level_.owned_count());
 }
 
-// What happens at an event, in this order.
+// Does the work of an event, in a fixed order.
 template <int Dim>
 void Simulation<Dim>::event() {
   const Settings& settings = level_.settings;
@@ -87,11 +88,12 @@ void Simulation<Dim>::event() {
   if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
     schedule_.population_settled = true;
   if (!schedule_.population_settled)
-    control_population();  // renews the ghosts, too; else the next step does
+    control_population();  // also updates the ghosts; otherwise the next step does
   keep_balance();
 }
 
-// Deals the work out anew where it has become unequal, unless it was no better after the last time.
+// Repartitions when the imbalance exceeds `rebalance_above`, unless the last repartitioning reached
+// no better balance.
 template <int Dim>
 void Simulation<Dim>::keep_balance() {
   if (!level_.distributed()) return;
@@ -109,23 +111,29 @@ void Simulation<Dim>::rebalance() {
   schedule_.imbalance_reached = imbalance_of(level_);
 }
 
-// Nodes given from outside may be so few that they take longer to multiply.
+// Returns whether there are far fewer nodes than expected. Given nodes may be so few that
+// population control needs more time than usual.
 template <int Dim>
 bool Simulation<Dim>::far_too_few() const {
-  if (level_.settings.bubble_dimension < Dim) return false;  // of surfaces it is not known
+  // The expected number is unknown on surfaces.
+  if (level_.settings.bubble_dimension < Dim) return false;
   return nodes() < method::kFarTooFew * expected_nodes(level_);
 }
 
-// How far the mean distance may be off in this round of an event; else the population is aimed at
-// it. In the plane and on surfaces that is done once in an event; inside of a body a hole has 14
-// bidders, of which one wins, so it is done twice, and where nodes were taken over, for as long as
-// it is far off: no overlap ratio tells that every eighth node is missing. But there those should
-// stay where d has stayed. And a lattice that fills the finest level is left alone, as what comes
-// to it damages it.
+// Returns the tolerance of the mean distance in this round of an event, or infinity. Population
+// control corrects only deviations that exceed it.
+// In the plane and on surfaces one round corrects the mean. Inside a body a hole has some 14
+// candidates, of which only one wins, so two rounds do.
+// Taken-over nodes have a wider tolerance, because they should stay where d is unchanged. There the
+// correction goes on in all rounds while the deviation is large, because no overlap ratio detects
+// that every eighth node is missing.
+// A lattice on the finest level is corrected only if the deviation is large, because insertions
+// damage it.
 template <int Dim>
 double Simulation<Dim>::distance_tolerance(int round) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  // What is off on a coarser level is off on all finer ones; on the finest each change costs steps.
+  // An error on a coarser level is an error on all finer ones. On the finest level each change
+  // costs steps.
   const double tolerance =
       (schedule_.role == LevelRole::result ? method::kDistanceToleranceOnFinest : 1) *
       method::kDistanceTolerance;
@@ -136,8 +144,9 @@ double Simulation<Dim>::distance_tolerance(int round) const {
                                                                     : method::kDistanceFarOff;
 }
 
-// Adjusts the population while it pays. A new spacing may ask for many times the nodes there are,
-// of which one contest lets few act: so there are more rounds at once while they change much.
+// Adjusts the population until changes no longer pay. A new spacing may require many times the
+// present number of nodes, while one contest lets few candidates act. The contest is therefore
+// repeated while it changes many nodes.
 template <int Dim>
 void Simulation<Dim>::control_population() {
   const double nodes = this->nodes();
@@ -150,8 +159,8 @@ void Simulation<Dim>::control_population() {
     if (acted < method::kMuchChange * nodes) break;
   }
   const Settings& settings = level_.settings;
-  // Nodes that have just come may make room for more: so twice in a row. After a coarser level
-  // there is little left to do.
+  // New nodes may make room for more, so two quiet events in a row are required. After a coarser
+  // level few changes remain.
   const bool quiet = changed <= (schedule_.refined() ? method::kRefinedTolerance : 1) *
                                     settings.population_tolerance * nodes;
   schedule_.quiet_events = quiet ? schedule_.quiet_events + 1 : 0;
@@ -161,7 +170,7 @@ void Simulation<Dim>::control_population() {
       !far_too_few();
 }
 
-// While the population still changes, rest means nothing.
+// Returns whether the bubbles rest. The speeds do not matter while the population still changes.
 template <int Dim>
 bool Simulation<Dim>::bubbles_rest() const {
   const Settings& settings = level_.settings;
@@ -169,7 +178,7 @@ bool Simulation<Dim>::bubbles_rest() const {
          run_.last_speeds.max < settings.tolerance_max;
 }
 
-// Asked between the parts of the finish.
+// Calls the monitor between the parts of the finish, and returns whether it stops the run.
 template <int Dim>
 bool Simulation<Dim>::stops_in_finish(double fraction) {
   if (!monitoring_.is_due_anywhere() || !monitoring_.stops(fraction, level_.owned_count()))
@@ -198,8 +207,9 @@ Outcome Simulation<Dim>::finish(double fraction) {
   return Outcome::converged;
 }
 
-// Sweeps and repairs. In space what comes to the boundary before them makes small angles, which are
-// repaired, and they may leave it anew where nodes from inside come near a wide triangle.
+// Sweeps and repairs, in space alternating with the refinement of the boundary. Nodes inserted at
+// the boundary cause small angles, which repairs remove. Repairs in turn may bring inner nodes
+// close to wide boundary triangles, which opens the boundary again.
 template <int Dim>
 Outcome Simulation<Dim>::smooth(double fraction) {
   std::int64_t sweeps = level_.settings.sweeps;
@@ -223,8 +233,8 @@ Outcome Simulation<Dim>::smooth(double fraction) {
   return Outcome::converged;
 }
 
-// Sweeps in blocks, for each of which stars are found and d is asked again; then the few triangles
-// that are obtuse.
+// Moves nodes to the centroids of their Voronoi cells, in blocks of sweeps. The stars and d are
+// renewed before each block. Then repairs the few obtuse triangles.
 template <int Dim>
 Outcome Simulation<Dim>::centre_cells(double fraction) {
   constexpr std::int64_t kBlock = method::kSweepsOnStars;
@@ -240,8 +250,9 @@ Outcome Simulation<Dim>::centre_cells(double fraction) {
   return Outcome::converged;
 }
 
-// Nodes that coincide would have no star, so they go first. Rounds must do less and less: where d
-// jumps, what one brings another may take away, for ever.
+// Removes coincident nodes first, because they have no star. The rounds end unless each changes
+// less than the one before: where d jumps, two rounds may undo each other's changes again and
+// again.
 template <int Dim>
 void Simulation<Dim>::repair_defects() {
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
@@ -249,13 +260,14 @@ void Simulation<Dim>::repair_defects() {
     remove_crowded();
     const PopulationCounts change = counted(pnpbs::repair_defects(level_));
     const std::int64_t changes = change.inserted + change.deleted;
-    if (changes > 0) refresh_spacing(level_);  // a new node has another's so far
+    if (changes > 0) refresh_spacing(level_);  // a new node has the d of another one
     if (changes == 0 || changes >= max) break;
     max = changes;
   }
 }
 
-// Before sweeps, which even out what is behind it. Of nodes that coincide one would go there.
+// Fits the first row of inner nodes to the boundary. Sweeps follow, which smooth the nodes behind
+// it. Coincident nodes are removed first, because one of them would become a node of the row.
 template <int Dim>
 void Simulation<Dim>::lay_first_row() {
   if (!level_.settings.lays_first_row()) return;
@@ -274,7 +286,7 @@ void Simulation<Dim>::remove_crowded() {
   counted(pnpbs::remove_crowded(level_));
 }
 
-// Over all ranks, and in the run.
+// Sums the counts over all ranks, and adds them to those of the run.
 template <int Dim>
 PopulationCounts Simulation<Dim>::counted(PopulationCounts change) {
   const Communicator& comm = *level_.comm;
@@ -287,7 +299,7 @@ PopulationCounts Simulation<Dim>::counted(PopulationCounts change) {
   return change;
 }
 
-// Of all ranks.
+// Returns the number of nodes on all ranks.
 template <int Dim>
 double Simulation<Dim>::nodes() const {
   return static_cast<double>(

@@ -15,7 +15,7 @@ namespace pnpbs {
 
 namespace {
 
-// With a point in every locale.
+// Formats a number with a decimal point, whatever the locale is.
 std::string text_of(double value, std::chars_format format, int digits) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value, format, digits);
@@ -36,13 +36,14 @@ Warning warning_of(const EdgeBand& band) {
           static_cast<std::int64_t>(band.ratio.edges), mean};
 }
 
-// Nodes in corners and on curves, and nothing between them, are no picture of any spacing.
+// Warns of a spacing so coarse that nearly all nodes lie in corners and on curves, where they do
+// not represent any spacing.
 std::optional<Warning> warning_of_coarse_spacing(const Level<2>&, const PlaneDomain&) {
   return std::nullopt;
 }
 std::optional<Warning> warning_of_coarse_spacing(const Level<3>& level,
                                                  const VolumeDomain& domain) {
-  constexpr double kCoarse = 0.5, kRight = 0.25;  // of the longest side
+  constexpr double kCoarse = 0.5, kRight = 0.25;  // fractions of the longest side
   const Box<3>& bounds = domain.bounds();
   double side = 0;
   for (std::size_t k = 0; k < 3; ++k) side = std::max(side, bounds.high[k] - bounds.low[k]);
@@ -57,7 +58,7 @@ std::optional<Warning> warning_of_coarse_spacing(const Level<3>& level,
                  0, d);
 }
 
-// ". The grid reaches from ... to ..."
+// Returns a text such as ". The grid reaches from ... to ...".
 template <int Dim>
 MessageText reach_text(const GivenExtent<Dim>& extent, const Domain<Dim>& domain) {
   const std::string begin = std::string(". The ") + extent.name + " reaches ";
@@ -68,13 +69,14 @@ MessageText reach_text(const GivenExtent<Dim>& extent, const Domain<Dim>& domain
          extent_text<Dim>(bounds, bounds);
 }
 
-// Nodes that are farther than d from where the spacing is given: those between a curved boundary
-// and a mesh whose edges cut its corners are not. Collective. Throws Error where all are on a
-// sphere, on which boxes do not tell whether it meets the domain.
+// Warns of nodes that are farther than d from the region in which the spacing is given. Nodes
+// between a curved boundary and a mesh whose edges cut its corners are closer than that. Throws
+// Error if all nodes of a sphere are that far away, where the comparison of boxes cannot detect it.
+// All ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 std::optional<Warning> warning_of_partial_extent(const Level<Dim>& level, const Domain<Dim>& domain,
                                                  const Spacing<Dim>& given) {
-  constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points
+  constexpr std::int64_t kBatch = 1 << 14;  // limits the memory for the points
   const std::optional<GivenExtent<Dim>> extent = given.extent();
   if (!extent) return std::nullopt;
   const Communicator& comm = *level.comm;

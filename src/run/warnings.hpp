@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is to be told of a level and of a finished run. No warning is returned if there is nothing.
+// The warnings of a level and of a finished run. No warning is returned if there is no reason for
+// one.
 #pragma once
 
 #include <optional>
@@ -14,18 +15,19 @@
 
 namespace pnpbs {
 
-// Of a level as it begins: `given` is the user's spacing, `steepest` how it grows. Collective.
-// Throws Error where that is given nowhere near the nodes of a sphere.
+// Returns the warnings of a new level. `given` is the user's spacing, `steepest` its largest
+// growth. Throws Error if the spacing is given nowhere near the nodes of a sphere. All ranks must
+// call it, and if one rank throws, all ranks throw.
 template <int Dim>
 std::vector<Warning> warnings_of_level(const Level<Dim>& level, const Domain<Dim>& domain,
                                        const Spacing<Dim>& given,
                                        const SteepestGrowth<Dim>& steepest, const Options& options);
 
-// Where the nodes do not follow d, by the edges at the end of a run.
+// Returns a warning if the edges at the end of a run do not follow d.
 std::optional<Warning> warning_of_missed_spacing(const std::vector<EdgeBand>& bands);
-// Where a run's tetrahedra do not follow the surfaces.
+// Returns a warning if the tetrahedra of a run do not follow the surfaces.
 std::optional<Warning> warning_of_surface_fit(const SurfaceFit& fit, const Options& options);
-// Corners and feature edges that the elements do not have. Collective.
+// Returns a warning if elements lack corners or feature edges of the body. Collective.
 std::optional<Warning> warning_of_features_left_out(const Level<2>& level);
 std::optional<Warning> warning_of_features_left_out(const Level<3>& level);
 

@@ -8,8 +8,8 @@
 
 namespace pnpbs {
 
-// Nothing else bounds the sphere: what keeps a star from being all triangles is the way around the
-// domain.
+// The stars of the three rim nodes are open only because the chart has no triangle around the
+// domain. As nothing else bounds the sphere, closing these stars completes the triangulation.
 void close_sphere(Level<2>& level) {
   if (!is_closed_sphere(level)) return;
   using Entry = DelaunayStars::Entry;
@@ -75,7 +75,8 @@ void recognise_margin(Level<2>& level) {
                                                                         : PatchMargin::free;
 }
 
-// Seen from outside all triangles turn left, and so they do in the chart but for this one.
+// As seen from outside, all triangles of the sphere are counter-clockwise. The chart reverses the
+// orientation of this triangle alone.
 bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& corners) {
   if (!is_closed_sphere(level)) return false;
   std::array<Point<2>, 3> x;

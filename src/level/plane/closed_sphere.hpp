@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one triangle of a whole sphere that its chart turns inside out: that around the point which
-// is projected from. In the chart it is all that lies around the domain.
+// The triangle that closes a whole sphere. It lies around the point that the chart is projected
+// from, so that in the chart it covers everything outside the domain, with reversed orientation.
 #pragma once
 
 #include <array>
@@ -10,34 +10,35 @@
 
 namespace pnpbs {
 
-// Is that triangle there? Then what is near another place in the chart need not be near on the
-// sphere, and far less has to be known than lies within a length of the chart.
+// Returns whether the level has that triangle. If so, points that are near each other in the chart
+// need not be near on the sphere, and far fewer nodes must be known than a distance in the chart
+// contains.
 inline bool is_closed_sphere(const Level<2>& level) {
   return level.geometry.domain().closing() != nullptr;
 }
 inline bool is_closed_sphere(const Level<3>&) { return false; }
 
-// Adds it to the stars of its corners, as far as they are here. No other part of the domain does
-// anything.
+// Adds the triangle to those stars of its corners that are on this rank. Does nothing on other
+// domains.
 void close_sphere(Level<2>& level);
 inline void close_sphere(Level<3>&) {}
-// Frees the nodes in the margin of the patch: the lattice there and that of the others, which came
-// to it, then meet half-way.
+// Frees the nodes in the margin of the patch, so that the lattice of the patch and that of the
+// other nodes can adapt to each other on both sides of its rim.
 void free_margin(Level<2>& level);
 inline void free_margin(Level<3>&) {}
-// Fixes those that were freed, where they are by now: in steps the bubbles of the chart would press
-// towards the point, and go there. The next exchange tells the ghosts.
+// Fixes the nodes that were freed, at their present positions. In further steps the bubbles of the
+// chart would push them towards the point of projection. The next exchange updates the ghosts.
 void hold_margin(Level<2>& level);
 inline void hold_margin(Level<3>&) {}
-// Of nodes that come from a checkpoint, what those in the margin do. Collective.
+// Determines level.margin from the nodes of a checkpoint. Collective.
 void recognise_margin(Level<2>& level);
 inline void recognise_margin(Level<3>&) {}
-// Is it a place that only nodes of the patch may have?
+// Returns whether only nodes of the patch may lie at this point.
 inline bool is_closed_at(const Level<2>& level, const Point<2>& x) {
   return level.geometry.domain().is_closed_at(x, level.margin == PatchMargin::free);
 }
 inline bool is_closed_at(const Level<3>&, const Point<3>&) { return false; }
-// Is it that triangle? By its nodes.
+// Returns whether these corners are those of the closing triangle.
 bool closes_sphere(const Level<2>& level, const std::array<std::int64_t, 3>& corners);
 
 }  // namespace pnpbs

@@ -20,7 +20,8 @@ namespace pnpbs {
 
 namespace {
 
-// Calls sweep_once(scratch for places, scratch for flags) so many times.
+// Calls sweep_once(scratch for positions, scratch for flags) `times` times, each after an update of
+// the ghosts. All ranks must call it, and if one rank throws, all ranks throw.
 template <class Sweep>
 void sweep_over_stars(Level<2>& level, std::int64_t times, const Sweep& sweep_once) {
   View<char> allowed;
@@ -57,7 +58,8 @@ void repair_triangles(Level<2>& level, const TriangleMeasure& measure, std::int6
   }
 }
 
-// The worst first: what bars a triangle from getting better may itself be only just good enough.
+// Repairs the worst triangles first. A triangle that is barely acceptable may prevent the
+// improvement of a worse one beside it.
 void repair_bad_triangles(Level<2>& level) {
   const RepairRule& rule = level.settings.repair;
   repair_triangles(level, measure_by_shape(std::min(rule.worst_below, rule.bad_below)),
@@ -66,7 +68,8 @@ void repair_bad_triangles(Level<2>& level) {
     repair_triangles(level, measure_by_shape(rule.bad_below), rule.rounds);
 }
 
-// At nodes and ghosts.
+// Evaluates d at the present positions of nodes and ghosts. All ranks must call it, and if one rank
+// throws, all ranks throw.
 void take_spacing_here(Level<2>& level) {
   const PhaseTimer timer(level.timers, Phase::spacing);
   const View<double> d = spacing_at_nodes(level, level.geometry.spacing());
@@ -75,10 +78,10 @@ void take_spacing_here(Level<2>& level) {
   });
 }
 
-// Whether the nodes follow d is asked after every run, so it must cost next to nothing: the stars
-// of the last sweeps will do, though a few edges have other nodes by now. So will d from before the
-// sweeps, but in the chart of a sphere: there it changes along the way that a node has moved, near
-// the point that is projected from by several per cent.
+// Measures the edges over d with the stars and the d of the last sweeps, because the check follows
+// every run and must be cheap. A few edges have changed since then. In the chart of a sphere d is
+// evaluated again: near the point of projection it changes by several per cent along the path of a
+// node.
 std::vector<EdgeBand> edge_bands(Level<2>& level) {
   std::vector<EdgeBand> bands;
   update_ghosts(level);
@@ -92,14 +95,15 @@ std::vector<EdgeBand> edge_bands(Level<2>& level) {
 
 }  // namespace
 
-// In blocks of a few sweeps, within which the stars stay as they are. Surplus nodes leave the stars
-// before the first sweep, so that the others can fill their places, and the level after the block.
+// Sweeps in blocks, within which the stars do not change. Surplus nodes are taken out of the stars
+// before the first sweep, so that the others can fill the gaps. They are deleted after the block.
 FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps, const StopTest& stops) {
   constexpr std::int64_t kBlock = method::kSweepsOnStars;
   const bool repairs = level.settings.repair.rounds > 0;
-  // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
-  // surplus node in between a node of the second ring may be a neighbour, too; its star changes
-  // with a surplus node in the third, and whether that goes hangs on the ring around it.
+  // The guard of a node reads the proposed positions of its neighbours, which depend on their
+  // stars. If a surplus node between them is taken out, a node of the second ring may become a
+  // neighbour. Its star in turn changes with a surplus node in the third ring, which the fourth
+  // ring decides about.
   const int rings = repairs ? 4 : 1;
   FinishResults results;
   for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
@@ -117,10 +121,10 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps, const StopT
     sweep_to_means(level, std::min(kBlock, sweeps - done));
     const bool last = done + kBlock >= sweeps;
     if (last && repairs) repair_bad_triangles(level);
-    if (last) results.edge_bands = edge_bands(level);  // while there are stars
+    if (last) results.edge_bands = edge_bands(level);  // requires the stars
     for (std::int32_t i : surplus) results.counts.deleted += level.nodes.owned(i);
     if (!surplus.empty()) delete_nodes(level, surplus);
-    if (repairs) level.ghosts.invalidate();  // on all ranks, as some may be gone
+    if (repairs) level.ghosts.invalidate();  // on all ranks, as some ghosts may be deleted
   }
   if (sweeps == 0 && !repairs) {
     make_finish_stars(level, {});
@@ -130,7 +134,8 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps, const StopT
 }
 
 std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps) {
-  make_finish_stars(level, {1});  // the guard of a node asks where its neighbours want to go
+  // The guard of a node reads the proposed positions of its neighbours.
+  make_finish_stars(level, {1});
   const PhaseTimer timer(level.timers, Phase::sweeps);
   const SweepRule rule{1, method::kSweepMaxMove, method::kCentroidalSweepGuardsBelow};
   sweep_over_stars(level, sweeps, [&](Field<2>& proposed, View<char>& allowed) {
@@ -141,7 +146,7 @@ std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps) {
 }
 
 void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds) {
-  make_finish_stars(level, {1});  // of neighbours only one moves
+  make_finish_stars(level, {1});  // of two neighbours only one moves
   const PhaseTimer timer(level.timers, Phase::sweeps);
   repair_triangles(level, measure_of_obtuse_triangles(level.geometry.domain().embedding()), rounds);
 }

@@ -11,8 +11,9 @@ LevelGeometry<2>::LevelGeometry(std::shared_ptr<const PlaneDomain> domain,
                                 std::shared_ptr<const Spacing<2>> spacing, const NodeLimit& limit)
     : domain_(std::move(domain)), spacing_(std::move(spacing)) {
   boundary_ = discretize_boundary(*domain_, evaluator(), limit.max_nodes);
-  // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too. But not
-  // those of a patch that are to move: no others come among them.
+  // Fixed nodes off the curves act as edges of length zero, so inner nodes keep their clearance
+  // from them. Nodes in the margin of a patch do not, because they move and no other nodes come
+  // between them.
   for (std::size_t f = static_cast<std::size_t>(boundary_.first_fixed); f < boundary_.nodes.size();
        ++f) {
     if (domain_->is_in_margin(boundary_.nodes[f].position)) continue;
@@ -28,7 +29,8 @@ LevelGeometry<2>::LevelGeometry(std::shared_ptr<const PlaneDomain> domain,
   evaluator()(std::ssize(positions), positions.data(), boundary_spacing_.data());
 }
 
-// What closes a whole sphere has to leave that, and nothing else bounds it.
+// Throws unless the closing patch leaves exactly one triangle open and nothing else bounds the
+// sphere.
 void LevelGeometry<2>::require_one_triangle_left() const {
   const auto edges = std::ranges::count_if(boundary_.facets, &BoundaryEdge::bounds);
   if (edges != 3)

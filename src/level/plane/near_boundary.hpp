@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary near the nodes of a plane level: edges, and what they hide.
+// The boundary near the nodes of a level in the plane: its edges, and which nodes they hide from
+// each other.
 #pragma once
 
 #include <utility>
@@ -14,6 +15,7 @@ namespace pnpbs {
 template <int Dim>
 class NearBoundary;
 
+// See level/near_boundary.hpp for the members.
 template <>
 class NearBoundary<2> {
  public:
@@ -34,7 +36,7 @@ class NearBoundary<2> {
   double radius() const { return edges_.radius(); }
   bool leaf_is_clear(std::int32_t leaf) const { return edges_.leaf_is_clear(leaf); }
   bool within(std::int64_t i, double reach) const { return edges_.edge_within(i, reach); }
-  // May it be in the way of node i within the next steps, which lead no farther than reach?
+  // Returns whether the boundary may block node i in steps that lead no farther than `reach`.
   bool constrains(const Nodes<2>&, std::int64_t i, double reach) const { return within(i, reach); }
   Point<2> hold_off(std::int64_t i, const Nodes<2>& nodes, const SizedTree<2>& map,
                     const LevelGeometry<2>& geometry, const Point<2>& to) const;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The margin of the patch that closes a whole sphere, whose nodes may move.
 #pragma once
 
 namespace pnpbs {
 
-// The nodes in the margin of the patch that closes a whole sphere (closed_sphere.hpp).
+// The state of the nodes in the margin (see closed_sphere.hpp).
 enum class PatchMargin {
-  laid,  // fixed where the patch has them
-  free,  // they move in the finish, as others do
-  held   // fixed where the last finish left them
+  laid,  // fixed at their positions in the patch
+  free,  // they move in the finish
+  held   // fixed at their positions after the last finish
 };
 
 }  // namespace pnpbs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes that come to those that a level in space has.
+// The insertion of nodes into a level in space that already has nodes.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace pnpbs {
 
-// Inner ones or on surfaces; each rank gives those that lie in its part. Returns how many, of all
-// ranks. Collective.
+// Inserts inner or surface nodes. Each rank passes the ones in its own leaves. Returns their number
+// over all ranks. All ranks must call it, and if one rank throws, all ranks throw.
 std::int64_t add_nodes(Level<3>& level, IncomingNodes<3> more);
 
 }  // namespace pnpbs

@@ -21,7 +21,8 @@ bool is_free(const Level<3>& level, std::int64_t i) {
   return level.nodes.carrier(i) == Carrier::free;
 }
 
-// Owned nodes with the boundary around them not as it should be.
+// Returns flags of the owned nodes at which the boundary is torn or that lie on a surplus piece of
+// it. All ranks must call it, and if one rank throws, all ranks throw.
 std::vector<char> nodes_off(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);
   const std::set<std::int64_t> extra = pieces_too_many(level, pieces);
@@ -36,7 +37,7 @@ std::vector<char> nodes_off(const Level<3>& level) {
   return off;
 }
 
-// The ids of those in the way of this torn node, which may be another rank's.
+// Appends the ids of the nodes that block the boundary at this torn node. Other ranks may own them.
 void add_blocking_ids(const Level<3>& level, std::int64_t i, std::vector<std::int64_t>& ids) {
   const Nodes<3>& nodes = level.nodes;
   if (is_free(level, i)) {
@@ -53,7 +54,7 @@ void add_blocking_ids(const Level<3>& level, std::int64_t i, std::vector<std::in
     ids.push_back(nodes.id(i));
 }
 
-// Of all ranks, each once, ascending.
+// Returns the ids of all ranks, ascending and without repetition.
 std::vector<std::int64_t> blocking_ids(const Level<3>& level, const std::vector<char>& off) {
   std::vector<std::int64_t> own;
   collective_try(*level.comm, [&] {
@@ -66,7 +67,7 @@ std::vector<std::int64_t> blocking_ids(const Level<3>& level, const std::vector<
   return all;
 }
 
-// The ids of those that have to go, of all ranks. Collective.
+// Returns the ids of the nodes to remove, the same on all ranks. Collective.
 std::vector<std::int64_t> ids_to_remove(Level<3>& level, std::int64_t& nodes_off_before) {
   const PhaseTimer timer(level.timers, Phase::conformity);
   const std::vector<char> off = nodes_off(level);
@@ -86,7 +87,7 @@ std::vector<std::int64_t> ids_to_remove(Level<3>& level, std::int64_t& nodes_off
 std::int64_t remove_blocking_nodes(Level<3>& level, std::int64_t& nodes_off_before) {
   const std::vector<std::int64_t> ids = ids_to_remove(level, nodes_off_before);
   if (ids.empty()) return 0;
-  std::vector<std::int32_t> leaving;  // ghosts among them
+  std::vector<std::int32_t> leaving;  // ghosts included
   for (std::int32_t i = 0; i < level.nodes.count; ++i)
     if (std::ranges::binary_search(ids, level.nodes.id(i))) leaving.push_back(i);
   delete_nodes(level, leaving);

@@ -11,6 +11,7 @@ namespace pnpbs {
 
 namespace {
 
+// Numbers of vertices, edges and triangles of a triangulated surface.
 struct Counts {
   std::int64_t vertices = 0, edges = 0, triangles = 0;
 
@@ -28,6 +29,7 @@ std::int64_t distinct(std::vector<T>& values) {
   return std::unique(values.begin(), values.end()) - values.begin();
 }
 
+// Adds the vertex i and the edges and triangles at it.
 void add_faces_at(const Level<3>& level, std::int64_t i, Counts& counts) {
   const FaceFan fan = open_faces(level, i);
   if (fan.empty()) return;
@@ -59,8 +61,8 @@ std::int64_t euler_of_surfaces(const Level<3>& level) {
   return Counts{distinct(vertices), distinct(edges), triangles}.euler();
 }
 
-// Each node's share is its owner's: an edge is seen from both of its ends, a triangle from its
-// corners.
+// Sums the shares of the owners. An edge is counted at both of its ends, and a triangle at its
+// three corners.
 std::int64_t euler_of_boundary(const Level<3>& level) {
   std::vector<std::int64_t> all;
   collective_try(*level.comm, [&] {

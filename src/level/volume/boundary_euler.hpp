@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Euler's characteristic, vertices less edges plus triangles, of the boundary of the tetrahedra and
-// of the surfaces that it stands for. Where nothing is torn they differ by 2 for each handle or
-// hole, and each piece.
+// Euler's characteristic, vertices minus edges plus triangles, of the boundary of the tetrahedra
+// and of the surfaces that it represents. If nothing is torn, each handle, hole or piece in one and
+// not the other makes a difference of 2.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace pnpbs {
 
-// Of the faces that have a tetrahedron on one side only, by the stars of the owned nodes.
-// Collective.
+// Returns that of the faces with a tetrahedron on one side only, from the stars of the owned nodes.
+// All ranks must call it, and if one rank throws, all ranks throw.
 std::int64_t euler_of_boundary(const Level<3>& level);
 
-// Of the domain's surfaces, but for inner ones. Local.
+// Returns that of the surfaces of the domain, without inner ones. Local.
 std::int64_t euler_of_surfaces(const Level<3>& level);
 
 }  // namespace pnpbs

@@ -14,23 +14,25 @@ namespace pnpbs {
 
 namespace {
 
-// Of a piece as two ranks see it: each knows it by the least id of its nodes there.
+// A piece as two ranks identify it: each by the smallest id of its nodes on that rank.
 struct SamePiece {
   std::int64_t here, there;
 
   auto operator<=>(const SamePiece&) const = default;
 };
 
+// The id of a node, and the piece it belongs to.
 struct NamedNode {
   std::int64_t id, piece;
 };
 
-// Of one rank.
+// The number of nodes that one rank has of a piece.
 struct NodesOfPiece {
   std::int64_t piece, nodes;
 };
 
-// The piece of each node of this rank by its least id; -1: it has no face that an owned one has.
+// Returns for each node of this rank the smallest id of its piece on this rank, or -1 if it has no
+// face in common with an owned node.
 std::vector<std::int64_t> pieces_here(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
   const auto count = static_cast<std::size_t>(nodes.count);
@@ -57,7 +59,8 @@ std::vector<std::int64_t> pieces_here(const Level<3>& level) {
   return pieces;
 }
 
-// What the owners call the pieces of ghosts, beside what they are called here.
+// Returns pairs of names: that of a ghost's piece on this rank, and that on the owner of the ghost.
+// Collective.
 std::set<SamePiece> same_pieces(const Level<3>& level, const std::vector<std::int64_t>& pieces) {
   const Nodes<3>& nodes = level.nodes;
   std::vector<std::int32_t> own;
@@ -81,7 +84,8 @@ std::set<SamePiece> same_pieces(const Level<3>& level, const std::vector<std::in
   return same;
 }
 
-// All that any rank sees, joined: the least id of the whole piece for what each calls it.
+// Joins the pieces of all ranks. Returns the smallest id of the whole piece for each name that a
+// rank uses. Collective.
 std::map<std::int64_t, std::int64_t> least_of_all(const Communicator& comm,
                                                   const std::set<SamePiece>& own) {
   std::map<std::int64_t, std::size_t> places;

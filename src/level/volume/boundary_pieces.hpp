@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of how many pieces the boundary of the tetrahedra is, and the surfaces that it stands for: faces
-// with a common node are of one.
+// The connected pieces of the boundary of the tetrahedra and of the surfaces that it represents.
+// Faces with a common node belong to the same piece.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,20 @@
 
 namespace pnpbs {
 
-// Each piece goes by the least id of its nodes.
+// The pieces of the boundary, each identified by the smallest id of its nodes.
 struct BoundaryPieces {
-  std::vector<std::int64_t> of;                // of this rank's nodes, -1: no face of an owned node
-  std::map<std::int64_t, std::int64_t> nodes;  // how many each has, of all ranks
+  // Piece of each node of this rank; -1: no face in common with an owned node.
+  std::vector<std::int64_t> of;
+  std::map<std::int64_t, std::int64_t> nodes;  // number of nodes of each piece, over all ranks
 };
 
-// By the stars of the owned nodes and the ghosts around them. Collective.
+// Finds the pieces from the stars of the owned nodes. All ranks must call it, and if one rank
+// throws, all ranks throw.
 BoundaryPieces boundary_pieces(const Level<3>& level);
-// How many there are. Collective.
+// Returns their number. All ranks must call it, and if one rank throws, all ranks throw.
 std::int64_t pieces_of_boundary(const Level<3>& level);
 
-// Inner surfaces do not count. Local.
+// Returns the number of pieces of the domain's surfaces, without inner ones. Local.
 std::int64_t pieces_of_surfaces(const Level<3>& level);
 
 }  // namespace pnpbs

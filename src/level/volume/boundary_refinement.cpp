@@ -28,20 +28,21 @@ namespace {
 
 using FaceCorners = std::array<std::int64_t, 3>;
 
-// Around a point of a surface, through the corners of a face.
+// The ball through the corners of a face whose centre lies on a surface.
 struct SurfaceBall {
   double radius;
-  std::array<std::int64_t, 3> ids;  // of the corners, ascending
+  std::array<std::int64_t, 3> ids;  // ids of the corners, ascending
   Point<3> x;
   std::int64_t facet;
 
-  // The larger one first.
+  // Orders by radius, the largest first.
   bool operator<(const SurfaceBall& other) const {
     return std::tie(other.radius, ids) < std::tie(radius, other.ids);
   }
 };
 
-// What has to become less: faces with nodes from inside, and nodes without a disk.
+// The defects that refinement must reduce: boundary faces with inner nodes, and nodes without a
+// disk.
 struct Strays {
   std::vector<SurfaceBall> balls;
   std::uint64_t count = 0;
@@ -52,8 +53,9 @@ bool see_each_other(const Level<3>& level, std::int64_t i, std::int64_t j) {
   return geometry.surface().sees(geometry.place(level.nodes, i), geometry.place(level.nodes, j));
 }
 
-// The corner on whose sheet of the surface the ball's middle lies: the first by id that is on one;
-// if the face goes from node `from` to another sheet, on that.
+// Returns the corner that determines on which sheet of the surface the centre of the ball lies: the
+// first by id that lies on a surface. If the face connects node `from` with another sheet, it is a
+// corner on that sheet.
 std::int64_t corner_of_sheet(const Level<3>& level, const FaceCorners& by_id, std::int64_t from) {
   const Nodes<3>& nodes = level.nodes;
   std::int64_t found = -1;
@@ -65,8 +67,9 @@ std::int64_t corner_of_sheet(const Level<3>& level, const FaceCorners& by_id, st
   return found;
 }
 
-// The same bits whichever corner asks, but for `from`. None, if no corner is on a surface, nor is
-// one near.
+// Returns the ball of a face, with the same bits for each order of the corners. `from` is a node on
+// one sheet of the surface if the face leads to another sheet, else -1. Returns nothing if no
+// corner lies on a surface and none is near.
 std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corners,
                                         std::int64_t from = -1) {
   const Nodes<3>& nodes = level.nodes;
@@ -79,7 +82,7 @@ std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corne
   }
   const Point<3> centre = circle_centre(x);
   const double radius = distance<3>(centre, x[0]);
-  if (!(radius < std::numeric_limits<double>::infinity())) return {};  // in one line
+  if (!(radius < std::numeric_limits<double>::infinity())) return {};  // collinear corners
   const Surface& surface = level.geometry.surface();
   const std::int64_t on_sheet = corner_of_sheet(level, corners, from);
   if (on_sheet >= 0) {
@@ -96,13 +99,13 @@ std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corne
   return ball;
 }
 
-// Faces count at the node with the least id.
+// Adds the defects at node i. A face is counted at its node with the smallest id.
 void add_strays_at(const Level<3>& level, std::int64_t i, Strays& strays) {
   const Nodes<3>& nodes = level.nodes;
   const FaceFan fan = open_faces(level, i);
   const auto is_free = [&](std::int64_t j) { return nodes.carrier(j) == Carrier::free; };
   const auto is_first = [&](std::int64_t j) { return nodes.id(i) < nodes.id(j); };
-  // Those that lie along no surface tell where a node is missing.
+  // Faces that do not lie along a surface show where a node is missing.
   std::vector<SurfaceBall> along, across;
   for (const auto& [a, b] : fan) {
     const std::optional<SurfaceBall> ball = surface_ball(level, {i, a, b});
@@ -140,7 +143,8 @@ Strays strays_of_own(const Level<3>& level) {
   return strays;
 }
 
-// Is a node of its sheet of the surface as near to the middle of the ball?
+// Returns whether a node on the same sheet of the surface is about as close to the centre of the
+// ball.
 bool is_taken(const Level<3>& level, const IncomingNode<3>& middle, double radius) {
   const Nodes<3>& nodes = level.nodes;
   const LevelGeometry<3>& geometry = level.geometry;
@@ -156,7 +160,8 @@ bool is_taken(const Level<3>& level, const IncomingNode<3>& middle, double radiu
   return taken;
 }
 
-// Of those of all ranks that are too near to each other the largest. Few are left to tell of.
+// Returns, of the balls of all ranks that are too close to each other, the largest ones. There are
+// few, so they are gathered on all ranks. Collective.
 std::vector<SurfaceBall> largest_apart(const Communicator& comm,
                                        const std::vector<SurfaceBall>& own) {
   std::vector<SurfaceBall> all = of_all_ranks(comm, own), kept;
@@ -169,7 +174,8 @@ std::vector<SurfaceBall> largest_apart(const Communicator& comm,
   return kept;
 }
 
-// Those of this rank, which may own the place on a level set and not that on its triangle.
+// Returns the new nodes that this rank owns. The owner of a point on a level set may not own the
+// point on its triangle.
 IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>& balls) {
   IncomingNodes<3> nodes;
   for (const SurfaceBall& ball : balls)
@@ -184,7 +190,8 @@ IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>
   return own;
 }
 
-// Collective.
+// Returns the defects at the owned nodes. All ranks must call it, and if one rank throws, all ranks
+// throw.
 Strays find_strays(Level<3>& level) {
   const PhaseTimer timer(level.timers, Phase::conformity);
   Strays own;
@@ -192,7 +199,8 @@ Strays find_strays(Level<3>& level) {
   return own;
 }
 
-// Of all ranks, those that this rank owns. Collective.
+// Returns the nodes in the balls of all ranks that this rank will own. All ranks must call it, and
+// if one rank throws, all ranks throw.
 IncomingNodes<3> nodes_in_balls(Level<3>& level, const std::vector<SurfaceBall>& own_balls) {
   const PhaseTimer timer(level.timers, Phase::conformity);
   const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own_balls);
@@ -201,7 +209,8 @@ IncomingNodes<3> nodes_in_balls(Level<3>& level, const std::vector<SurfaceBall>&
   return nodes;
 }
 
-// Nodes come, in rounds, as long as that makes the strays fewer. Returns how many, of all ranks.
+// Inserts nodes in rounds as long as the number of defects decreases. Returns the number of nodes
+// over all ranks. Collective.
 std::int64_t add_boundary_nodes(Level<3>& level) {
   constexpr std::uint64_t kFew = method::kFewStrays;
   std::int64_t added = 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes that come to the surfaces where the boundary of the tetrahedra leaves them: restricted
-// Delaunay refinement (Chew, "Guaranteed-quality mesh generation for curved surfaces", 1993;
-// Boissonnat and Oudot, "Provably good sampling and meshing of surfaces", 2005). A face of the
-// boundary with a node from inside, and the largest face at a node around which the faces are not
-// one disk, get a node in the middle of the ball around a point of the surface that their corners
-// lie on, round after round, as long as that makes them fewer. Where the
-// boundary is torn still, nodes from inside are in the way, and leave (blocking_nodes.hpp).
+// The insertion of surface nodes where the boundary of the tetrahedra leaves the surfaces, by
+// restricted Delaunay refinement (Chew, "Guaranteed-quality mesh generation for curved surfaces",
+// 1993; Boissonnat and Oudot, "Provably good sampling and meshing of surfaces", 2005). For each
+// boundary face with an inner node, and for the largest face at each node whose faces are not one
+// disk, a node is inserted at the surface point that is the centre of a ball through the corners of
+// the face. This is repeated as long as the number of such faces decreases. If the boundary is
+// still torn, inner nodes block it and are removed (blocking_nodes.hpp).
 #pragma once
 
 #include "level/level.hpp"
@@ -13,8 +13,9 @@
 
 namespace pnpbs {
 
-// Leaves the stars of its last round, with their elements settled, or none. Returns how many nodes
-// came and left, over all ranks. Collective.
+// Refines the boundary. Afterwards the level has the stars of the last round with settled elements,
+// or no stars. Returns the numbers of inserted and deleted nodes over all ranks. Does nothing in
+// the plane. All ranks must call it, and if one rank throws, all ranks throw.
 PopulationCounts refine_boundary(Level<3>& level);
 inline PopulationCounts refine_boundary(Level<2>&) { return {}; }
 

@@ -28,7 +28,7 @@ namespace pnpbs {
 
 namespace {
 
-// What says whether a node may go to a place.
+// Returns the test of whether a node may move to a point.
 auto may_go(const Level<3>& level) {
   return [&level, inner = level.geometry.has_inner_surfaces()](std::int64_t i, const Point<3>& x) {
     const NearBoundary<3>& near = level.neighbourhood.near_boundary();
@@ -39,8 +39,8 @@ auto may_go(const Level<3>& level) {
   };
 }
 
-// By the stars there are. The few edges that have other nodes after the first sweep do not matter
-// to the next. (Those after a repair do.) Ghosts follow their owners.
+// Moves nodes towards the means of their neighbours in the present stars. A few edges have other
+// nodes after the first sweep, which does not affect the next ones much. Ghosts are updated.
 void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   const PhaseTimer timer(level.timers, Phase::sweeps);
   for (std::int64_t s = 0; s < sweeps; ++s) {
@@ -54,8 +54,8 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   }
 }
 
-// Moves points near level sets to where these are 0. A point gets the facet -1 if there is none
-// within the distance that nodes have from triangles.
+// Moves points near level sets to where these are 0. A point gets the facet -1 if there is no such
+// point within the distance that nodes have from triangles.
 void settle_on_level_sets(const LevelGeometry<3>& geometry,
                           std::vector<AlongSurfaces::Place>& places) {
   const LevelSetTriangles& triangles = geometry.domain().level_sets();
@@ -80,13 +80,13 @@ void settle_on_level_sets(const LevelGeometry<3>& geometry,
   }
 }
 
-// Those with an angle below so many degrees, until none is left, or too much is done in vain: in a
-// wall thinner than d, nearly all tetrahedra are thin, whatever is done. Ghosts follow.
+// Repairs elements with an angle below this many degrees, until none is left or too many attempts
+// have failed: in a wall thinner than d nearly all tetrahedra stay thin. Ghosts are updated.
 void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule, double below) {
   const auto sum = [&](std::int64_t own) {
     return level.comm->allreduce_sum(static_cast<std::uint64_t>(own));
   };
-  constexpr double kFewNodes = 1000;  // in small bodies attempts take no time
+  constexpr double kFewNodes = 1000;  // small bodies need no limit
   const double most_in_vain =
       method::kMaxInVain * std::max(kFewNodes, static_cast<double>(sum(level.owned_count())));
   std::uint64_t in_vain = 0;
@@ -109,7 +109,7 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   }
 }
 
-// How far nodes on surfaces may move from their positions before the repair.
+// The distances that nodes on surfaces may move from their positions before the repair.
 class RoomOnSurfaces {
  public:
   explicit RoomOnSurfaces(const Level<3>& level) : level_(level) {
@@ -131,9 +131,10 @@ class RoomOnSurfaces {
   std::vector<SurfacePoint> before_;
 };
 
-// Returns how nodes move along surfaces. Those on inner surfaces stay, as the removed tetrahedra
-// would not account for the triangles there. Those on thin walls have little room, opposite their
-// partners. Those on a level set keep their distance from its triangles on the way.
+// Returns the rules by which nodes move along surfaces. Nodes on inner surfaces do not move,
+// because the repair does not handle the triangles there. Nodes on thin walls may move little, so
+// that they stay opposite their partners. Nodes of a level set keep their distance from its
+// triangles on the way.
 AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input,
                                   const RoomOnSurfaces& room) {
   const auto walk = [&level, &room](std::int64_t i, const Point<3>& direction, double length) {
@@ -165,8 +166,9 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
   return ways;
 }
 
-// The worst first: else they would rarely have their turn where nearly all have small angles. With
-// the stars of the owned nodes as they are then.
+// Repairs elements with small angles, the worst first. Otherwise these would rarely be attempted
+// where nearly all elements have small angles. Afterwards the stars of the owned nodes are up to
+// date.
 void repair_slivers(Level<3>& level, double repair_below) {
   make_finish_stars(level, {method::kSliverRings,
                             method::kSliverReach + method::kSliverDrift + method::kSliverEdge});
@@ -190,8 +192,8 @@ void repair_slivers(Level<3>& level, double repair_below) {
   level.stars_digest = repair->unknown_uses() == 0 ? digest : 0;
 }
 
-// What the repairs leave: nodes come and go, and after that only the thinnest elements count.
-// Returns the counts of this rank, or nothing if it is stopped.
+// Repairs the elements that remain thin: removes and inserts nodes, and then repairs only the
+// thinnest elements. Returns the counts of this rank, or nothing if the monitor stops it.
 std::optional<PopulationCounts> repair_thin_elements(Level<3>& level, const StopTest& stops) {
   ThinElementChanges changes = change_nodes_of_thin_elements(level);
   PopulationCounts counts = changes.counts;

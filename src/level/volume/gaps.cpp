@@ -12,7 +12,8 @@ namespace pnpbs {
 
 namespace {
 
-// Is a node there that a new one would be on top of, on its side of the surface?
+// Returns whether node i is closer to the candidate than `gap` times its d. Surface nodes count
+// only if they are on the same side of the surface.
 bool covers(const Level<3>& level, std::int64_t i, const IncomingNode<3>& candidate, double gap) {
   const Nodes<3>& nodes = level.nodes;
   if (distance<3>(nodes.position(i), candidate.position) >= gap * nodes.d(i)) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gaps between the nodes that a level in space took over from a coarser one: where that had no room
-// for nodes, as in a wall thinner than its spacing, there is none to be refined, and no bubble
-// beside which others would come. There a fill helps.
+// Gaps between the nodes that a level in space has taken over from a coarser one. In a wall thinner
+// than its spacing the coarser level had no inner nodes. There is then no node to refine, and no
+// bubble beside which population control inserts others. A fill closes such gaps.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace pnpbs {
 
-// Is a node nearer to this new one than so many of its d, on its side of the surface? By the lists'
-// buckets.
+// Returns whether a node is closer to the candidate than `gap` times its d, on the same side of the
+// surface. Uses the buckets of the present lists.
 bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double gap);
 
-// Of these new nodes, those that this rank owns and that are so many of their d away from all that
-// the level has. Collective.
+// Returns the candidates that this rank owns and that no node of the level covers. All ranks must
+// call it, and if one rank throws, all ranks throw.
 IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates,
                          double gap = method::kGap);
 
-// Puts a fill of the inside into the gaps there. Returns how many nodes that is, of all ranks.
-// Collective.
+// Fills the gaps in the inside. Returns the number of new nodes over all ranks. All ranks must call
+// it, and if one rank throws, all ranks throw.
 std::int64_t fill_gaps_inside(Level<3>& level);
-// Fills nothing in the plane.
+// Does nothing in the plane.
 inline std::int64_t fill_gaps_inside(Level<2>&) { return 0; }
 
 }  // namespace pnpbs

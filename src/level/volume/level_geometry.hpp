@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a level in space stands on: the domain with its surfaces, the spacing, and the nodes on the
+// The geometry of a level in space: the domain with its surfaces, the spacing, and the nodes on
 // feature edges.
 #pragma once
 
@@ -24,24 +24,26 @@ namespace pnpbs {
 template <int Dim>
 class LevelGeometry;
 
-// Nodes::boundary_node is, of a node on a surface, the facet that it lies on, of one on a curve or
-// in a corner its index among the feature nodes, and -1 of an inner node.
+// The geometry of a level in space. It never changes. Nodes::boundary_node is the facet of a
+// surface node, the index among the feature nodes of a node on a curve or in a corner, and -1 for
+// an inner node.
 template <>
 class LevelGeometry<3> {
  public:
-  // Throws Error(ErrorKind::spacing) if the feature edges or the largest triangles had more nodes
-  // than the limit allows.
+  // Throws Error(ErrorKind::spacing) if the feature edges or the largest triangles would have more
+  // nodes than the limit allows.
   LevelGeometry(std::shared_ptr<const VolumeDomain> domain,
                 std::shared_ptr<const Spacing<3>> spacing, const NodeLimit& limit);
   LevelGeometry(const LevelGeometry&) = delete;  // the tree points to the boundary
   LevelGeometry& operator=(const LevelGeometry&) = delete;
 
   const VolumeDomain& domain() const { return *domain_; }
-  const Box<3>& bounds() const { return bounds_; }  // of all nodes
+  const Box<3>& bounds() const { return bounds_; }  // box of all nodes
   double measure() const { return domain_->volume(); }
-  GeometryKind kind() const { return kind_; }  // when it was made
+  GeometryKind kind() const { return kind_; }  // at the time of construction
   const Spacing<3>& spacing() const { return *spacing_; }
-  SpacingEvaluator<3> evaluator() const;  // d, checked; while this ground is there
+  // Returns checked values of d; must not outlive this object.
+  SpacingEvaluator<3> evaluator() const;
   const BoundaryMesh<3>& boundary() const { return domain_->mesh(); }
   const Surface& surface() const { return surface_; }
   const FeatureNodes& features() const { return features_; }
@@ -50,25 +52,27 @@ class LevelGeometry<3> {
   double bubble_at(const Nodes<3>&, std::int64_t, double d) const { return d; }
   double spacing_at(const Nodes<3>& nodes, std::int64_t i) const { return nodes.d(i); }
 
-  // Where a node on the boundary lies; `on`: its boundary_node, now or at the last event.
+  // Returns the part of the surface that a boundary node lies on. `on` is its boundary_node, now or
+  // at the last event.
   SurfacePlace place(Carrier carrier, std::int32_t on) const;
   SurfacePlace place(const Nodes<3>& nodes, std::int64_t i) const {
     return place(nodes.carrier(i), nodes.boundary_node(i));
   }
-  // Is the domain on one side of that facet alone?
+  // Returns whether the domain lies on only one side of the facet.
   bool bounds_domain(std::int32_t facet) const { return boundary().facets[index(facet)].bounds(); }
   bool patch_bounds_domain(std::int32_t patch) const { return patch_bounds_[index(patch)] != 0; }
-  // Is it a triangle of an inner surface? (Nor of an inner curve, nor a fixed node.)
+  // Returns whether the facet is a triangle of an inner surface, and not of an inner curve or a
+  // fixed node.
   bool on_inner_surface(std::int32_t facet) const {
     return surface_.patch(facet) >= 0 && !bounds_domain(facet);
   }
-  // Of surfaces alone none is.
+  // Returns whether the body has inner surfaces. It is false for surfaces without a body.
   bool has_inner_surfaces() const {
     return kind_ == GeometryKind::body &&
            std::ranges::find(patch_bounds_, 0) != patch_bounds_.end();
   }
 
-  // The nodes on feature edges and in corners, the same on all ranks.
+  // Returns the nodes on feature edges and in corners, the same on all ranks.
   IncomingNodes<3> feature_nodes() const;
 
  private:
@@ -80,7 +84,7 @@ class LevelGeometry<3> {
   Box<3> bounds_;
   Surface surface_;
   FeatureNodes features_;
-  std::vector<char> patch_bounds_;  // of each patch: is the domain on one side of it?
+  std::vector<char> patch_bounds_;  // per patch: whether the domain lies on only one side
   std::vector<Warning> warnings_;
 };
 

@@ -13,13 +13,15 @@ namespace pnpbs {
 
 namespace {
 
+// A node on a surplus piece of the boundary.
 struct PieceNode {
   std::int64_t piece, id;
   Point<3> x;
   double d;
-  std::int64_t on_feature;  // 1 or 0
+  std::int64_t on_feature;  // 1 if the node lies on a feature, else 0
 };
 
+// A node without elements.
 struct LoneNode {
   std::int64_t id, on_feature;
 };
@@ -28,7 +30,8 @@ bool is_on_feature(Carrier carrier) {
   return carrier == Carrier::fixed || carrier == Carrier::curve;
 }
 
-// Of all ranks, piece by piece, each from its least id on. Collective.
+// Returns the nodes of all surplus pieces of all ranks, sorted by piece and id. All ranks must call
+// it, and if one rank throws, all ranks throw.
 std::vector<PieceNode> nodes_of_pieces_too_many(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);
   const Nodes<3>& nodes = level.nodes;
@@ -51,7 +54,7 @@ bool is_given(const Level<3>& level, const Point<3>& x) {
                              [&](const FixedNode<3>& node) { return node.position == x; });
 }
 
-// Of the nodes of one piece.
+// Returns whether the nodes of one piece are so close together that the piece is removed.
 template <class Iterator>
 bool is_loose(const Level<3>& level, Iterator begin, Iterator end) {
   return std::all_of(begin, end, [&](const PieceNode& node) {
@@ -62,7 +65,8 @@ bool is_loose(const Level<3>& level, Iterator begin, Iterator end) {
 
 bool has_elements(const Level<3>& level, std::int64_t i) { return level.stars.size(i) > 0; }
 
-// On surfaces that bound the domain, with no element, of all ranks; ascending ids. Collective.
+// Returns the nodes of all ranks on surfaces that bound the domain which are no corner of an
+// element, by ascending id. All ranks must call it, and if one rank throws, all ranks throw.
 std::vector<LoneNode> lone_nodes(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
   std::vector<LoneNode> own;
@@ -77,7 +81,7 @@ std::vector<LoneNode> lone_nodes(const Level<3>& level) {
   return all;
 }
 
-// Which of them have a node of elements beside them. Collective.
+// Returns for each of them 1 if a node with elements is beside it, and 0 otherwise. Collective.
 std::vector<std::int64_t> beside_elements(const Level<3>& level,
                                           const std::vector<LoneNode>& lone) {
   const Nodes<3>& nodes = level.nodes;

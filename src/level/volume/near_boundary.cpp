@@ -11,9 +11,9 @@
 
 namespace pnpbs {
 
-// ------------------------------------------------------------------ who sees whom --------------
+// ------------------------------------------------------------------ visibility -----------------
 
-// Lists are made by several threads.
+// The flags are atomic because several threads build lists.
 bool VisibilityInSpace::visible(std::int64_t i, std::int64_t j) {
   if (in_sight(i, j)) return true;
   for (const std::int64_t node : {i, j})
@@ -29,8 +29,8 @@ bool VisibilityInSpace::in_sight(std::int64_t i, std::int64_t j) const {
   return !bubbles_on_surfaces() && see_through_inside(i, j);
 }
 
-// Is the inner node in front of a surface there? Inner nodes keep so far off the boundary that
-// between two that are near enough to push each other there is nothing.
+// Returns whether the inner node lies in front of a surface at the boundary node. Inner nodes are
+// so far from the boundary that nothing lies between two that are close enough to repel each other.
 bool VisibilityInSpace::looks_at(std::int64_t on_boundary, std::int64_t inner) const {
   const Point<3> way = difference(point_at<3>(at_, inner), point_at<3>(at_, on_boundary));
   bool any = false, in_front = false;
@@ -38,16 +38,16 @@ bool VisibilityInSpace::looks_at(std::int64_t on_boundary, std::int64_t inner) c
     any = true;
     in_front = in_front || !geometry_.patch_bounds_domain(side.patch) || dot(way, side.normal) < 0;
   });
-  return in_front || !any;  // around a fixed node or an inner curve there is no surface
+  return in_front || !any;  // a fixed node or an inner curve has no surface
 }
 
-// Two nodes of different surfaces, or across an edge.
+// Tests nodes of different surfaces, or across an edge.
 bool VisibilityInSpace::see_through_inside(std::int64_t i, std::int64_t j) const {
   const Point<3> a = point_at<3>(at_, i), b = point_at<3>(at_, j);
   return geometry_.domain().index().inside(middle_of<3>(a, b));
 }
 
-// ------------------------------------------------------------------ what is near ---------------
+// ------------------------------------------------------------------ near facets ----------------
 
 NearBoundary<3>::NearLeaves NearBoundary<3>::near_leaves(const LevelTree<3>& level_tree,
                                                          double radius) {
@@ -87,7 +87,8 @@ void NearBoundary<3>::build(const Nodes<3>& nodes, const Field<3>& at, const Buc
   });
 }
 
-// Leaves that facets come near are few; there the domain's own index answers.
+// Returns the distance of node i from the nearest facet (a surface node: from the nearest feature
+// edge). Few leaves are near facets; for these the index of the domain is searched.
 double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
                                const SizedTree<3>& map, const LevelGeometry<3>& geometry) const {
   const double reach = near_.radius * nodes.d(i);
@@ -105,7 +106,7 @@ double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buck
   return gap < reach ? gap : kFarAway;
 }
 
-// ------------------------------------------------------------------ how nodes move -------------
+// ------------------------------------------------------------------ motion ---------------------
 
 Point<3> NearBoundary<3>::hold_off(std::int64_t i, Nodes<3>& nodes, const SizedTree<3>&,
                                    const LevelGeometry<3>& geometry, const Point<3>& to) const {
@@ -117,13 +118,13 @@ Point<3> NearBoundary<3>::hold_off(std::int64_t i, Nodes<3>& nodes, const SizedT
   if (gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) + way)) return to;
   const SurfaceIndex& index = geometry.domain().index();
   const NearestPoint<3> nearest = index.nearest(to, clearance);
-  // Inside as before where the way is too short to lead to any facet.
+  // If the step is too short to reach any facet, the node is still inside.
   const double facet_free = nearest.facet < 0 ? clearance : nearest.gap;
   const bool inside = facet_free > kRounding * distance<3>(from, to) || index.inside(to);
   if (inside && nearest.facet < 0) return to;
   if (!inside || nearest.gap == 0) return from;
   const Point<3> kept = shifted(nearest.x, clearance / nearest.gap, difference(to, nearest.x));
-  // In a wedge or a gap there may be no place with that much room: better than before will do.
+  // A wedge or gap may have no point with the full clearance. A larger one than before is accepted.
   return index.inside(kept) && index.clearance(kept, clearance) >= nearest.gap ? kept : from;
 }
 
@@ -154,8 +155,8 @@ bool NearBoundary<3>::stays_clear(std::int64_t i, const Nodes<3>& nodes,
   return gap >= clearance || gap >= index.clearance(nodes.position(i), clearance);
 }
 
-// Along the surface, up to the features that have nodes of their own; nearer to them only as long
-// as there is room.
+// Moves a surface node along its surface. It may come closer to a feature than its clearance only
+// if it was closer before.
 Point<3> NearBoundary<3>::walk_on_surface(std::int64_t i, Nodes<3>& nodes,
                                           const LevelGeometry<3>& geometry,
                                           const Point<3>& to) const {

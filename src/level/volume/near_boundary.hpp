@@ -18,11 +18,11 @@ namespace pnpbs {
 template <int Dim>
 class NearBoundary;
 
-// Who sees whom among nodes in space, as lists ask. Judged from where the nodes were at the last
-// event, like all that the boundary hides, or for lists made here from where they are.
+// The visibility test for lists in space. It uses the positions at the last event or, for lists
+// built here, the present ones.
 class VisibilityInSpace {
  public:
-  // What is asked about and not visible is set in `hidden`, for both nodes.
+  // Sets `hidden` for both nodes of a tested pair that do not see each other.
   VisibilityInSpace(const Nodes<3>& nodes, const Field<3>& at, const LevelGeometry<3>& geometry,
                     NodeArray<char>& hidden)
       : nodes_(nodes), at_(at), geometry_(geometry), hidden_(hidden) {}
@@ -45,13 +45,14 @@ class VisibilityInSpace {
   NodeArray<char>& hidden_;
 };
 
+// See level/near_boundary.hpp for the members.
 template <>
 class NearBoundary<3> {
  public:
   struct NearLeaves {
     double radius = 0;
-    std::vector<double> reach;  // how far from each leaf facets were looked for
-    std::vector<char> clear;    // was there none?
+    std::vector<double> reach;  // distance from each leaf within which facets were searched
+    std::vector<char> clear;    // nonzero: there was none
   };
   static NearLeaves near_leaves(const LevelTree<3>& tree, double radius);
   void adopt(NearLeaves near) { near_ = std::move(near); }
@@ -69,9 +70,9 @@ class NearBoundary<3> {
     return near_.clear[static_cast<std::size_t>(leaf)] != 0;
   }
   bool within(std::int64_t i, double reach) const { return gap_(i) <= reach; }
-  // Of the lists made last: did the boundary keep none from that of node i?
+  // Returns whether the boundary hid no node from node i in the last rebuild of the lists.
   bool sees_all(std::int64_t i) const { return hidden_(i) == 0; }
-  // No facet is nearer to where free node i is now.
+  // Returns a lower bound of the distance of free node i from all facets.
   double room(std::int64_t i, const Nodes<3>& nodes) const {
     return std::min(gap_(i), near_.radius * nodes.d(i)) -
            distance<3>(point_at<3>(at_, i), nodes.position(i));
@@ -82,10 +83,10 @@ class NearBoundary<3> {
   Point<3> hold_off(std::int64_t i, Nodes<3>& nodes, const SizedTree<3>& map,
                     const LevelGeometry<3>& geometry, const Point<3>& to) const;
 
-  // May free node i go to `to`, with that much room or no less than now?
+  // Returns whether free node i may move to `to`: inside, with this clearance or no less than now.
   bool stays_clear(std::int64_t i, const Nodes<3>& nodes, const LevelGeometry<3>& geometry,
                    const Point<3>& to, double clearance) const;
-  // The same from inner surfaces, where these are what is nearest.
+  // Returns the same for the clearance from inner surfaces, if one of these is nearest.
   bool stays_clear_of_inner(std::int64_t i, const Nodes<3>& nodes, const LevelGeometry<3>& geometry,
                             const Point<3>& to, double clearance) const;
 
@@ -100,10 +101,10 @@ class NearBoundary<3> {
 
   NearLeaves near_;
   Field<3> at_;
-  // Of a free node, to the nearest facet; of one on a surface, to the nearest feature edge;
-  // kFarAway if that is more than the radius.
+  // Distance of a free node from the nearest facet, and of a surface node from the nearest feature
+  // edge; kFarAway if it exceeds the radius.
   NodeArray<double> gap_;
-  NodeArray<char> hidden_;  // has the boundary kept a node from the list of this one?
+  NodeArray<char> hidden_;  // nonzero: the boundary hides a node from this one
 };
 
 }  // namespace pnpbs

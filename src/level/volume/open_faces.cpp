@@ -12,7 +12,8 @@ bool has_side(const FaceFan& fan, std::int32_t from, std::int32_t to) {
 
 namespace {
 
-// A side as one number, next to that of the same side the other way.
+// A side packed into one number. The same side in the opposite direction is its neighbour in the
+// order.
 class PackedSide {
  public:
   PackedSide(std::int32_t from, std::int32_t to)
@@ -34,9 +35,10 @@ class PackedSide {
   std::uint64_t bits_;
 };
 
-// (i, a, b, c) turns right-handed: from outside, its faces with i turn as i, b, a.
+// The corners (i, a, b, c) are right-handed, so as seen from outside the order of a face at i is i,
+// b, a.
 std::vector<PackedSide> sides_around(const Level<3>& level, std::int64_t i) {
-  constexpr std::size_t kMostly = 72;  // of 24 tetrahedra
+  constexpr std::size_t kMostly = 72;  // for 24 tetrahedra
   std::vector<PackedSide> sides;
   sides.reserve(kMostly);
   level.stars.for_simplices(i, [&](const Stars<3>::Corners& others) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary of the tetrahedra, as one of its nodes sees it.
+// The faces of the boundary of the tetrahedra around a node.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,19 @@
 
 namespace pnpbs {
 
-// Triangles around a node: the other two corners of each, counter-clockwise as seen from outside.
+// The triangles around a node: the other two corners of each, counter-clockwise as seen from
+// outside.
 using FaceSide = std::pair<std::int32_t, std::int32_t>;
 using FaceFan = std::vector<FaceSide>;  // sorted
 
+// Returns whether the sorted fan has this side.
 bool has_side(const FaceFan& fan, std::int32_t from, std::int32_t to);
 
-// The faces at node i that have a tetrahedron on one side only.
+// Returns the faces at node i that have a tetrahedron on one side only.
 FaceFan open_faces(const Level<3>& level, std::int64_t i);
 
-// How many disks these faces make around their node, each face joined to the next one; 0 if they do
-// not, or there are none.
+// Returns the number of disks that these faces form around their node. It is 0 if they do not form
+// disks, or if there are none.
 std::int64_t disks_of(const FaceFan& fan);
 
 }  // namespace pnpbs

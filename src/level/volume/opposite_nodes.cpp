@@ -26,27 +26,29 @@ namespace {
 // Two directions that are not perpendicular to the edges of a hexagonal lattice along the axes.
 constexpr Point<3> kAside{1, 0.268, 1}, kAsideElse{-1, 1, 0.268};
 
-// A direction along the surface: the first one, where it does not stand on the surface.
+// Returns a direction along the surface: the tangential part of the first one, unless that is
+// nearly perpendicular to the surface.
 Point<3> aside(const Point<3>& normal) {
-  constexpr double kAlong = 0.3;  // square of its length
+  constexpr double kAlong = 0.3;  // lower limit of the squared length
   const Point<3> along = part_across(kAside, normal);
   return unit_vector(dot(along, along) > kAlong ? along : part_across(kAsideElse, normal));
 }
 
-constexpr std::size_t kMaxSheets = 16;  // of a stack in one direction
+constexpr std::size_t kMaxSheets = 16;  // largest number of sheets in one direction
 
 // A sheet of a stack, as seen from a node on another one.
 struct Sheet {
-  SurfacePoint opposite;  // the node
-  double squares;         // sum of the squares of the walls' thicknesses on the straight way there
+  SurfacePoint opposite;  // point opposite to the node
+  double squares;         // sum of the squared thicknesses of the walls on the straight path to it
 };
 
+// The stacks of close sheets of the surfaces, seen from the nodes of a level.
 class ThinWalls {
  public:
   explicit ThinWalls(const Level<3>& level) : level_(level), surface_(level.geometry.surface()) {}
 
-  // The sheets of the surfaces that lie before and behind a node on a surface, each less than
-  // kThinWall d from the next one.
+  // Returns the sheets of the surfaces before and behind a surface node, each less than kThinWall d
+  // (in a gap kNarrowGap d) from the next one.
   std::vector<Sheet> stack_at(std::int64_t i) const {
     const Nodes<3>& nodes = level_.nodes;
     std::vector<Sheet> stack;
@@ -56,7 +58,7 @@ class ThinWalls {
     return stack;
   }
 
-  // The distance of the nearest other sheet that is near enough, or infinity.
+  // Returns the distance of the nearest sheet within reach of that point, or infinity.
   double nearest_sheet(const SurfacePoint& at, double d) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const SideOfFacet side : {SideOfFacet::front, SideOfFacet::back})
@@ -65,8 +67,8 @@ class ThinWalls {
     return nearest;
   }
 
-  // Of all sheets, is that of node i the one whose nodes stay? That with the first patch, or, if
-  // one patch has several of them, by their normals.
+  // Returns whether the sheet of node i is the one in its stack whose nodes are kept: the one with
+  // the first patch or, among sheets of one patch, the first by normal.
   bool leads(std::int64_t i, const std::vector<Sheet>& stack) const {
     const auto rank = [&](std::int32_t facet) {
       return std::pair(surface_.patch(facet), dot(surface_.normal(facet), kAside));
@@ -76,11 +78,11 @@ class ThinWalls {
         stack, [&](const Sheet& sheet) { return rank(sheet.opposite.facet) < rank(here); });
   }
 
-  // The partner of node i on another sheet. Through walls it is moved aside a little: then four
-  // nodes across a wall are the corners of a parallelogram, not of a rectangle, and are the corners
-  // of no flat tetrahedron by rounding. Tetrahedra in a gap are no elements. A node that is s aside
-  // of one on the next sheet, at a distance t, lies in circumspheres of triangles of that sheet
-  // unless s is less than about t^2/d.
+  // Returns the partner of node i on another sheet, or nothing without room. Through walls it is
+  // shifted aside a little. Four nodes across a wall are then the corners of a parallelogram
+  // instead of a rectangle, and rounding makes no flat tetrahedron of them. Tetrahedra in a gap are
+  // no elements. If a node is shifted by s relative to one on the next sheet, at distance t, it
+  // lies in circumspheres of triangles of that sheet unless s is less than about t^2/d.
   std::optional<IncomingNode<3>> partner(std::int64_t i, const Sheet& sheet) const {
     const double d = level_.nodes.d(i);
     const double way = sheet.squares / d;
@@ -127,9 +129,10 @@ class ThinWalls {
   const Surface& surface_;
 };
 
+// The exchange of nodes on the sheets of stacks.
 struct Replacement {
-  std::vector<std::int32_t> leaving;  // memory indices, ghosts among them
-  IncomingNodes<3> partners;          // of owned nodes
+  std::vector<std::int32_t> leaving;  // memory indices, including ghosts
+  IncomingNodes<3> partners;          // partners of owned nodes
 };
 
 Replacement replacement_on(const Level<3>& level) {
@@ -173,7 +176,8 @@ bool connects_thin_wall(const Level<3>& level, const Point<3>& centroid, double 
 
 namespace {
 
-// One replacement; no counts if there are no thin walls. Collective.
+// Replaces the nodes once. The counts are 0 if there are no thin walls. All ranks must call it, and
+// if one rank throws, all ranks throw.
 PopulationCounts replace_nodes(Level<3>& level) {
   PopulationCounts counts;
   level.nodes.set_reference_positions();
@@ -195,7 +199,8 @@ PopulationCounts replace_nodes(Level<3>& level) {
 
 }  // namespace
 
-// Nodes that come into vacancies, on one of the sheets, have no partners on the others yet.
+// Nodes inserted in the vacancies of one sheet have no partners on the others yet, so rounds
+// follow.
 PopulationCounts place_opposite_nodes(Level<3>& level) {
   constexpr int kMaxRounds = 3;
   PopulationCounts counts = replace_nodes(level);

@@ -30,7 +30,7 @@ std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i) {
     all_bound = all_bound && level.geometry.patch_bounds_domain(side.patch);
   });
   if (!all_bound) return 0;
-  // Sides follow each other around a disk: one ends where the next one begins.
+  // Sides follow each other around a disk: each ends on the curve on which the next one begins.
   UnionFind<std::size_t> disks(sides.size());
   auto count = std::ssize(sides);
   for (std::size_t a = 0; a < sides.size(); ++a)
@@ -54,7 +54,8 @@ bool is_torn_around(const Level<3>& level, std::int64_t i) {
 }
 
 bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners) {
-  constexpr double kFold = -0.5;  // cosine: across rough creases, too, but not from sheet to sheet
+  // Cosine: allows rough creases, but not the step from sheet to sheet.
+  constexpr double kFold = -0.5;
   std::array<SurfacePlace, 3> places;
   for (std::size_t k = 0; k < 3; ++k) {
     if (level.nodes.carrier(corners[k]) == Carrier::free) return false;
@@ -74,7 +75,7 @@ bool is_torn(const Level<3>& level, std::int64_t i) {
          });
 }
 
-// Owned nodes where the boundary is torn.
+// Returns flags of the owned nodes at which the boundary is torn.
 std::vector<char> torn_nodes(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
   std::vector<char> torn(static_cast<std::size_t>(nodes.count), 0);
@@ -84,9 +85,9 @@ std::vector<char> torn_nodes(const Level<3>& level) {
   return torn;
 }
 
-// The stars of these owned nodes, with the tetrahedra that are outside, too.
+// Returns the stars of these owned nodes, including tetrahedra outside the domain.
 VolumeStars whole_stars(const Level<3>& level, const std::vector<char>& wanted) {
-  const KnownRegion<3> everywhere;  // as far as they reach
+  const KnownRegion<3> everywhere;  // the known nodes suffice for stars that exist already
   VolumeStarInput all = star_input(level, everywhere);
   all.facets = nullptr;
   VolumeStars stars;
@@ -95,7 +96,7 @@ VolumeStars whole_stars(const Level<3>& level, const std::vector<char>& wanted) 
   return stars;
 }
 
-// The ids of these nodes and of all that a tetrahedron joins to them.
+// Returns the ids of these nodes and of all nodes that share a tetrahedron with them.
 std::vector<std::int64_t> ids_around(const Level<3>& level, const std::vector<char>& torn) {
   const Nodes<3>& nodes = level.nodes;
   const VolumeStars stars = whole_stars(level, torn);
@@ -108,7 +109,7 @@ std::vector<std::int64_t> ids_around(const Level<3>& level, const std::vector<ch
   return ids;
 }
 
-// Owned nodes on the boundary that have one of these ids.
+// Returns flags of the owned boundary nodes with one of these ids.
 std::vector<char> owned_among(const Level<3>& level, const std::vector<std::int64_t>& sorted_ids) {
   const Nodes<3>& nodes = level.nodes;
   std::vector<char> among(static_cast<std::size_t>(nodes.count), 0);
@@ -118,6 +119,7 @@ std::vector<char> owned_among(const Level<3>& level, const std::vector<std::int6
   return among;
 }
 
+// Returns the element label of a tetrahedron, with everything that decides whether it may change.
 LabelledTetrahedron labelled(const Level<3>& level, const VolumeStarInput& input,
                              const std::array<std::int64_t, 4>& corners) {
   const Tetrahedron t = ordered_by_id(tetrahedron_of(level.nodes, corners));
@@ -136,12 +138,13 @@ LabelledTetrahedron labelled(const Level<3>& level, const VolumeStarInput& input
   return result;
 }
 
+// Two neighbours along a feature curve, or a single node.
 struct JoinedNodes {
-  std::int64_t id, other;  // -1: none
-  std::int64_t disks;      // around the first
+  std::int64_t id, other;  // -1: a single node
+  std::int64_t disks;      // number of disks around the first node
 };
 
-// What this rank tells of them.
+// The tetrahedra and nodes that this rank contributes to the choice of labels.
 struct LabelledStars {
   std::vector<LabelledTetrahedron> tetrahedra;
   std::vector<JoinedNodes> nodes;
@@ -180,7 +183,8 @@ std::vector<LabelledNode> by_node(const std::vector<JoinedNodes>& joined) {
   return nodes;
 }
 
-// Of the nodes with a star here, those of a tetrahedron whose label was changed.
+// Returns flags of the nodes with a star on this rank that are corners of a tetrahedron with a
+// changed label.
 std::vector<char> changed_nodes(const Level<3>& level,
                                 const std::vector<LabelledTetrahedron>& changed) {
   std::vector<std::int64_t> ids;

@@ -14,7 +14,8 @@ namespace pnpbs {
 
 namespace {
 
-// Is a face of node i far from the surfaces? The corner with the least id judges.
+// Returns whether a face of node i is far from the surfaces. It is tested at its corner with the
+// smallest id.
 bool is_off(const Level<3>& level, std::int64_t i, const FaceSide& others) {
   const Nodes<3>& nodes = level.nodes;
   const auto [a, b] = others;

@@ -31,11 +31,11 @@ Settings surface_settings(const Settings& inside) {
   settings.exchange_interval = inside.exchange_interval;
   settings.metis_seed = inside.metis_seed;
   settings.rebalance_above = inside.rebalance_above;
-  settings.growth_limit = inside.growth_limit;  // a tree that is dealt out anew stays as it is
+  settings.growth_limit = inside.growth_limit;  // the tree must not change when it is repartitioned
   return settings;
 }
 
-// ------------------------------------------------------------------ coming and going -----------
+// ------------------------------------------------------------------ storage --------------------
 
 namespace {
 
@@ -47,7 +47,8 @@ IncomingNodes<3> own_feature_nodes(const Level<3>& level) {
   return nodes;
 }
 
-// This rank's part of a fill of all surfaces. Collective.
+// Returns this rank's part of a fill of all surfaces. All ranks must call it, and if one rank
+// throws, all ranks throw.
 IncomingNodes<3> filled_surfaces(const Level<3>& level) {
   const LevelGeometry<3>& geometry = level.geometry;
   const Distribution<3>& distribution = level.tree->distribution();
@@ -164,7 +165,7 @@ SurfacePoint place_on_surface(const Nodes<3>& nodes, std::int64_t i) {
   return {nodes.boundary_node(i), nodes.position(i)};
 }
 
-// Where one comes to who goes that far from node i, which is on a surface.
+// Returns the point reached from node i, which is on a surface, by this move.
 SurfacePoint walk_from(const Level<3>& level, std::int64_t i, const Point<3>& move) {
   return walk(level.geometry.surface(), place_on_surface(level.nodes, i), move);
 }
@@ -177,7 +178,8 @@ const Point<3>& normal_at(const Level<3>& level, std::int64_t i) {
 
 // ------------------------------------------------------------------ new bubbles ----------------
 
-// Seen from above, with the neighbours at their distances.
+// Projects the neighbours into the tangent plane, at their true distances, and finds the free
+// position there.
 Point<3> free_place_on_surface(const Level<3>& level, std::int64_t i) {
   const Nodes<3>& nodes = level.nodes;
   const Point<3>& normal = normal_at(level, i);
@@ -195,8 +197,8 @@ Point<3> free_place_on_surface(const Level<3>& level, std::int64_t i) {
   return walk_from(level, i, shifted(shifted({}, place[0], u), place[1], v)).position;
 }
 
-// The way there as it was walked: along the chord, which for a node's own surroundings leads to the
-// same place but for what the surface bends.
+// Returns the facet by walking along the chord. Near a node this reaches the same point as the
+// original walk, up to the curvature of the surface.
 std::int32_t facet_at(const Level<3>& level, std::int64_t from, const Point<3>& place) {
   return pull_back(level.geometry.surface(), place, level.nodes.boundary_node(from)).facet;
 }
@@ -205,7 +207,8 @@ std::int32_t facet_at(const Level<3>& level, std::int64_t from, const Point<3>& 
 
 namespace {
 
-// Stays where it is if the way led too near to a feature, and nearer than now.
+// Returns the point reached by the move, or the present one if the move comes too close to a
+// feature and closer than now.
 SurfacePoint walk_clear_of_features(const Level<3>& level, std::int64_t i, const Point<3>& move) {
   const SurfacePoint here = place_on_surface(level.nodes, i), to = walk_from(level, i, move);
   const double clearance = method::kBoundaryClearance * level.nodes.d(i);
@@ -214,7 +217,7 @@ SurfacePoint walk_clear_of_features(const Level<3>& level, std::int64_t i, const
   return gap < clearance && gap < surface.feature_clearance(here, clearance) ? here : to;
 }
 
-// Node i on its way to the mean of its neighbours.
+// Returns the position of node i after a move towards the mean of its neighbours.
 SurfacePoint swept(const Level<3>& level, std::int64_t i, double weight) {
   const Nodes<3>& nodes = level.nodes;
   const SurfacePoint here = place_on_surface(nodes, i);
@@ -264,7 +267,7 @@ void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps) {
 
 namespace {
 
-// In the middle between node i on a surface and another node of it.
+// Returns a new node in the middle between surface node i and a neighbour on its surface.
 IncomingNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, double d) {
   const Point<3> way = difference(level.nodes.position(j), level.nodes.position(i));
   const SurfacePoint at = walk_from(level, i, {0.5 * way[0], 0.5 * way[1], 0.5 * way[2]});
@@ -283,12 +286,12 @@ void append_surface_midpoints(const Level<3>& level, const View<double>& next_sp
     const std::vector<SurfaceStarEntry> star = surface_star(level, i);
     for (std::size_t k = 0; k < star.size(); ++k) {
       const std::int64_t j = star[k].node, next = star[(k + 1) % star.size()].node;
-      // Of two nodes on surfaces the one with the lesser id has the edge.
+      // An edge between two surface nodes belongs to the one with the smaller id.
       if (nodes.carrier(j) != Carrier::surface || nodes.id(i) < nodes.id(j))
         refined.push_back(middle(level, i, j, d));
       if (!star[k].triangle || joined(level.geometry, nodes, j, next)) continue;
       if (nodes.carrier(j) == Carrier::surface || nodes.carrier(next) == Carrier::surface) continue;
-      // An edge between two nodes on features: the way there is through the middle of the triangle.
+      // The middle of an edge between two feature nodes is reached through this triangle.
       const Point<3> a = nodes.position(j), b = nodes.position(next);
       const SurfacePoint at =
           pull_back(level.geometry.surface(), middle_of<3>(a, b), nodes.boundary_node(i));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bubbles that fill the surfaces of a level: its first nodes, while there are none inside, new ones
-// among them, and those of a level with half the spacing. As in the plane, but that nodes walk on
-// the surface, and that their stars are found in tangent planes.
+// Bubbles on the surfaces of a level, while there are none inside: the first nodes, new nodes among
+// them, and the nodes for a level of half the spacing. The method is that of the plane, except that
+// nodes walk along the surface and stars are found in tangent planes.
 #pragma once
 
 #include <cstdint>
@@ -12,44 +12,48 @@
 
 namespace pnpbs {
 
-// On surfaces bubbles have the laws, the schedule and the population of the plane.
+// Returns the settings for bubbles on surfaces: the pair law, schedule and population control of
+// the plane.
 Settings surface_settings(const Settings& inside);
 
-// The nodes of feature edges, which are laid afresh, and these on surfaces become the nodes of the
-// level; if `begin_anew`, a fill on the surfaces. Those on surfaces move from now on. A node of a
-// feature edge keeps the id of the one in its place among `on_features`. Returns how many of this
-// rank's were too dense for d. Collective.
+// Stores the feature nodes, which are laid again, and `on_surfaces`, thinned, as the nodes of the
+// level. If begin_anew is true, a fill of the surfaces replaces `on_surfaces`. Surface nodes move
+// from then on. A feature node keeps the id of the node at its position in `on_features`. Returns
+// how many of this rank's nodes were deleted because they were too dense for d. All ranks must call
+// it, and if one rank throws, all ranks throw.
 std::int64_t put_surface_nodes(Level<3>& level, IncomingNodes<3> on_surfaces,
                                const IncomingNodes<3>& on_features, bool begin_anew);
-// A new one there, placed for d.
+// Returns a new surface node at this point that counts as placed for d.
 IncomingNode<3> new_surface_node(const LevelGeometry<3>& geometry, const SurfacePoint& at,
                                  double d = 0);
-// They rest: from now on those inside move.
+// Stops the surface nodes. From then on inner nodes move.
 void fix_surface_nodes(Level<3>& level);
-// The owned nodes of the boundary.
+// Returns the owned boundary nodes.
 IncomingNodes<3> surface_nodes(const Level<3>& level);
-// Those on triangles of a level set move to where it is 0, if that is as near as the triangle's
-// error.
+// Moves nodes on triangles of a level set to where it is 0, if that point is within the error of
+// the triangle.
 void put_on_level_sets(const LevelGeometry<3>& geometry, IncomingNodes<3>& nodes);
-// The same of the level's own. Collective.
+// Does the same for the nodes of the level. All ranks must call it, and if one rank throws, all
+// ranks throw.
 void put_on_level_sets(Level<3>& level);
 
-// The free place beside a sparse bubble on a surface: see free_place.
+// Returns the position of a new bubble beside a surface node (see free_place).
 Point<3> free_place_on_surface(const Level<3>& level, std::int64_t i);
-// The facet that one comes to who walks from a node on a surface there.
+// Returns the facet reached by walking from a surface node to this point.
 std::int32_t facet_at(const Level<3>& level, std::int64_t from, const Point<3>& place);
 
-// Where a node on a surface comes to that goes that length along it, in a direction that may rise
-// out of its tangent plane; where it is if that would be too near to a feature, and nearer than
-// now.
+// Returns the point reached from a surface node by moving this length along the surface.
+// `direction` need not be tangential. Returns the present point if the move comes too close to a
+// feature and closer than now.
 SurfacePoint go_along_surface(const Level<3>& level, std::int64_t i, const Point<3>& direction,
                               double length);
 
-// So many sweeps towards the mean of the neighbours within the surface. Collective.
+// Moves surface nodes towards the mean of their neighbours within the surface, in this many sweeps.
+// All ranks must call it, and if one rank throws, all ranks throw.
 void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps);
 
-// New nodes in the middle of the edges within the surfaces, of those owned nodes i where
-// is_refined(i). After make_lists_and_stars or the same for surfaces.
+// Appends new nodes in the middle of edges within the surfaces, at owned nodes where d falls by the
+// factor kHalvedOnSurfaces or more. Requires the lists that surface_star() uses.
 void append_surface_midpoints(const Level<3>& level, const View<double>& next_spacing,
                               IncomingNodes<3>& refined);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int32_t kNowhere = -1, kNotListed = -2;
 
-// The neighbour of node i, which is on a feature, in that direction of a curve.
+// Returns the neighbour of feature node i in this direction of a curve.
 std::int32_t neighbour_along(const Level<3>& level, std::int64_t i, const CurveDirection& way) {
   if (way.curve < 0) return kNowhere;
   const Nodes<3>& nodes = level.nodes;

@@ -10,13 +10,13 @@
 
 namespace pnpbs {
 
-// Are two nodes next to each other on a feature curve?
+// Returns whether two nodes are neighbours on a feature curve.
 bool joined(const LevelGeometry<3>& geometry, const Nodes<3>& nodes, std::int64_t i,
             std::int64_t j);
 
-// The star of a node of the boundary from the level's lists, side after side, each
-// counter-clockwise as seen from outside; empty if it is not known. The lists are those made while
-// bubbles are on surfaces, which hold just what is seen there.
+// Returns the star of a boundary node from the lists of the level, side by side, each
+// counter-clockwise as seen from outside. It is empty if it cannot be found. The lists must be
+// those for bubbles on surfaces, which contain only nodes visible along the surface.
 std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i);
 
 }  // namespace pnpbs

@@ -28,14 +28,15 @@ namespace {
 
 // ------------------------------------------------------------------ short edges ----------------
 
+// One end of a short edge.
 struct EdgeEnd {
   std::int64_t id, boundary_node;
   Point<3> x;
   double d;
-  std::int64_t on_feature;  // 1 or 0
+  std::int64_t on_feature;  // 1 if the node lies on a feature, else 0
 };
 
-// A short edge between two nodes of the boundary, the one with the lesser id first.
+// A short edge between two boundary nodes, the one with the smaller id first.
 struct ShortEdge {
   double length;  // over d
   std::array<EdgeEnd, 2> ends;
@@ -44,9 +45,9 @@ struct ShortEdge {
   bool on_features() const { return ends[0].on_feature != 0 && ends[1].on_feature != 0; }
 };
 
-// The middle of a flat element between nodes of the boundary.
+// The centroid of a flat element between boundary nodes.
 struct SliverMiddle {
-  std::array<std::int64_t, 4> ids;  // of its nodes, ascending
+  std::array<std::int64_t, 4> ids;  // ids of its nodes, ascending
   Point<3> x;
   double d;
 
@@ -54,6 +55,7 @@ struct SliverMiddle {
   bool operator==(const SliverMiddle& other) const { return ids == other.ids; }
 };
 
+// The thin elements, and the changes that may remove them.
 struct ThinElements {
   std::vector<ShortEdge> edges;
   std::vector<SliverMiddle> middles;
@@ -100,7 +102,8 @@ std::optional<ShortEdge> short_edge_of(const Level<3>& level, std::int64_t i, st
   return edge;
 }
 
-// Are two dihedral angles wide, at edges without a common end? Then two edges cross, nearly.
+// Returns whether two dihedral angles without a common end are wide, so that two edges nearly
+// cross.
 bool is_flat(const Tetrahedron& t) {
   constexpr double kWide = -0.866;  // cosine: 150 degrees
   const std::array<Point<3>, 4> n = face_normals({t[0].x, t[1].x, t[2].x, t[3].x});
@@ -111,7 +114,7 @@ bool is_flat(const Tetrahedron& t) {
   return wide >= 2;
 }
 
-// Returns the middle of a flat element between nodes of the boundary if a node has room there.
+// Returns the centroid of a flat element between boundary nodes if there is room for a node.
 std::optional<SliverMiddle> middle_of_sliver(const Level<3>& level, const Corners& by_id,
                                              double shortest) {
   const Nodes<3>& nodes = level.nodes;
@@ -180,8 +183,8 @@ ThinElements own_thin_elements(const Level<3>& level) {
   return found;
 }
 
-// Returns those of all ranks, each once; of more than one rank should have, their count alone.
-// Collective.
+// Returns the thin elements of all ranks, without repetition. If there are too many for one rank,
+// only their number is returned. All ranks must call it, and if one rank throws, all ranks throw.
 ThinElements thin_elements(Level<3>& level) {
   constexpr std::uint64_t kMost = 100000;
   ThinElements own;
@@ -200,7 +203,7 @@ ThinElements thin_elements(Level<3>& level) {
   return all;
 }
 
-// ------------------------------------------------------------------ nodes that leave -----------
+// ------------------------------------------------------------------ removal --------------------
 
 // The feature nodes next to each feature node along its curves.
 class FeatureNeighbours {
@@ -215,7 +218,7 @@ class FeatureNeighbours {
   const std::vector<std::int32_t>& of(std::int64_t node) const {
     return next_[static_cast<std::size_t>(node)];
   }
-  // Do curves that leave these two nodes run beside each other?
+  // Returns whether curves that leave these two nodes run side by side.
   bool run_beside(std::int64_t a, std::int64_t b, double d) const {
     for (const std::int32_t p : of(a))
       for (const std::int32_t q : of(b)) {
@@ -244,7 +247,7 @@ bool is_user_node(const Level<3>& level, const Point<3>& x) {
                              [&](const FixedNode<3>& node) { return node.position == x; });
 }
 
-// The choice of the nodes that leave, the same on all ranks.
+// The choice of the nodes to remove, the same on all ranks.
 class Leaving {
  public:
   explicit Leaving(const Level<3>& level) : level_(level), neighbours_(level.geometry.features()) {}
@@ -262,14 +265,15 @@ class Leaving {
   std::int64_t on_features() const { return on_features_; }
 
  private:
-  // The end with the lesser rank stays if one can leave: a corner, of corners one with more curves.
+  // Returns a sort key. The end with the smaller key is kept if the other can be removed: a corner,
+  // and among corners the one with more curves.
   std::tuple<int, std::int64_t, std::int64_t> rank(const EdgeEnd& end) const {
     if (end.on_feature == 0) return {2, 0, end.id};
     const auto node = static_cast<std::size_t>(end.boundary_node);
     return {level_.geometry.features().nodes[node].corner < 0 ? 1 : 0,
             -std::ssize(neighbours_.of(end.boundary_node)), end.id};
   }
-  // Removes an end unless it has to stay. No two nodes in a row of a curve leave.
+  // Removes an end if that is allowed. Of two neighbours on a curve at most one is removed.
   bool leave(const EdgeEnd& end, const EdgeEnd& other) {
     if (staying_.contains(end.id) || is_user_node(level_, end.x)) return false;
     if (end.on_feature != 0) {
@@ -289,7 +293,7 @@ class Leaving {
   std::int64_t on_features_ = 0;
 };
 
-// Returns how many nodes of this rank were removed, and the ids of all.
+// Removes nodes of short edges. Returns how many this rank owned; `ids` has those of all ranks.
 std::int64_t remove_nodes_of(Level<3>& level, const std::vector<ShortEdge>& edges,
                              std::set<std::int64_t>& ids) {
   if (edges.empty()) return 0;
@@ -298,7 +302,7 @@ std::int64_t remove_nodes_of(Level<3>& level, const std::vector<ShortEdge>& edge
   ids = leaving.ids();
   if (ids.empty()) return 0;
   level.left_out += leaving.on_features();
-  std::vector<std::int32_t> nodes;  // ghosts among them
+  std::vector<std::int32_t> nodes;  // ghosts included
   std::int64_t own = 0;
   for (std::int32_t i = 0; i < level.nodes.count; ++i) {
     if (!ids.contains(level.nodes.id(i))) continue;
@@ -309,10 +313,10 @@ std::int64_t remove_nodes_of(Level<3>& level, const std::vector<ShortEdge>& edge
   return own;
 }
 
-// ------------------------------------------------------------------ nodes that come ------------
+// ------------------------------------------------------------------ insertion ------------------
 
-// Chooses middles that are apart from each other, of elements whose nodes stay, and returns nodes
-// for those in this rank's part.
+// Returns new nodes for centroids in this rank's leaves, of elements whose nodes are kept. The
+// chosen centroids keep a distance from each other.
 IncomingNodes<3> nodes_in(const Level<3>& level, const std::vector<SliverMiddle>& middles,
                           const std::set<std::int64_t>& removed) {
   std::vector<SliverMiddle> kept;
@@ -346,7 +350,7 @@ ThinElementChanges change_nodes_of_thin_elements(Level<3>& level) {
     if (round == 0) collective_try(*level.comm, [&] { more = nodes_in(level, thin.middles, ids); });
     const std::int64_t inserted = std::ssize(more);
     if (level.comm->allreduce_sum(static_cast<std::uint64_t>(removed + inserted)) == 0) break;
-    exchange(level, kStarHops);  // nodes have moved, some into the parts of other ranks
+    exchange(level, kStarHops);  // nodes have moved, some into leaves of other ranks
     add_nodes(level, std::move(more));
     changes.counts.deleted += removed;
     changes.counts.inserted += inserted;

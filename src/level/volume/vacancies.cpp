@@ -25,16 +25,17 @@ namespace pnpbs {
 
 namespace {
 
+// A point of a surface that is far from all nodes.
 struct Vacancy {
-  double radius;                    // in units of d
-  std::array<std::int64_t, 3> ids;  // of the nodes around
+  double radius;                    // of the circle through the nodes around it, in units of d
+  std::array<std::int64_t, 3> ids;  // ids of these nodes
   Point<3> x;
   double d;
   std::int64_t facet;
 };
 
-// At the middle of the circle through three nodes, of which i is on a surface: the same bits
-// wherever it is asked.
+// Adds the vacancy at the centre of the circle through three nodes, if there is one. Node i must be
+// a surface node. The result has the same bits for each order of the nodes.
 void add_vacancy(const Level<3>& level, std::int64_t i, std::array<std::int64_t, 3> around,
                  std::vector<Vacancy>& found) {
   const Nodes<3>& nodes = level.nodes;
@@ -79,7 +80,8 @@ IncomingNode<3> node_in(const Level<3>& level, const Vacancy& vacancy) {
   return new_surface_node(level.geometry, {static_cast<std::int32_t>(vacancy.facet), vacancy.x});
 }
 
-// Of those too near to each other the widest; few are left to tell all ranks of.
+// Returns, of the vacancies of all ranks that are too close to each other, the widest ones. There
+// are few, so they are gathered on all ranks. Collective.
 std::vector<Vacancy> widest(const Level<3>& level, const std::vector<Vacancy>& own) {
   std::vector<Vacancy> all = of_all_ranks(*level.comm, own), kept;
   std::ranges::sort(all, [](const Vacancy& a, const Vacancy& b) {
