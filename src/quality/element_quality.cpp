@@ -35,7 +35,7 @@ void for_edges(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i
   });
 }
 
-// In space all neighbours are connected by elements.
+// All neighbours in space are connected by elements.
 template <class Visit>
 void for_edges(const Nodes<3>& nodes, const VolumeStars& stars, std::int64_t i,
                const Visit& visit) {
@@ -47,7 +47,7 @@ void for_edges(const Nodes<3>& nodes, const VolumeStars& stars, std::int64_t i,
 // Sums over edge ratios from which mean and deviation follow.
 struct RatioSums {
   std::int64_t edges = 0;
-  FixedPointSum excess, squares;  // of ratio - 1
+  FixedPointSum excess, squares;  // sums of ratio - 1 and of its square
 
   void add(double ratio) {
     // longer edges count as 33 so that one outlier cannot dominate the mean

@@ -26,6 +26,7 @@ inline constexpr int kFirstRowHops = 4;
 
 // The changes that create the first row: nodes to move and a population change.
 struct FirstRow {
+  // The move of a node to an apex.
   struct Move {
     std::int32_t node;
     Point<2> to;

@@ -53,6 +53,7 @@ class LocalMesh {
   MeshQuality quality() const;
 
  private:
+  // A triangle with its neighbours.
   struct Triangle {
     Corners corner;
     Corners across;  // the adjacent triangles, opposite to each corner; -1: none

@@ -24,6 +24,7 @@ class StarPatch {
   std::int32_t place_of(std::int64_t id) const;
 
  private:
+  // A node of the patch, by its id and its index in the level.
   struct Member {
     std::int64_t id, node;
     bool inside;  // false: in the last ring

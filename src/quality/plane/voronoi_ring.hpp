@@ -78,7 +78,8 @@ class ShortestOverLongest {
   }
 
  private:
-  double shortest_ = std::numeric_limits<double>::infinity(), longest_ = 0;  // squares of chords
+  // Squared chord lengths.
+  double shortest_ = std::numeric_limits<double>::infinity(), longest_ = 0;
 };
 
 // The Voronoi cell of one node at a time, with storage that is reused. N is 2 in the plane and 3 on
@@ -136,6 +137,7 @@ class VoronoiRing {
   }
 
  private:
+  // A neighbour of the node, with the vertex of the cell after it.
   struct Neighbour {
     std::int64_t node;
     bool triangle;  // whether the node, this neighbour and the next one form a triangle

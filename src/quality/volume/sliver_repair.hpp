@@ -34,7 +34,7 @@ struct SliverRule {
 
 // A tetrahedron that the move of a node created or removed, as sent to other ranks.
 struct ChangedTetrahedron {
-  std::int64_t node;  // id of the moved node, whose new position is x
+  std::int64_t node;  // id of the node to move
   Point<3> x;
   std::array<std::int64_t, 4> corners;  // ids, positively oriented
   std::int32_t on;                      // new facet of the moved node, or -1
@@ -44,11 +44,10 @@ struct ChangedTetrahedron {
 // The node that is to move for a sliver in a round, as sent to other ranks.
 struct SliverDraw {
   std::uint64_t lot;
-  std::array<std::int64_t, 4> sliver;  // ids, ascending
+  std::array<std::int64_t, 4> sliver;  // ids of its corners, ascending
   std::int64_t node;                   // id
 };
 
-// How nodes on surfaces go along these.
 // Functions by which nodes move along surfaces.
 struct AlongSurfaces {
   // A point on a facet of the surface.

@@ -50,7 +50,7 @@ class StarChanges {
  public:
   using Corners = std::array<std::int32_t, 3>;
 
-  // With `on_surfaces_too`, nodes on surfaces are movable as well.
+  // Starts without changes. Nodes on surfaces are movable as well if `on_surfaces_too` is true.
   StarChanges(const Nodes<3>& nodes, const VolumeStars& stars, bool on_surfaces_too = false)
       : nodes_(nodes),
         stars_(stars),
@@ -116,6 +116,7 @@ class StarChanges {
   void write_to(VolumeStars& stars) const;
 
  private:
+  // A changed star: neighbours of a node, and its tetrahedra by their other three corners.
   struct Star {
     std::vector<std::int32_t> neighbours;
     std::vector<Corners> simplices;

@@ -44,6 +44,7 @@ class SurfaceNodeMove {
     bool operator<(const Found& other) const { return by_id < other.by_id; }
     bool operator==(const Found& other) const { return by_id == other.by_id; }
   };
+  // A star of the triangulation, which may extend beyond the surface.
   struct Star {
     std::vector<Found> tetrahedra;         // elements, sorted by id
     std::vector<std::int32_t> neighbours;  // including neighbours beyond the surface
