@@ -28,7 +28,8 @@ struct GivenField {
   // Triangles or tetrahedra with corners in any order. The points are scattered if there are none.
   std::vector<std::array<std::int32_t, Corners>> elements;
   ErrorKind fault = ErrorKind::argument;  // the kind of errors in this field
-  // Points without elements are not checked, as files of meshes may have such.
+  // true: points that no element uses are not checked, because files of meshes may contain such
+  // points.
   bool only_used = false;
 };
 

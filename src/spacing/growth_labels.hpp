@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The source that limits d in each leaf of a distributed tree. Leaves start with the samples of d
-// in them and pass their source on to the leaves that they touch. Where the segment from the source
-// is free, the limit grows with the straight distance from it. Around corners of the boundary, the
-// path continues from the representative point of the leaf.
+// in them and pass their source on to the leaves that they touch. Where no boundary crosses the
+// segment from the source, the limit grows with the straight distance from it. Around corners of
+// the boundary, the path continues from the representative point of the leaf.
 #pragma once
 
 #include <cstdint>

@@ -15,8 +15,8 @@ namespace pnpbs {
 // opened.
 std::optional<std::string> inflated(std::string_view packed, std::size_t bytes);
 
-// Returns whether `packed` bytes may decompress to `bytes` bytes. In the best case one bit
-// represents 258 bytes, and each such copy takes two bits.
+// Returns whether `packed` bytes may decompress to `bytes` bytes. In the best case a copy of 258
+// bytes takes two bits.
 constexpr bool may_inflate_to(std::size_t packed, std::size_t bytes) {
   constexpr std::size_t kBestRatio = 1032;
   return bytes / kBestRatio <= packed;
