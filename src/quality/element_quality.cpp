@@ -17,16 +17,16 @@ namespace pnpbs {
 namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
-constexpr std::int64_t kEnoughEdges = 50;  // for a mean
+constexpr std::int64_t kEnoughEdges = 50;  // fewest edges for a meaningful mean
 
 // ------------------------------------------------------------------ edges ----------------------
 
-// Calls visit(j) for the edges (i, j) of elements of the domain around an owned node, each once
-// over all nodes: at its end with the lesser id.
+// Calls visit(j) for the edges (i, j) of elements around node i. Each edge is visited only from its
+// end with the smaller id. Edges of the star that belong to no element of the domain are skipped.
 template <class Visit>
 void for_edges(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
                const Visit& visit) {
-  bool before = stars.closed(i);  // is the triangle before the edge one of the domain?
+  bool before = stars.closed(i);  // whether the triangle before the edge is an element
   if (!before)
     stars.for_neighbours_in_order(i, [&](std::int64_t, bool triangle) { before = triangle; });
   stars.for_neighbours_in_order(i, [&](std::int64_t j, bool triangle) {
@@ -35,7 +35,7 @@ void for_edges(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i
   });
 }
 
-// In space there are no neighbours but by tetrahedra of the domain, or by triangles.
+// All neighbours in space are connected by elements.
 template <class Visit>
 void for_edges(const Nodes<3>& nodes, const VolumeStars& stars, std::int64_t i,
                const Visit& visit) {
@@ -44,12 +44,14 @@ void for_edges(const Nodes<3>& nodes, const VolumeStars& stars, std::int64_t i,
   });
 }
 
+// Sums over edge ratios from which mean and deviation follow.
 struct RatioSums {
   std::int64_t edges = 0;
-  FixedPointSum excess, squares;  // of ratio - 1
+  FixedPointSum excess, squares;  // sums of ratio - 1 and of its square
 
   void add(double ratio) {
-    constexpr double kMax = 33;  // what is longer counts as that, and hides no others
+    // longer edges count as 33 so that one outlier cannot dominate the mean
+    constexpr double kMax = 33;
     const double excess_of_one = std::min(ratio, kMax) - 1;
     ++edges;
     excess.add(excess_of_one);
@@ -62,7 +64,7 @@ struct RatioSums {
   }
 };
 
-// Of the edges of each band; the last are those between two boundary nodes, whatever their d.
+// Sums for each band. The last entry holds the edges between two boundary nodes, whatever their d.
 struct EdgeSums {
   std::array<RatioSums, SpacingBands::kMaxBands + 1> of;
 
@@ -83,6 +85,7 @@ EdgeRatio ratio_of(const RatioSums& sums) {
   return {sums.edges, 1 + excess, std::sqrt(std::max(0.0, squares - excess * excess))};
 }
 
+// Returns the deviation of the mean edge ratio from 1.
 double off(const EdgeRatio& ratio) { return std::fabs(ratio.mean - 1); }
 double off(const RatioSums& sums) { return off(ratio_of(sums)); }
 
@@ -93,7 +96,7 @@ SpacingBands bands_of_nodes(const Communicator& comm, const MeasuredNodes<Dim>& 
   return {d.min, d.max};
 }
 
-// Of the edges for which counts(i, j).
+// Returns the sums over this rank's edges (i, j) for which counts(i, j) is true.
 template <int Dim, class Counts>
 EdgeSums local_edge_sums(const MeasuredNodes<Dim>& measured, const Stars<Dim>& stars,
                          const SpacingBands& bands, const Counts& counts) {
@@ -112,7 +115,7 @@ EdgeSums local_edge_sums(const MeasuredNodes<Dim>& measured, const Stars<Dim>& s
       });
 }
 
-// Over all ranks.
+// Returns the sums over the edges of all ranks for which counts(i, j) is true. Collective.
 template <int Dim, class Counts>
 EdgeSums edge_sums(const Communicator& comm, const MeasuredNodes<Dim>& measured,
                    const Stars<Dim>& stars, const SpacingBands& bands, const Counts& counts) {
@@ -140,11 +143,11 @@ std::vector<EdgeBand> bands_with_edges(const SpacingBands& bands, const EdgeSums
 
 // ------------------------------------------------------------------ elements -------------------
 
-// The quality of an element in steps of 2^-16.
+// Number of bins of the quality histogram: a bin is 2^-16 wide.
 constexpr std::int64_t kQualitySteps = 1 << 16;
 
-// Triangles in the plane, tetrahedra, and the triangles of surfaces alone and of a sphere, by their
-// corners.
+// Corners of an element: a triangle in the plane, and a triangle of a surface or a sphere.
+// Tetrahedra are TetrahedronCorners. The unused pointer arguments below select the kind of element.
 using PlaneTriangle = std::array<Point<2>, 3>;
 using SpaceTriangle = std::array<Point<3>, 3>;
 
@@ -169,7 +172,7 @@ void for_simplices_around(const VolumeStars& stars, std::int64_t i, const SpaceT
   stars.for_triangles(i, visit);
 }
 
-// Calls visit(corners) for the elements of that kind whose node with the least id is i.
+// Calls visit(corners) for the elements of type Element in which owned node i has the smallest id.
 template <class Element, int Dim, class Visit>
 void for_elements_of(const MeasuredNodes<Dim>& measured, const Stars<Dim>& stars, std::int64_t i,
                      const Visit& visit) {
@@ -191,7 +194,8 @@ double quality_of(const PlaneTriangle& x) { return triangle_quality(x[0], x[1], 
 double quality_of(const TetrahedronCorners& x) { return tetrahedron_quality(x); }
 double quality_of(const SpaceTriangle& x) { return triangle_quality(x[0], x[1], x[2]); }
 
-// Of the least angle of a triangle, or between faces of a tetrahedron.
+// The cosine of the smallest angle of a triangle, or of the smallest dihedral angle of a
+// tetrahedron, and whether a triangle is obtuse.
 struct Angles {
   double max_cosine;
   bool obtuse;
@@ -208,13 +212,14 @@ Angles angles_of(const TetrahedronCorners& x) {
   return {std::cos(min_dihedral_angle(x) / kDegrees), false};
 }
 
+// Quality sums over the elements of this rank.
 struct QualitySums {
   explicit QualitySums(double cosine) : max_cosine(cosine) {}
 
   std::int64_t elements = 0, obtuse = 0;
   FixedPointSum quality;
   double min = 1;
-  double max_cosine;  // at the smallest angle
+  double max_cosine;  // cosine of the smallest angle
 
   void add(const QualitySums& other) {
     elements += other.elements;
@@ -225,7 +230,7 @@ struct QualitySums {
   }
 };
 
-// The step below which less than 1 % of the elements are.
+// Returns the lower end of the histogram bin that contains the 1 % quantile of the quality.
 double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t elements) {
   std::int64_t below = 0;
   std::size_t step = 0;
@@ -234,12 +239,14 @@ double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t e
   return static_cast<double>(step) / static_cast<double>(kQualitySteps);
 }
 
-// Of the elements of this rank; and how many there are of each step of quality.
+// Returns the quality sums of this rank's elements, and fills `histogram` with their numbers by
+// quality.
 template <class Element, int Dim>
 QualitySums local_quality_sums(const MeasuredNodes<Dim>& measured, const Stars<Dim>& stars,
                                std::vector<std::int64_t>& histogram) {
   constexpr bool kTriangles = std::tuple_size_v<Element> == 3;
-  constexpr double kOfLargestMin = kTriangles ? 0.5 : 1.0 / 3;  // 60 degrees, 70.5 degrees
+  // the largest possible smallest angle: 60 or 70.5 degrees
+  constexpr double kOfLargestMin = kTriangles ? 0.5 : 1.0 / 3;
   const View<std::int64_t> steps = make_view<std::int64_t>("pnpbs::quality", kQualitySteps);
   std::fill_n(steps.data(), kQualitySteps, 0);
   const auto count = [&](double quality) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How good the elements are and how well their edges follow d, over all ranks: the same bits for
-// any number of ranks and threads, as all sums are of integers.
+// Quality of the elements and the ratio of edge lengths to the spacing, over all ranks. All sums
+// are sums of integers, so the results have the same bits for any number of ranks and threads.
 #pragma once
 
 #include <cstdint>
@@ -14,56 +14,63 @@
 
 namespace pnpbs {
 
-// Of edge length over d, the mean of d at the two ends.
+// Statistics of the edge length divided by d, where d is the mean at the two ends.
 struct EdgeRatio {
   std::int64_t edges = 0;
   double mean = 0, deviation = 0;
 };
 
-// Of the edges whose d is in a band, but not of those between two boundary nodes, whose places the
-// corners of the domain decide.
+// Statistics of the edges whose d lies in one band. Edges between two boundary nodes are excluded,
+// because the corners of the domain determine their lengths.
 struct EdgeBand {
-  double from = 0, to = 0;  // of d
+  double from = 0, to = 0;  // [d]
   EdgeRatio ratio;
 };
 
-// Of triangles in the plane, of tetrahedra in space.
+// Quality of the elements: triangles in the plane and on surfaces, tetrahedra in space.
 struct SimplexQuality {
   std::int64_t elements = 0;
-  double mean = 0, min = 0;  // 2 r_in / R, 3 r_in / R
-  double one_percent = 0;    // 99 % lie above; in steps of 2^-16, downwards
-  double min_angle = 0;      // degrees; of tetrahedra, between faces
-  std::int64_t obtuse = 0;   // triangles: their circumcentres lie outside of them
-  // The same of the elements at edges where the body itself is sharp, and of all others; 180 if
-  // there are none. In the plane and on surfaces all are others.
+  double mean = 0, min = 0;  // 2 r_in / R of triangles, 3 r_in / R of tetrahedra
+  double one_percent = 0;    // 99 % of the elements have a larger quality; rounded down to 2^-16
+  double min_angle = 0;      // [degrees] of tetrahedra: dihedral
+  std::int64_t obtuse = 0;   // triangles with an angle above 90 degrees
+  // Smallest angle of the elements at edges where the body itself is sharp, and smallest angle of
+  // all others. [degrees] The first is 180 if there are no such elements, as in the plane and on
+  // surfaces.
   double min_angle_at_sharp_edges = 180, min_angle_elsewhere = 0;
 };
 
+// Everything that measure_elements() computes.
 struct ElementQuality {
   SimplexQuality simplex;
-  CellQuality cell;  // in the plane or on a sphere
-  EdgeRatio edge;    // of all edges
+  CellQuality cell;  // only in the plane and on a sphere
+  EdgeRatio edge;    // all edges
   std::vector<EdgeBand> bands;
-  double irregular = 0;  // share of the inner nodes without six (14) neighbours
+  // Share of the inner nodes whose number of neighbours is not six (14 in space).
+  double irregular = 0;
 };
 
-// From stars that are right for the owned nodes, and exact ghosts around these. Collective.
+// Measures elements, cells, edges and nodes. The stars must be valid for the owned nodes and the
+// ghosts around these exact.
+// Collective.
 template <int Dim>
 ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Dim>& measured,
                                 const Stars<Dim>& stars, const FillGhosts& fill_ghosts);
 
-// The bands in which d may be missed, without those that have no edge: of each the edges with an
-// end inside; if d is missed by these, those with both, where they are nearer to d and enough. (A
-// wall of 1.5 d has edges through it that are as long as it is thick; beside a shore of short edges
-// those inside may be too short.) Edges of nodes that are left out, if it is told which are, do not
-// count. Collective.
+// Returns the bands of d that have edges, with the statistics by which their agreement with d is
+// judged. A band is judged by its edges with at least one inner end. If these miss d by more than
+// 10 % in some band, a band is judged by its edges with two inner ends instead, provided that they
+// are at least 50 and closer to d: a wall of thickness 1.5 d has edges through it as long as it is
+// thick, and beside a boundary of short edges inner edges may be too short. Edges with an end in
+// `left_out` (one entry per node) do not count; an empty view excludes none.
+// Collective.
 template <int Dim>
 std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm,
                                           const MeasuredNodes<Dim>& measured,
                                           const Stars<Dim>& stars, const View<char>& left_out = {});
 
-// The band in which edges are most off d, by more than 10 % in the mean, of those with enough edges
-// for a mean; nullptr if there is none.
+// Returns the band whose mean edge ratio deviates most from 1, among bands with at least 50 edges
+// and a deviation of more than 10 %. Returns nullptr if there is none.
 const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands);
 
 }  // namespace pnpbs

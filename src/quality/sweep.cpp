@@ -11,7 +11,8 @@ namespace pnpbs {
 
 namespace {
 
-// Where the sweep would take the nodes of block b; their own places if they may not move.
+// Proposes positions for the nodes of block b. Nodes that do not move, and nodes without a closed
+// star of at least three neighbours, keep their positions.
 void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
              const SizedTree<2>& map, const SweepRule& rule, Field<2>& proposed, std::int64_t b) {
   const DelaunayStars::Block block = stars.block(b);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finishing sweep: every inner node goes part of the way to the mean of its Delaunay neighbours.
-// All move from the old positions (Jacobi). A guard lets a node go only if none of its triangles
-// gets worse that is or becomes bad, whether the other two corners move or stay.
+// Finishing sweeps in the plane: every inner node moves part of the way to the mean of its Delaunay
+// neighbours. All nodes move from their old positions (Jacobi). A guard rejects a move if a
+// triangle of the node gets worse that is or becomes bad, whether the other two corners move or
+// stay.
 #pragma once
 
 #include "delaunay/delaunay_stars.hpp"
@@ -11,22 +12,27 @@
 
 namespace pnpbs {
 
+// Parameters of one sweep.
 struct SweepRule {
-  double weight;                                 // share of the way
-  double max_move = method::kSweepMaxMove;       // no node moves more than this many d
-  double bad_below = method::kSweepGuardsBelow;  // triangle quality, 2 r_in / R
+  double weight;                                 // share of the vector from the node to its target
+  double max_move = method::kSweepMaxMove;       // largest displacement of a node [d]
+  double bad_below = method::kSweepGuardsBelow;  // bound of bad triangles [quality, 2 r_in / R]
 };
 
-// Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.
+// Runs one sweep over all nodes. `proposed` and `allowed` are scratch arrays with one entry per
+// node.
 void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
            const SizedTree<2>& map, const SweepRule& rule, Field<2>& proposed, View<char>& allowed);
 
-// The parts of it that any sweep has. Where one would take node i by this move, as far as the rule
-// and the boundary let it:
+// Sets proposed(i) to the position of node i after `move`. The move is shortened to rule.max_move,
+// and the position is kept off the boundary. It is the old position if no position clear of the
+// boundary exists.
 void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const SizedTree<2>& map,
                   const SweepRule& rule, std::int64_t i, Point<2> move, Field<2>& proposed);
+// Sets proposed(i) to the current position of node i.
 void propose_to_stay(const Nodes<2>& nodes, std::int64_t i, Field<2>& proposed);
-// And there they go, as far as the guard lets them.
+// Moves every node to its proposed position if the guard allows it. Writes the decisions of the
+// guard to `allowed`.
 void go_where_allowed(Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
                       const Field<2>& proposed, View<char>& allowed);
 

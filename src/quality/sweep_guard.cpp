@@ -9,7 +9,8 @@ namespace pnpbs {
 
 namespace {
 
-// Worst quality of triangle (i, j, k) when i has moved and the others have or have not.
+// Returns the smallest quality of triangle (i, j, k) with i at its proposed position and each of
+// the others at its old or proposed position.
 double worst_if_moved(const Nodes<2>& nodes, const Field<2>& proposed, std::int64_t i,
                       std::int64_t j, std::int64_t k) {
   const Point<2> a = point_at<2>(proposed, i);
@@ -19,8 +20,8 @@ double worst_if_moved(const Nodes<2>& nodes, const Field<2>& proposed, std::int6
                    triangle_quality(a, b[1], c[0]), triangle_quality(a, b[1], c[1])});
 }
 
-// May node i go to its proposed place, whatever its neighbours do? Then no order, and no rounds,
-// come into the decision.
+// Returns whether node i may move to its proposed position, no matter which of its neighbours move.
+// The decision therefore needs no order of the nodes and no rounds.
 bool may_move(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_below,
               const Field<2>& proposed, std::int64_t i) {
   bool allowed = true;
@@ -34,13 +35,13 @@ bool may_move(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_belo
   return allowed;
 }
 
-// A corner of triangles around a node, as seen from where that node would be, in units of its d: in
-// its old place and in the proposed one, each with its squared distance.
+// A neighbour relative to the proposed position of a node, in units of the node's d. Index 0 is the
+// neighbour's old position and index 1 its proposed one; `square` is the squared distance.
 struct Corner {
   double x0, y0, square0, x1, y1, square1;
 };
 
-// One corner per lane.
+// The corners of all lanes of a block, as a structure of arrays.
 struct Corners {
   double x0[kLanes], y0[kLanes], square0[kLanes], x1[kLanes], y1[kLanes], square1[kLanes];
 
@@ -57,7 +58,7 @@ struct Corners {
   }
 };
 
-// Where the nodes of a block would be, and their spacings' inverses.
+// The proposed positions of the nodes of a block, and the inverses of their spacings.
 struct Viewpoints {
   double x[kLanes], y[kLanes], scale[kLanes];
 
@@ -69,6 +70,7 @@ struct Viewpoints {
     }
   }
 
+  // Returns node j relative to the node in this lane.
   Corner see(const Positions<2>& old, const Positions<2>& proposed, std::int32_t j,
              int lane) const {
     Corner c;
@@ -87,7 +89,8 @@ inline double larger(double a, double b) { return a > b ? a : b; }
 inline double cross(double bx, double by, double cx, double cy) { return bx * cy - by * cx; }
 inline double squared(double x, double y) { return x * x + y * y; }
 
-// Does the triangle with these two corners certainly meet the bound, wherever the two are?
+// Returns 1 if the triangle of a node and these two corners certainly meets the bound, no matter
+// which of the two corners move.
 inline std::int32_t surely_met(const QualityBound& bound, const Corner& b, const Corner& c) {
   const double twice_area =
       lesser(lesser(cross(b.x0, b.y0, c.x0, c.y0), cross(b.x0, b.y0, c.x1, c.y1)),
@@ -99,7 +102,9 @@ inline std::int32_t surely_met(const QualityBound& bound, const Corner& b, const
                           third);
 }
 
-// Which nodes of a block may move for certain, because no triangle could become bad?
+// Sets sure[lane] to 1 if none of the node's triangles can become bad, so that the node may
+// certainly move. Otherwise sets it to 0, which leaves the decision open. Only for blocks with
+// entries.
 void find_surely_allowed(const Nodes<2>& nodes, const DelaunayStars::Block& block,
                          const QualityBound& bound, const Field<2>& proposed, std::int64_t b,
                          std::int32_t (&sure)[kLanes]) {
@@ -136,7 +141,7 @@ void guard_block(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_b
   const int lanes = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
   for (int lane = 0; lane < lanes; ++lane) {
     const std::int64_t i = first + lane;
-    // Others stay where they are, as was proposed.
+    // The proposed position of all other nodes is their old one.
     const bool goes = nodes.moves(i) && block.sizes[lane].flag();
     allowed(i) = goes && (sure[lane] || may_move(nodes, stars, bad_below, proposed, i));
   }

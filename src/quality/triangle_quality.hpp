@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Quality and angles of triangles in the plane and in space.
 #pragma once
 
 #include <array>
@@ -11,7 +12,8 @@
 
 namespace pnpbs {
 
-// 2 r_in / R of a triangle: 1 if equilateral, 0 if flat, negative if turned over.
+// Returns the quality 2 r_in / R of a triangle: 1 if equilateral, 0 if degenerate, negative if
+// oriented clockwise.
 inline double triangle_quality(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   const double ab = distance<2>(a, b), bc = distance<2>(b, c), ca = distance<2>(c, a);
@@ -19,7 +21,7 @@ inline double triangle_quality(const Point<2>& a, const Point<2>& b, const Point
   return product > 0 ? 4 * twice_area * std::fabs(twice_area) / product : 0.0;
 }
 
-// The same of one in space, which has no side to be turned to.
+// Returns the quality 2 r_in / R of a triangle in space, which is never negative.
 inline double triangle_quality(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   const Point<3> normal = cross(difference(b, a), difference(c, a));
   const double ab = distance<3>(a, b), bc = distance<3>(b, c), ca = distance<3>(c, a);
@@ -27,7 +29,7 @@ inline double triangle_quality(const Point<3>& a, const Point<3>& b, const Point
   return product > 0 ? 4 * dot(normal, normal) / product : 0.0;
 }
 
-// Of the ways from a to b and to c.
+// Returns the dot product of b - a and c - a.
 template <std::size_t Dim>
 double dot_from(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
                 const std::array<double, Dim>& c) {
@@ -36,7 +38,7 @@ double dot_from(const std::array<double, Dim>& a, const std::array<double, Dim>&
   return product;
 }
 
-// Of the angle at a.
+// Returns the cosine of the angle at a.
 template <std::size_t Dim>
 double angle_cosine(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
                     const std::array<double, Dim>& c) {
@@ -44,28 +46,28 @@ double angle_cosine(const std::array<double, Dim>& a, const std::array<double, D
          (distance<static_cast<int>(Dim)>(a, b) * distance<static_cast<int>(Dim)>(a, c));
 }
 
-// Is an angle larger than 90 degrees, and not by rounding?
+// Returns whether an angle with this cosine exceeds 90 degrees by more than rounding errors.
 inline bool is_obtuse(double cosine) { return cosine < -1e-10; }
 
-// That at a: most are not, which takes no square roots.
+// Returns whether the angle at a is obtuse. Avoids square roots in most cases.
 template <std::size_t Dim>
 bool is_obtuse_at(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
                   const std::array<double, Dim>& c) {
   return dot_from(a, b, c) < 0 && is_obtuse(angle_cosine(a, b, c));
 }
 
-// A bound on quality that many triangles are held against, without square roots.
+// A lower bound of triangle quality that can be tested without square roots.
 class QualityBound {
  public:
   explicit QualityBound(double quality) {
-    constexpr double kMargin = 1e-9;  // far above the rounding errors of both ways
+    constexpr double kMargin = 1e-9;  // far above the rounding errors of both formulas
     const double bound = quality > 0 ? quality * (1 + kMargin) : 0;
     factor_ = 3.0 / 16.0 * bound * bound;
   }
 
-  // 1 if the quality is certainly above the bound for a triangle with at least this area and at
-  // most these squares of its sides, because a + b + c <= sqrt(3 (a^2 + b^2 + c^2)), which is sharp
-  // for equilateral triangles. Lengths should be of the order of 1.
+  // Returns 1 if a triangle certainly has a quality above the bound, given a lower bound of twice
+  // its area and upper bounds of its squared side lengths. This uses a + b + c <= sqrt(3 (a^2 + b^2
+  // + c^2)), which is sharp for equilateral triangles. Lengths should be of the order of 1.
   std::int32_t surely_met(double twice_area, double aa, double bb, double cc) const {
     const double square = twice_area * std::fabs(twice_area);
     const double product = (aa * bb) * (cc * (aa + bb + cc));
@@ -73,7 +75,7 @@ class QualityBound {
   }
 
  private:
-  static constexpr double kTiny = 1e-200;  // below, products may have lost their last bits
+  static constexpr double kTiny = 1e-200;  // smaller products may have lost digits to underflow
   double factor_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes that close a whole sphere come from a placement of their own in a disc. The function is
-// defined in the folder placement, which stands above this one: only there a placement can be made.
+// The nodes that close a whole sphere, from a placement of their own in a disc. The function is
+// defined in the folder placement, which is above this one, because a placement can only be made
+// there.
 #pragma once
 
 #include <vector>
@@ -10,9 +11,9 @@
 
 namespace pnpbs {
 
-// The nodes of a disc of that radius, in radians, around the point opposite to the one that the
-// chart is projected from, as points of the sphere. The three corners of the triangle next to the
-// middle of the disc come first. Every rank places them for itself. Local.
+// Returns the nodes of a disc around the point opposite to the projection point of the chart, as
+// points of the sphere. `radius` is in radians. The three corners of the triangle at the centre of
+// the disc come first. Every rank places the same nodes on its own. Local.
 std::vector<Point<3>> nodes_around(const StereographicChart& other, const Spacing<2>& spacing,
                                    double radius);
 

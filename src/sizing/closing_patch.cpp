@@ -19,18 +19,21 @@ namespace pnpbs {
 
 namespace {
 
-// Of the patch, in spacings: 12 spacings from the point the chart grows by a sixth from node
-// to node, which bubbles follow. The disc is wider, since its border is no natural one.
+// Radii of the patch and of the disc. [d] At 12 d from the projection point the chart grows by a
+// sixth from node to node, which bubbles can follow. The disc is larger because its border is
+// artificial.
 constexpr double kRadius = 12, kRadiusOfDisc = 17;
-constexpr double kMostOfSphere = 1.6, kMostOfSphereForDisc = 2.4;  // radians
-// Free nodes may come so far between the patch's last ones.
-constexpr double kSeam = 0.5;  // spacings
-// Of the patch, about the point, its nodes stay in the finish as well, where the chart grows by
-// more than a third from node to node.
-constexpr double kFixed = 0.5;  // of its radius
+// Upper bounds of these radii [radians]
+constexpr double kMostOfSphere = 1.6, kMostOfSphereForDisc = 2.4;
+// Depth to which free nodes may enter between the last nodes of the patch.
+constexpr double kSeam = 0.5;  // [d]
+// Part of the patch around the point whose nodes stay fixed in the finish as well. The chart grows
+// by more than a third from node to node there.
+constexpr double kFixed = 0.5;  // [radius of the patch]
 constexpr double kSameSpacing = 0.02;
-// To the point, at which the chart has no place for d.
-constexpr double kNotNearer = 0.25;  // spacings
+// Distance from the projection point within which d is not evaluated, because the chart cannot
+// represent the point.
+constexpr double kNotNearer = 0.25;  // [d]
 
 Point<3> opposite(const Point<3>& x) { return {-x[0], -x[1], -x[2]}; }
 
@@ -38,12 +41,13 @@ double area_of(const StereographicChart& chart) {
   return 4 * std::numbers::pi * chart.radius() * chart.radius();
 }
 
+// Returns the chart projected from the opposite point.
 StereographicChart opposite_of(const StereographicChart& chart) {
   return {chart.radius(), opposite(chart.projected_from())};
 }
 
-// A spacing in the chart of one side, as it is in the chart of the other one. Nearer than `least`
-// to the point that the first is projected from it is what it is there.
+// A spacing given in one chart, converted to the chart of the opposite side. Within `least` of the
+// projection point of the first chart it is constant along each ray.
 class FromOtherSide : public Spacing<2> {
  public:
   FromOtherSide(const Spacing<2>& spacing, const StereographicChart& chart,
@@ -70,7 +74,7 @@ class FromOtherSide : public Spacing<2> {
   }
 
  private:
-  // To the other chart, but for those for which it has no place.
+  // Converts hints to the other chart, except those that it cannot represent.
   template <class Known, class PlaceOf>
   void turn_all(std::vector<Known>& all, const PlaceOf& place_of) const {
     std::size_t kept = 0;
@@ -97,7 +101,7 @@ class FromOtherSide : public Spacing<2> {
   double least_;
 };
 
-// Along the sphere, at the point that the chart is projected from.
+// Returns d on the sphere at the projection point of the chart.
 double spacing_at_point(const Spacing<2>& spacing, const StereographicChart& chart) {
   constexpr double kFirst = 1e-3;
   const StereographicChart other = opposite_of(chart);
@@ -108,7 +112,7 @@ double spacing_at_point(const Spacing<2>& spacing, const StereographicChart& cha
   return d;
 }
 
-// Turns the sphere so that c comes to p, both of length 1.
+// Rotates x by the rotation that maps c to p; both must have length 1.
 Point<3> turned(const Point<3>& x, const Point<3>& c, const Point<3>& p) {
   const Point<3> sum{c[0] + p[0], c[1] + p[1], c[2] + p[2]};
   const double along = dot(sum, x) / (1 + dot(c, p)), twice = 2 * dot(c, x);
@@ -117,9 +121,10 @@ Point<3> turned(const Point<3>& x, const Point<3>& c, const Point<3>& p) {
   return y;
 }
 
-// Shrinks the triangle around the point until in the chart all other nodes lie well inside the
-// straight edges between its corners: in a regular lattice its neighbours' circles go through the
-// point, and their triangles would be flat there.
+// Shrinks the triangle around the projection point until, in the chart, all other nodes lie well
+// inside the straight edges between the triangle's corners. In a regular lattice the circumcircles
+// of adjacent triangles pass through the point, and these triangles are flat in the chart
+// otherwise.
 void draw_in(const StereographicChart& chart, ClosingPatch& patch) {
   constexpr double kStep = 0.94, kInside = 0.97;
   constexpr int kMostSteps = 8;
@@ -144,7 +149,8 @@ void draw_in(const StereographicChart& chart, ClosingPatch& patch) {
     }
 }
 
-// On the sphere; the corners of the triangle around the point come first.
+// Rotates nodes on the sphere so that the triangle of the first three is centred at the projection
+// point.
 std::vector<Point<3>> turned_to_point(const StereographicChart& chart,
                                       std::vector<Point<3>> nodes) {
   Point<3> middle{};
@@ -154,10 +160,10 @@ std::vector<Point<3>> turned_to_point(const StereographicChart& chart,
   return nodes;
 }
 
-// Nodes that stick out of the patch have no lattice around them that fits.
+// Removes nodes that protrude from the patch, because no lattice fits around them.
 void leave_out_those_that_stick_out(const StereographicChart& chart, const Spacing<2>& spacing,
                                     ClosingPatch& patch) {
-  constexpr double kNear = 1.35;  // spacings there
+  constexpr double kNear = 1.35;  // [d at the node]
   constexpr int kFewest = 4;
   std::vector<Point<3>> all(patch.rim.begin(), patch.rim.end());
   for (const Point<2>& u : patch.nodes) all.push_back(chart.on_sphere(u));
@@ -168,14 +174,16 @@ void leave_out_those_that_stick_out(const StereographicChart& chart, const Spaci
     const double reach = kNear * d[i] / chart.stretch(patch.nodes[i]);
     const auto near = std::ranges::count_if(
         all, [&](const Point<3>& x) { return distance<3>(x, all[i + 3]) < reach; });
-    if (near > kFewest) patch.nodes[kept++] = patch.nodes[i];  // one of them is the node itself
+    if (near > kFewest) patch.nodes[kept++] = patch.nodes[i];  // the node itself is counted as well
   }
   patch.nodes.resize(kept);
 }
 
-// How far the patch reaches from the point, in radians, where d is so many.
+// Returns the radius of the patch for d in radians. [radians]
 double last_of_patch(double d) { return std::min(kRadius * d, kMostOfSphere); }
 
+// Returns the distance from the origin of the chart that corresponds to this angle from the
+// projection point.
 double edge_in_chart(const StereographicChart& chart, double angle) {
   return 2 * chart.radius() / std::tan(angle / 2);
 }
@@ -185,7 +193,7 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
   const StereographicChart other = opposite_of(chart);
   ClosingPatch patch;
   patch.d = spacing_at_point(spacing, chart);
-  const double d = patch.d / radius;  // radians
+  const double d = patch.d / radius;  // d on the sphere in radians
   if (d > kMostAtPoint)
     throw Error(ErrorKind::spacing, "the spacing at the point that is named as outside is " +
                                         number_text(patch.d) + ": on a whole sphere of radius " +

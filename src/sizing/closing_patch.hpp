@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the nodes that close a whole sphere: a placement of its own, in a disc around the point
-// that the sphere is projected from, as it is seen from the other side.
+// The patch of nodes that closes a whole sphere: nodes of a separate placement in a disc around the
+// projection point, as seen in the chart of the opposite side.
 #pragma once
 
 #include <memory>
@@ -10,21 +10,25 @@
 
 namespace pnpbs {
 
-// The domain itself or, of a whole sphere, one that is closed for this spacing in its chart. Every
-// rank makes the same patch; the spacing is asked for the same points everywhere. Throws
-// Error(ErrorKind::domain) where curves or fixed nodes lie in the patch, and ::spacing where d is
-// more than kMostAtPoint allows. Collective.
+// Returns the domain itself, or for a whole sphere one that is closed by a patch for this spacing
+// in its chart. Every rank makes the same patch and evaluates the spacing at the same points.
+// Throws Error(ErrorKind::domain) if curves or fixed nodes lie in the patch, and
+// Error(ErrorKind::spacing) if d exceeds kMostAtPoint.
+// Collective.
 std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneDomain>& domain,
                                               const Spacing<2>& spacing);
 std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const VolumeDomain>& domain,
                                                const Spacing<3>& spacing);
 
-// Can it be closed for this spacing, with what the user gives inside? Other domains need not be.
+// Returns whether a whole sphere can be closed for this spacing, with the user's curves and nodes
+// outside of the patch. Returns true for all other domains.
 bool can_be_closed(const PlaneDomain& domain, const Spacing<2>& spacing);
 bool can_be_closed(const VolumeDomain& domain, const Spacing<3>& spacing);
 
-// The same before the spacing is multiplied for so many nodes, if any number is wanted: as if it
-// were even then. Collective.
+// Returns closed_for() for a spacing that is still to be multiplied for `wanted_nodes` nodes: the
+// patch is that of the uniform spacing with this number of nodes. If `wanted_nodes` is 0, the
+// spacing itself is used.
+// Collective.
 std::shared_ptr<const PlaneDomain> closed_before_sizing(
     const std::shared_ptr<const PlaneDomain>& domain, const SizingField<2>& spacing,
     double wanted_nodes);
@@ -32,7 +36,8 @@ std::shared_ptr<const VolumeDomain> closed_before_sizing(
     const std::shared_ptr<const VolumeDomain>& domain, const SizingField<3>& spacing,
     double wanted_nodes);
 
-// The factor on the spacing for which a whole sphere is closed; 1 for other domains. Collective.
+// Returns the factor on the spacing for which a whole sphere is closed; 1 for other domains.
+// Collective.
 double factor_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing);
 double factor_closed_for(const VolumeDomain& domain, const Spacing<3>& spacing);
 

@@ -12,19 +12,19 @@ namespace pnpbs {
 
 namespace {
 
-// Those of the patch of a whole sphere do not count: each level has its own, at rest from the
-// start.
+// Returns the number of boundary nodes without the patch of a whole sphere. Each level has its own
+// patch, which is at rest from the start.
 double boundary_nodes(const PlaneDomain& domain, std::size_t all) {
   return static_cast<double>(static_cast<std::int64_t>(all) - domain.patch_nodes());
 }
 
 double coarser_by(int level) { return std::ldexp(1.0, level); }
 
-// Corners, the few nodes that a small hole needs, and fixed nodes are on every level, however
-// coarse: where they are many among a level's nodes, it settles nothing, bubbles come and go
-// between them, and each has dozens of edges near it. Of a coarser level with this spacing, is what
-// its boundary has beyond its share of the finest one's little beside all of its nodes? (In space
-// it is a matter of the surfaces, which settle before.)
+// Returns whether the boundary nodes of a coarser level are few compared with all its nodes, except
+// for their share of those of the finest level. Corners, nodes of small holes and fixed nodes are
+// on every level. If they are many, the level settles nothing, its population fluctuates, and each
+// node has dozens of edges near it. In space surfaces settle first, and this criterion does not
+// apply.
 bool boundary_leaves_room(const Level<2>& finest, const PlaneDomain& domain,
                           const Spacing<2>& coarser, double factor, double nodes) {
   double laid = 0;
@@ -50,12 +50,12 @@ SizingField<Dim> spacing_of_level(const SizingField<Dim>& spacing, int level) {
 }
 
 Settings settings_of_level(Settings settings, bool coarsest) {
-  // Of the finest level's tolerance: steps are cheap here.
+  // Factor on the tolerance of the finest level, since steps are cheap on coarser ones.
   const double more_rest =
       settings.bubble_dimension == 2 ? method::kCoarserRestInPlane : method::kCoarserRestInSpace;
   settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
   settings.population_share = method::kCoarserPopulationShare;
-  settings.defects.bad_below = 0;  // no triangle is handed on
+  settings.defects.bad_below = 0;  // no triangle of this level is in the result
   settings.tolerance_mean *= more_rest;
   if (settings.bubble_dimension == 3)
     settings.population.mean_distance *= method::kCoarserDistanceInSpace;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Multilevel bubble simulation: the first nodes of a level come from a coarser one, where what is
-// wrong over long distances settles in cheap steps. Each level has twice the spacing of the next;
-// to refine it, a node comes into the middle of every edge of its Delaunay stars, which leaves
-// nearly every node with its six neighbours.
+// Multilevel bubble simulation: the first nodes of a level come from a coarser level, where
+// long-range errors settle in cheap steps. Each level has twice the spacing of the next finer one.
+// Refinement inserts a node in the middle of every edge of the Delaunay stars, which leaves nearly
+// every node with six neighbours.
 #pragma once
 
 #include "domain/domain.hpp"
@@ -12,19 +12,21 @@
 
 namespace pnpbs {
 
-// None where d is nearly the same everywhere: then one lattice fills the domain. A level of few
-// nodes has nothing to settle over long distances, and bubbles of a spacing that varies from one to
-// the next have no rest. Collective, as the spacing is asked.
+// Returns the number of coarser levels that pay off. There is none if d is nearly constant, because
+// one lattice fills the domain then. Levels with few nodes have no long-range errors to settle, and
+// bubbles do not come to rest on levels where d varies strongly from one to the next.
+// Collective.
 template <int Dim>
 int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
                             const SizingField<Dim>& spacing);
 
-// Of the level that is coarser than the finest by so many; of that itself if it is none.
+// Returns the spacing of the level that is coarser than the finest by this number of levels.
 template <int Dim>
 SizingField<Dim> spacing_of_level(const SizingField<Dim>& spacing, int level);
 
-// A coarser level runs like a placement of its own; the coarsest has the most to settle. What
-// is wrong there is wrong on every finer one, too.
+// Returns the settings of a coarser level. It runs like a placement of its own, with a smaller
+// tolerance, because its errors remain on every finer level. The coarsest level runs for more
+// steps.
 Settings settings_of_level(Settings settings, bool coarsest);
 
 }  // namespace pnpbs

@@ -12,11 +12,12 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kBytesOfProcess = 30e6;  // before it has any nodes
+constexpr double kBytesOfProcess = 30e6;  // without nodes
 
-// What a core of a present server does, over cases with d graded and even (docs/benchmarks.md).
+// Throughput of one core of a current server, over cases with graded and uniform d. [nodes/s]
+// docs/benchmarks.md.
 constexpr double kNodesPerSecond = 400e3, kNodesPerSecondBest = 140e3, kNodesPerSecondPaper = 20e3;
-// In bodies of 70 000 nodes (docs/comparison_volumes.md).
+// Throughput in bodies of 70 000 nodes. [nodes/s] docs/comparison_volumes.md.
 constexpr double kNodesPerSecondInSpace = 20e3;
 
 template <int Dim>
@@ -41,8 +42,8 @@ Estimate estimate_of(const EffectiveSpacing<Dim>& to_place, const Settings& sett
           nodes / (nodes_per_second<Dim>(to_place.options()) * std::max(1.0, threads))};
 }
 
-// With the growth of d limited as the run limits it, which takes a tree as the run does; so it is
-// refused where that would be.
+// Limits the growth of d in the same way as the run does. This builds the same tree and throws
+// where the run would throw.
 template <int Dim>
 double estimated_nodes(const EffectiveSpacing<Dim>& to_place, SizingField<Dim> spacing,
                        const Settings& settings, Samples samples) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run would come to, and how much memory there is for it.
+// Estimates of the nodes, memory and time of a run, and the memory allowed for it.
 #pragma once
 
 #include "estimate/node_estimate.hpp"
@@ -7,17 +7,18 @@
 
 namespace pnpbs {
 
-// Collective.
+// Estimates nodes, memory and time of a run. Collective.
 template <int Dim>
 Estimate estimate_of(const EffectiveSpacing<Dim>& to_place, const Settings& settings);
 
-// The nodes with which a run with this spacing is expected to end. Collective.
+// Returns the number of nodes with which a run with this spacing is expected to end. Collective.
 template <int Dim>
 double estimated_nodes(const EffectiveSpacing<Dim>& to_place, SizingField<Dim> spacing,
                        const Settings& settings, Samples samples);
 
-// Of memory, for the nodes of all ranks: these share what their machines have, and hold equal
-// parts. Collective.
+// Returns the memory allowed for the nodes of all ranks. [bytes] Ranks share the memory of their
+// machines and have equal parts of the nodes. Returns infinity if the option max_memory is 0.
+// Collective.
 double bytes_allowed(const Communicator& comm, const Options& options);
 
 }  // namespace pnpbs

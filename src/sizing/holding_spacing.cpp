@@ -13,9 +13,10 @@ namespace pnpbs {
 
 namespace {
 
-constexpr std::int64_t kFewElements = 100000;  // with small angles, whose corners one rank can have
+// Number of elements with small angles whose corners one rank can store.
+constexpr std::int64_t kFewElements = 100000;
 
-// Those of all ranks, each once, in one order on all of them. Collective.
+// Returns the points of all ranks, sorted and without duplicates. Collective.
 template <int Dim>
 std::vector<Point<Dim>> gathered(const Communicator& comm, const std::vector<Point<Dim>>& own) {
   std::vector<Point<Dim>> all = of_all_ranks(comm, own);
@@ -24,7 +25,7 @@ std::vector<Point<Dim>> gathered(const Communicator& comm, const std::vector<Poi
   return all;
 }
 
-// d at places, which must be the same on all ranks. Collective.
+// Returns d at these points, which must be the same on all ranks. Collective.
 template <int Dim>
 std::vector<double> spacing_at(const Level<Dim>& level,
                                const std::vector<GrowthSource<Dim>>& places) {
@@ -38,8 +39,9 @@ std::vector<double> spacing_at(const Level<Dim>& level,
   return d;
 }
 
-// Half of d where the last round does not conform, and what is narrow around these places, in the
-// body if there are none. Collective.
+// Returns points with the d that they require: half of d at unresolved points. Adds the narrow
+// points of the surface near these if there have been several rounds already, and those of the
+// whole body if there are no unresolved points. Collective.
 template <int Dim>
 std::vector<GrowthSource<Dim>> places_to_hold(const Level<Dim>& level,
                                               const std::vector<Point<Dim>>& unresolved,
@@ -55,7 +57,8 @@ std::vector<GrowthSource<Dim>> places_to_hold(const Level<Dim>& level,
   return result;
 }
 
-// Triangles that stand for a level set follow it to a d that is no smaller than its resolution.
+// Returns the smallest d that is useful for level sets: their resolution, since their triangles
+// follow them no more closely. 0 without level sets.
 double resolution_of(const PlaneDomain&) { return 0; }
 double resolution_of(const VolumeDomain& domain) {
   double coarsest = 0;
@@ -98,8 +101,9 @@ bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unres
         comm.allreduce_sum(static_cast<std::uint64_t>(level.owned_count())));
   };
   if (held.rounds >= level.settings.conforming_rounds) return false;
-  // Where places are that many, the shape is lost altogether; nor should one rank have them all.
-  // (Corners of elements with small angles may be places of several ranks: elements are counted.)
+  // With so many points the whole shape is unresolved, and one rank should not store them all.
+  // Corners of elements with small angles may be points of several ranks, so the elements are
+  // counted instead.
   const bool small = unresolved.small_angles > 0;
   const std::int64_t found =
       small ? unresolved.small_angles

@@ -17,10 +17,10 @@ namespace pnpbs {
 
 namespace {
 
-// Of the domain, that d may be large.
+// Upper bound of d. [size of the domain]
 constexpr double kMaxSizes = 1024;
-// A little more is let pass than nodes follow, so that d which grows by that stays as it is given,
-// whatever samples make of it.
+// Growth above which d is limited. The margin keeps a d that grows exactly as fast as nodes can
+// follow unchanged, because samples are not exact.
 constexpr double kTooSteep = method::kTooSteep * method::kGrowthFollowed;
 
 }  // namespace
@@ -34,11 +34,11 @@ SizingField<Dim> EffectiveSpacing<Dim>::effective_spacing(const Settings& settin
   return bounded(spacing_.multiplied(factor), settings);
 }
 
-// The factor on d with which a run is expected to come to so many nodes. Their number goes with the
-// factor to the power of the dimension where the boundary has few of them, and less where its
-// vertices are many: the power is taken from the last two rounds. Below the number of vertices
-// there is nothing to find, and the search ends where the number does not change any more. Few
-// samples lead near it, and an estimate by many corrects the rest; another one, if that is much.
+// Returns the factor on d for this number of nodes. The number is proportional to a power of the
+// factor: the dimension if few nodes are on the boundary, less if the boundary has many vertices.
+// The power follows from the last two rounds. No factor leads below the number of vertices, so the
+// search ends when the number does not change any more. Rounds with few samples come near the
+// solution, and one or two with many samples correct it.
 template <int Dim>
 double EffectiveSpacing<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
   constexpr int kMaxRounds = 10;
@@ -117,7 +117,7 @@ void EffectiveSpacing<Dim>::limit_growth(SizingField<Dim>& spacing,
   });
 }
 
-// As the spacing itself has them: on the level it may be multiplied by a factor.
+// The points have d of the spacing itself; the spacing of a level may be multiplied by a factor.
 void add_undersampled_points(const UndersampledSpacing& found, const Communicator& comm,
                              const VolumeDomain& domain, SizingField<3>& spacing) {
   SpacingHints<3> places;

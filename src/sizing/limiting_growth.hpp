@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing as it counts: as given, no larger than makes sense or, if the user wants it so, than
-// resolves the shape, or with its growth limited, because the user wants that or because nodes
-// could not follow d as given.
+// Computes the effective spacing from the user's: bounded from above, on request fine enough to
+// resolve the shape, and with limited growth, on request or because nodes could not follow d.
 #pragma once
 
 #include <memory>
@@ -19,25 +18,27 @@
 
 namespace pnpbs {
 
-// The lattice that fills a body with even d, unless so many nodes are wanted: whole layers come in
+// Returns whether the lattice that fills a body with uniform d is stretched to fit. It is not
+// stretched if the option wanted_nodes is set, because whole layers change the number of nodes in
 // steps.
 inline bool lattice_is_stretched(const Options& options) {
   return options.real("wanted_nodes") == 0;
 }
 
-// All functions are collective.
+// Computes effective spacings for a domain and options. All its functions are collective.
 template <int Dim>
 class EffectiveSpacing {
  public:
-  // From the user's spacing.
+  // `spacing` is the user's spacing. `options` must outlive this object.
   EffectiveSpacing(std::shared_ptr<const Communicator> comm,
                    std::shared_ptr<const Domain<Dim>> domain, const SizingField<Dim>& spacing,
                    const Options& options)
       : comm_(std::move(comm)), domain_(std::move(domain)), spacing_(spacing), options_(options) {}
 
-  // No larger than makes sense, and with so many nodes as are wanted, by an estimate whose error
-  // `count_factor` corrects.
+  // Returns the bounded spacing, scaled for the number of nodes in the option wanted_nodes if that
+  // is set. This number is estimated; `count_factor` on d corrects the error of the estimate.
   SizingField<Dim> effective_spacing(const Settings& settings, double count_factor = 1) const;
+  // Limits the growth of the spacing to settings.growth_limit.
   void limit_growth(SizingField<Dim>& spacing, const Settings& settings) const;
 
   const Communicator& comm() const { return *comm_; }
@@ -57,11 +58,12 @@ class EffectiveSpacing {
 extern template class EffectiveSpacing<2>;
 extern template class EffectiveSpacing<3>;
 
-// Adds places at which nodes came upon more than the samples of d had told of it. Collective.
+// Adds the points where nodes found a smaller d than its samples had shown, and the fine region
+// around them. Collective.
 void add_undersampled_points(const UndersampledSpacing& found, const Communicator& comm,
                              const VolumeDomain& domain, SizingField<3>& spacing);
 
-// Is it steeper than nodes can follow?
+// Returns whether the spacing grows faster than nodes can follow.
 template <int Dim>
 bool too_steep(const SteepestGrowth<Dim>& steepest);
 template <int Dim>

@@ -10,10 +10,12 @@ namespace pnpbs {
 
 namespace {
 
-// No node of a sheet is farther from the next one than from the sheet behind it, within a round's
-// reach: a whole step at once takes more nodes than most places need.
+// The resolution for unresolved shapes: one layer of d across walls and gaps. One round reduces d
+// to no less than 0.3 d, because a complete reduction at once takes more nodes than most points
+// require.
 constexpr Resolution kApart{1, 1, 0.3};
 
+// The union of balls around points with their d as radius. `places` must outlive this object.
 class Surroundings {
  public:
   explicit Surroundings(const std::vector<GrowthSource<3>>& places)

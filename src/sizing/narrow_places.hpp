@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the elements of a run do not fill the domain, two sheets of its surface are mostly nearer
-// to each other than d, or it goes around a bar or through a hole that is narrower than d.
+// Points of the surface where d is too large for the body. If the elements of a run do not fill the
+// domain there, usually two sheets of the surface are closer to each other than d, or the surface
+// surrounds a bar or a hole that is narrower than d.
 #pragma once
 
 #include <vector>
@@ -10,10 +11,11 @@
 
 namespace pnpbs {
 
-// Where that is so within d of the places given, whose d that is, or anywhere if there are none:
-// with d as it would have to be. Empty in the plane, where boundary nodes keep to their curves.
-// Throws Error(ErrorKind::spacing) if there were more of them than nodes are allowed. The same on
-// all ranks. Collective.
+// Returns the narrow points within d of the points `near`, or all if `near` is empty, each with the
+// d that is required there. `near` holds d as well. Returns nothing in the plane, where boundary
+// nodes lie on their curves. Throws Error(ErrorKind::spacing) if there are more points than nodes
+// allowed. The result is the same on all ranks.
+// Collective.
 std::vector<GrowthSource<2>> narrow_places(const Level<2>& level,
                                            const std::vector<GrowthSource<2>>& near);
 std::vector<GrowthSource<3>> narrow_places(const Level<3>& level,

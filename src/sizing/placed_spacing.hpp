@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing with which a level is placed.
+// The spacing with which a level is placed, with its local reductions.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,29 @@
 
 namespace pnpbs {
 
-// Where the spacing is held down, since there the elements of an earlier round did not fill the
-// domain, or had small angles.
+// Local reductions of d, at points where elements of an earlier round did not fill the domain or
+// had small angles.
 template <int Dim>
 struct LocalReduction {
   std::vector<GrowthSource<Dim>> places;
   std::int64_t rounds = 0;
-  // Of the round before the first of these: its nodes, and the least d at the places it left.
+  // Number of nodes of the run before the first reduction, and the smallest d at the points where
+  // it failed.
   std::int64_t start_nodes = 0;
   double least_before = 0;
-  std::int64_t expected_nodes = 0;  // of the last of these rounds, before it began
+  std::int64_t expected_nodes = 0;  // expected for the last round before it began
 };
 
-// The spacing as it counts, the places where it is held down, and how steep it is without these
-// where the user sets no limit.
+// The effective spacing, its local reductions, and its steepest growth without these if the user
+// sets no limit.
 template <int Dim>
 struct PlacedSpacing {
   SizingField<Dim> d;
   LocalReduction<Dim> held;
   SteepestGrowth<Dim> steepest;
-  bool steepest_is_known = false;  // from a checkpoint: it is not measured again
-  double count_factor = 1;         // on d, by the number of nodes that a run came to before
+  bool steepest_is_known = false;  // read from a checkpoint, not measured again
+  // Factor on d that corrects the estimated number of nodes by that of an earlier run.
+  double count_factor = 1;
 };
 
 }  // namespace pnpbs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// d of models of tides and surges, by the depth of the water: so many nodes per length of a long
-// wave, and per length over which the depth changes by itself.
+// The spacing of tide and surge models from the water depth: a number of nodes per length of a long
+// wave, and per length over which the depth changes by its own size.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,18 @@
 
 namespace pnpbs {
 
+// Parameters of the rule, and the rule itself.
 struct DepthRule {
   double wave = 30;       // nodes per wavelength sqrt(g h) T; 0: no such rule
-  double period = 44712;  // T in seconds: that of M2, 12.42 hours
+  double period = 44712;  // T [s], by default that of the tide M2, 12.42 hours
   double slope = 0;       // nodes per 2 pi h / |grad h|; 0: no such rule
-  double least = 10;      // metres, of h: shallower water and land are a flat bottom at this depth
-  double metres = 1;      // per unit of length
+  // Smallest h [m]; shallower water and land count as a flat bottom at this depth.
+  double least = 10;
+  double metres = 1;  // [metres per unit of length]
 
-  // The depth in metres, positive down, its slope in metres per unit of length. The rule of slopes
-  // is that of Hannah and Wright (1995), as OceanMesh2D has it (Roberts, Pringle and Westerink,
-  // Geosci. Model Dev. 12, 2019).
+  // Returns d for a depth, positive downwards [m], and its slope [m per unit of length]. Returns
+  // NaN for a depth of NaN. The slope rule is that of Hannah and Wright (1995), as in OceanMesh2D
+  // (Roberts, Pringle and Westerink, Geosci. Model Dev. 12, 2019).
   double spacing(double depth, double slope_there) const {
     constexpr double g = 9.81;  // m/s^2
     const double h = std::max(depth, least);

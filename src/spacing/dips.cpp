@@ -13,7 +13,7 @@ template <int Dim>
 std::vector<Point<Dim>> dips_over_ranks(const Communicator& comm, const std::vector<Point<Dim>>& x,
                                         const std::vector<double>& d,
                                         const std::vector<double>& limits) {
-  constexpr double kDip = 0.75;  // one source stands for a leaf: limits are a third too high there
+  constexpr double kDip = 0.75;  // limits may be a third too high, as one source stands for a leaf
   constexpr std::size_t kMaxDips = 1 << 16;
   std::vector<GrowthSource<Dim>> dips;
   const auto keep_finest = [&] {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dips of d between the places where it was sampled.
+// Detection of dips: points between the samples where d is far below the limit that the growth from
+// the samples allows.
 #pragma once
 
 #include <vector>
@@ -9,8 +10,9 @@
 
 namespace pnpbs {
 
-// Of the places x of all ranks those where d is far below the limit that its growth has as far as
-// it is known; of very many, the finest. The same on all ranks. Collective.
+// Returns the points x of all ranks at which d is far below the limit. If there are very many,
+// returns the finest. The result is the same on all ranks.
+// Collective.
 template <int Dim>
 std::vector<Point<Dim>> dips_over_ranks(const Communicator& comm, const std::vector<Point<Dim>>& x,
                                         const std::vector<double>& d,

@@ -32,7 +32,7 @@ namespace {
 
 int turn(const std::array<Point<2>, 3>& x) { return orientation(x[0], x[1], x[2]); }
 int turn(const std::array<Point<3>, 4>& x) { return orientation(x[0], x[1], x[2], x[3]); }
-// Seen from the centre of the sphere.
+// The orientation as seen from the centre of the sphere.
 int turn(const std::array<Point<3>, 3>& x) { return orientation(x[0], x[1], x[2], Point<3>{}); }
 
 template <class Field>

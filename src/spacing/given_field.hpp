@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values at points, of a background mesh or scattered, that every rank gives whole: what they must
-// be, and the spacing made of them.
+// Values at points, scattered or of a background mesh, that every rank has completely; their
+// checks, and the spacing made from them.
 #pragma once
 
 #include <cstdint>
@@ -15,44 +15,48 @@
 
 namespace pnpbs {
 
+// A field of values at points. All ranks must have the same field.
 template <int Dim, int Corners = Dim + 1>
 struct GivenField {
   static constexpr int dim = Dim, corners = Corners;
 
-  // What messages call its parts.
+  // Names of its parts in messages.
   std::string points_name = "argument coordinates", values_name = "argument d",
               elements_name = "argument corners";
   std::vector<Point<Dim>> points;
   std::vector<double> values;
-  // Triangles or tetrahedra, in any order of their corners; without any the points are scattered.
+  // Triangles or tetrahedra with corners in any order. The points are scattered if there are none.
   std::vector<std::array<std::int32_t, Corners>> elements;
-  ErrorKind fault = ErrorKind::argument;  // what it is if a part of it is wrong
-  // Points that no element has may be of any kind: files of meshes have such.
+  ErrorKind fault = ErrorKind::argument;  // the kind of errors in this field
+  // true: points that no element uses are not checked, because files of meshes may contain such
+  // points.
   bool only_used = false;
 };
 
-// Of points on a sphere, which are taken along the ray from its centre, and of triangles.
+// A field on a sphere. Points are projected along the ray from the centre; elements are triangles.
 using SphereField = GivenField<3, 3>;
 
-// Throws Error(ErrorKind::spacing) unless it is finite and greater than 0. `name`: "d[3]".
+// Throws Error(ErrorKind::spacing) unless the value is finite and greater than 0. `name` is the
+// value's name in the message: "d[3]".
 void require_spacing_value(const MessageText& name, double value);
 
-// Checks the field: coordinates and values are numbers, elements are not flat, points in one place
-// have one value, and what holds all of it meets the domain's box. Throws Error(field.fault) or
-// Error(ErrorKind::spacing), told by the first of what is wrong.
+// Checks the field and returns the spacing made from it. Coordinates and values must be numbers,
+// elements must not be flat, scattered points at the same position must have the same value, and
+// the bounding box must meet the domain's box. Throws Error(field.fault) or
+// Error(ErrorKind::spacing) for the first violation.
 template <int Dim>
 std::shared_ptr<const LocalSpacing<Dim>> spacing_from_field(GivenField<Dim> field,
                                                             const Box<Dim>& domain);
-// The same on the sphere, in its chart. It need not meet the domain: what of that is beyond is told
-// in a warning.
+// Returns the spacing in the chart of a sphere after the same checks, except that the field need
+// not meet the domain. A warning elsewhere reports the part of the domain outside of the field.
 std::shared_ptr<const LocalSpacing<2>> spacing_from_field(SphereField field,
                                                           const StereographicChart& chart);
 
-// What of the points counts: all of a cloud, of a mesh those of its elements.
+// Returns the bounding box of all scattered points, or of the points of elements.
 template <int Dim>
 Box<Dim> box_of(const GivenField<Dim>& field);
 
-// Of all that it holds: ranks that give the same have the same.
+// Returns a hash of points, values and elements, by which ranks can compare their fields.
 template <int Dim, int Corners>
 std::uint64_t hash_of(const GivenField<Dim, Corners>& field);
 

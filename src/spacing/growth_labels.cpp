@@ -25,12 +25,13 @@ TreePart<Dim> tree_of(const Communicator& comm, const Box<Dim>& bounds,
 
 }  // namespace
 
-// Leaves whose label has changed since they handed it on. Those with the least values go first, all
-// within a window of values at once, on all ranks; that is nearly the order of Dijkstra's
-// algorithm, but depends on the labels alone.
+// A queue of the leaves whose label has changed since they last passed it on. All ranks process the
+// leaves with values within a window above the global minimum at the same time. This is nearly the
+// order of Dijkstra's algorithm, but depends on the labels only.
 template <int Dim>
 struct GrowthLabels<Dim>::Waiting {
-  // From the least value on. A leaf's value is some growth * width above the one it has it from.
+  // Upper end of the window in units of the smallest value. A label exceeds the one that it comes
+  // from by growth times the leaf width.
   static constexpr double kWindow = 1.25;
   enum State : char { idle, near, far };
 
@@ -51,7 +52,7 @@ struct GrowthLabels<Dim>::Waiting {
     now = next;
   }
 
-  // Are there any that go next? Collective.
+  // Selects the next leaves and returns whether there are any on any rank. Collective.
   bool next(const Communicator& comm, const std::vector<Label>& labels) {
     if (comm.allreduce_max(!near_leaves.empty()) > 0) return true;
     double min = kInfinite;
@@ -69,6 +70,7 @@ struct GrowthLabels<Dim>::Waiting {
     return min < kInfinite;
   }
 
+  // Removes and returns the selected leaves of this rank.
   std::vector<std::int32_t> take() {
     for (const std::int32_t leaf : near_leaves) state[static_cast<std::size_t>(leaf)] = idle;
     return std::exchange(near_leaves, {});
@@ -94,7 +96,7 @@ GrowthLabels<Dim>::GrowthLabels(const Communicator& comm, const LineOfSight<Dim>
   settle(comm, ways, beat);
 }
 
-// In rounds: all that go next hand on what they have at the same time, wherever they are.
+// Runs rounds: in each, all selected leaves of all ranks pass on their labels simultaneously.
 template <int Dim>
 void GrowthLabels<Dim>::settle(const Communicator& comm, const LineOfSight<Dim>& ways,
                                const Beat& beat) {
@@ -112,8 +114,8 @@ void GrowthLabels<Dim>::settle(const Communicator& comm, const LineOfSight<Dim>&
   }
 }
 
-// Does the straight way from a source lead to the place that stands for a leaf? Between two places
-// on the boundary it may lie outside of the domain and cross nothing.
+// Returns whether the segment from a source to the representative point of a leaf lies in the
+// domain. A segment between two points of the boundary may lie outside without crossing a facet.
 template <int Dim>
 bool GrowthLabels<Dim>::open_way(const LineOfSight<Dim>& ways, const Point<Dim>& from,
                                  const Spot& to) const {
@@ -121,13 +123,13 @@ bool GrowthLabels<Dim>::open_way(const LineOfSight<Dim>& ways, const Point<Dim>&
   return to.inside || ways.inside(middle_of<Dim>(from, to.place));
 }
 
-// To own leaves; copies get what their owners find.
+// Passes labels on to own leaves. Copies receive those that their owners computed.
 template <int Dim>
 void GrowthLabels<Dim>::hand_on(const LineOfSight<Dim>& ways,
                                 const std::vector<std::int32_t>& leaves,
                                 std::vector<std::int32_t>& changed, const Beat& beat) {
   constexpr std::size_t kBetweenBeats = 4096;
-  std::vector<Label> handed;  // as they are before the first of them changes
+  std::vector<Label> handed;  // labels before any of them changes
   for (const std::int32_t leaf : leaves) handed.push_back(label(leaf));
   for (std::size_t k = 0; k < leaves.size(); ++k) {
     if (k % kBetweenBeats == 0) beat();
@@ -137,7 +139,7 @@ void GrowthLabels<Dim>::hand_on(const LineOfSight<Dim>& ways,
       const Spot& to = spot(other);
       Label& there = labels_[static_cast<std::size_t>(other)];
       Label offer = label_at<Dim>(to.place, handed[k].source, rule_);
-      if (!(offer < there)) continue;  // nor is anything by a longer way
+      if (!(offer < there)) continue;  // a longer path does not help either
       if (!open_way(ways, handed[k].source.x, to)) {
         if (!from.placed) continue;
         offer = label_at<Dim>(to.place, {from.place, handed[k].value}, rule_);

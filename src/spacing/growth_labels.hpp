@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What limits d in each leaf of a tree that is spread over ranks. Leaves begin with the samples of
-// d in them and hand on to those they touch: in the open the sample that limits them, so that the
-// limit grows with the straight distance from there, around corners the place that stands for them.
+// The source that limits d in each leaf of a distributed tree. Leaves start with the samples of d
+// in them and pass their source on to the leaves that they touch. Where no boundary crosses the
+// segment from the source, the limit grows with the straight distance from it. Around corners of
+// the boundary, the path continues from the representative point of the leaf.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +17,27 @@
 namespace pnpbs {
 
 template <int Dim>
+// The leaves of this rank with their limits, and copies of adjacent leaves of other ranks.
 class GrowthLabels {
  public:
   using Beat = std::function<void()>;
 
   GrowthLabels() = default;
-  // Collective.
+  // Computes the limits from the leaves `own` of this rank. Calls beat() repeatedly. Collective.
   GrowthLabels(const Communicator& comm, const LineOfSight<Dim>& ways,
                const std::vector<GrowthLeaf<Dim>>& own, const GrowthRule<Dim>& rule,
                const Beat& beat);
 
   const TreePart<Dim>& tree() const { return tree_; }
-  // The limit of d at a point in one of this rank's leaves: by the source of that leaf, and by
-  // those of touching ones where no boundary is between.
+  // Returns the limit of d at a point in a leaf of this rank, and infinity elsewhere. It is the
+  // smallest limit by the source of that leaf and by those of touching leaves that no boundary
+  // separates.
   double limit_at(const LineOfSight<Dim>& ways, const Point<Dim>& x) const;
 
  private:
   using Label = GrowthLabel<Dim>;
-  // What a leaf is to those that touch it.
+  // The representative point of a leaf. `placed`: there is one; `inside`: it lies inside the
+  // domain; `crossed`: the boundary crosses the leaf.
   struct Spot {
     Point<Dim> place;
     bool placed, inside, crossed;
@@ -49,7 +53,7 @@ class GrowthLabels {
 
   GrowthRule<Dim> rule_;
   TreePart<Dim> tree_;
-  std::vector<Spot> spots_;  // of own leaves and copies, as the labels
+  std::vector<Spot> spots_;  // for own leaves, then copies, like labels_
   std::vector<Label> labels_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A leaf on which a spacing with limited growth is found, with what its samples of d tell.
+// A leaf of the tree that limits the growth of a spacing, with the results of sampling d in it.
 #pragma once
 
 #include "spacing/growth_source.hpp"
@@ -8,22 +8,23 @@
 
 namespace pnpbs {
 
+// A leaf of the growth tree of one rank.
 template <int Dim>
 struct GrowthLeaf {
   using Side = typename LineOfSight<Dim>::Side;
 
   LeafCell<Dim> cell;
   Side side = Side::crossed;
-  bool open = true;          // to be split, perhaps
-  bool fresh = true;         // no source has been looked for in it
-  bool has_nodes = true;     // of the boundary, or fixed ones, or places
-  bool probed = false;       // for dips of d between the samples
-  bool sliver = false;       // do few of its samples lie in the domain?
-  bool placed = false;       // is there a place in the domain that stands for it?
-  Point<Dim> place{};        // its middle where that is inside
-  GrowthSource<Dim> source;  // of the samples in it, the one that limits d there the most
-  double min = 0, max = 0;   // of the samples
-  double max_beside = 0;     // where the middles of leaves beside it would be, in space
+  bool open = true;          // not yet decided whether it is split
+  bool fresh = true;         // its samples have not been searched for a source yet
+  bool has_nodes = true;     // contains boundary nodes, fixed nodes or given points
+  bool probed = false;       // dips of d between its samples have been searched
+  bool sliver = false;       // few of its samples lie in the domain
+  bool placed = false;       // has a representative point in the domain
+  Point<Dim> place{};        // representative point: the centre if that is inside
+  GrowthSource<Dim> source;  // the sample that limits d at the representative point most
+  double min = 0, max = 0;   // range of the samples of d
+  double max_beside = 0;     // largest d at the centres of adjacent cells, in space only
 
   bool outside() const { return side == Side::outside; }
 };

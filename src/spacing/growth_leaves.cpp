@@ -90,10 +90,10 @@ typename GrowthLeaves<Dim>::Samples GrowthLeaves<Dim>::samples_in_slivers() cons
                     });
 }
 
-// The nearest of each leaf's points in its cell.
+// Moves each sample to the nearest point inside its leaf's cell.
 template <int Dim>
 void GrowthLeaves<Dim>::move_into_cells(Samples& samples) const {
-  constexpr double kFromFace = 1e-9;  // in sides
+  constexpr double kFromFace = 1e-9;  // [side of the cell]
   for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
     const Box<Dim> box = points_.box_of(leaves_[samples.leaves[k]].cell);
     for (std::size_t s = samples.first[k]; s < samples.first[k + 1]; ++s)
@@ -105,8 +105,9 @@ void GrowthLeaves<Dim>::move_into_cells(Samples& samples) const {
   }
 }
 
-// Where d jumps between this leaf and the next, no sample of either tells how near to their common
-// face, and the source of the leaf may lie far behind.
+// Samples d at the centres of adjacent cells. Where d jumps between two leaves, the samples inside
+// do not show how close the jump is to their common face, and the source of a leaf may be far from
+// it.
 template <int Dim>
 void GrowthLeaves<Dim>::look_beside(const SpacingEvaluator<Dim>& raw) {
   Samples beside = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; },
@@ -122,7 +123,7 @@ void GrowthLeaves<Dim>::look_beside(const SpacingEvaluator<Dim>& raw) {
   }
 }
 
-// What is known to be fine near to a leaf is looked for in it, whatever its samples are.
+// Lowers the smallest d of a leaf to the bound by known values near it.
 template <int Dim>
 void GrowthLeaves<Dim>::expect_known(const Samples& samples, const GrowthSources<Dim>& known) {
   for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
@@ -209,7 +210,7 @@ bool GrowthLeaves<Dim>::find_dips(const SpacingEvaluator<Dim>& raw,
   return true;
 }
 
-// More places at which d is sampled: the leaves that have them may have to be split.
+// Adds sample points, and reopens the leaves that contain them, as these may have to be split.
 template <int Dim>
 void GrowthLeaves<Dim>::take_places(const std::vector<Point<Dim>>& places) {
   points_.add_places(places);
@@ -233,8 +234,9 @@ void GrowthLeaves<Dim>::look_into_new(const SpacingEvaluator<Dim>& raw) {
 
 template <int Dim>
 bool GrowthLeaves<Dim>::too_wide(const GrowthLeaf<Dim>& leaf, double steepest) const {
-  constexpr double kFinest = 0.35;  // width of leaves over which d is steep, in units of d
-  constexpr double kBeside = 1.6;  // sides from a sample to the middle of the leaf beyond, and more
+  constexpr double kFinest = 0.35;  // smallest width of leaves where d is steep [d]
+  // Upper bound of the distance from a sample to the centre of the adjacent cell [sides]
+  constexpr double kBeside = 1.6;
   const double side = points_.side_of(leaf.cell);
   if (leaf.cell.depth == BackgroundTree<Dim>::kMaxDepth) return false;
   if (side > method::kLeafSpacings * leaf.min) return true;
@@ -243,7 +245,8 @@ bool GrowthLeaves<Dim>::too_wide(const GrowthLeaf<Dim>& leaf, double steepest) c
          leaf.max_beside - leaf.min > kBeside * steepest * side;
 }
 
-// Those that are too wide are split, the others are no longer open. Was there any?
+// Splits the open leaves that are too wide and closes the others. Returns whether this rank split
+// any.
 template <int Dim>
 bool GrowthLeaves<Dim>::split_open(double steepest) {
   const auto splits = [&](const GrowthLeaf<Dim>& leaf) {
@@ -267,7 +270,7 @@ bool GrowthLeaves<Dim>::split_open(double steepest) {
   return true;
 }
 
-// The child that the source lies in keeps it.
+// The child that contains the source keeps it.
 template <int Dim>
 void GrowthLeaves<Dim>::split(const GrowthLeaf<Dim>& leaf,
                               std::vector<GrowthLeaf<Dim>>& next) const {
@@ -283,10 +286,11 @@ void GrowthLeaves<Dim>::split(const GrowthLeaf<Dim>& leaf,
   }
 }
 
-// Even with the largest d of each leaf there would be more nodes than allowed: stop early.
+// Stops early: this lower bound, from the largest d of each leaf, already exceeds the allowed
+// number of nodes.
 template <int Dim>
 void GrowthLeaves<Dim>::require_small_node_set() const {
-  constexpr double kMaxThatAddUp = 9e18;  // on all ranks together, as 64 bits hold
+  constexpr double kMaxThatAddUp = 9e18;  // sums over all ranks must fit into 64 bits
   double own = 0;
   for (const GrowthLeaf<Dim>& leaf : leaves_)
     if (leaf.side == GrowthLeaf<Dim>::Side::inside)
@@ -297,7 +301,7 @@ void GrowthLeaves<Dim>::require_small_node_set() const {
   limit_.require_memory_for(nodes);
 }
 
-// Names the finest place of all ranks.
+// Throws an error that names the finest leaf of all ranks. Collective.
 template <int Dim>
 void GrowthLeaves<Dim>::report_too_many(double nodes) const {
   struct Finest {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The leaves on which a spacing with limited growth is found: refined by d, with the samples of d
-// in them, each rank with a stretch of them.
+// The leaves of the tree on which the growth of a spacing is limited: refined by d, with the
+// samples of d in them, and distributed over the ranks in contiguous ranges.
 #pragma once
 
 #include <cstdint>
@@ -18,33 +18,40 @@
 
 namespace pnpbs {
 
+// The leaves of this rank in Morton order. The references must outlive this object.
 template <int Dim>
 class GrowthLeaves {
  public:
-  // All of the domain in one leaf. `places` in it are samples like the boundary nodes.
+  // Constructs one leaf for the whole domain. `places` are sample points in addition to the
+  // boundary nodes.
   GrowthLeaves(const Communicator& comm, const LineOfSight<Dim>& ways, const GrowthRule<Dim>& rule,
                const NodeLimit& limit, std::vector<Point<Dim>> places = {});
 
-  // Splits leaves wider than some d, and those over which d grows faster than the limit, so that
-  // the tips of steep funnels are found: down to a third of their least d. Keeps sources of d.
-  // Leaves change their ranks. Collective, as all that follows.
-  // `known`: values elsewhere, so that leaves are split towards them though no sample meets them.
+  // Splits leaves that are too wide for some d, and leaves over which d grows faster than the
+  // limit, so that the tips of steep funnels are found. The latter are split to a third of their
+  // smallest d. Stores the sources, and redistributes the leaves. `known` are values elsewhere
+  // towards which leaves are split even if no sample has them.
+  // Collective.
   void refine(const SpacingEvaluator<Dim>& raw, const std::vector<GrowthSource<Dim>>& known);
-  // Splits leaves wider than some of the limited d, which is asked in this rank's leaves alone.
-  // Was there any on any rank?
+  // Splits leaves that are too wide for the limited d. Each rank evaluates `limited` in its own
+  // leaves only. Returns whether any rank split a leaf.
+  // Collective.
   bool fit(const SpacingEvaluator<Dim>& limited);
-  // Looks for dips of d between the samples, as densely as nodes would lie, in leaves where that
-  // was not done, and splits these towards what it finds. Was there any on any rank?
+  // Searches for dips of d between the samples, as densely as nodes would lie, in leaves not yet
+  // searched, and splits leaves towards the dips. Returns whether any rank found one.
+  // Collective.
   bool find_dips(const SpacingEvaluator<Dim>& raw, const SpacingEvaluator<Dim>& limited);
-  // Looks for sources where fit() has split, and spreads the leaves evenly again.
+  // Samples d for sources in the leaves that fit() made, and redistributes the leaves evenly.
+  // Collective.
   void look_into_new(const SpacingEvaluator<Dim>& raw);
 
   const std::vector<GrowthLeaf<Dim>>& own() const { return leaves_; }
 
  private:
+  // Sample points and their d, grouped by leaf.
   struct Samples {
     std::vector<std::size_t> leaves;
-    std::vector<std::size_t> first{0};  // of each leaf, and the end
+    std::vector<std::size_t> first{0};  // first sample of each leaf, and the end
     std::vector<Point<Dim>> x;
     std::vector<double> d;
   };
@@ -73,7 +80,7 @@ class GrowthLeaves {
   GrowthRule<Dim> rule_;
   NodeLimit limit_;
   LeafPoints<Dim> points_;
-  std::vector<GrowthLeaf<Dim>> leaves_;  // in Morton order
+  std::vector<GrowthLeaf<Dim>> leaves_;  // leaves of this rank, in Morton order
 };
 
 extern template class GrowthLeaves<2>;

@@ -15,7 +15,7 @@ namespace {
 template <int Dim>
 struct Question {
   Point<Dim> x;
-  std::int64_t index;  // among the points of the asker
+  std::int64_t index;  // index of the point on rank `asker`
   std::int32_t asker;
 };
 
@@ -39,9 +39,9 @@ GrowthLimit<Dim>::GrowthLimit(std::shared_ptr<const Communicator> comm,
   collective_try(*comm_, [&] { find_labels(checked, raw.spacing_hints(), limit, beat); });
 }
 
-// The first leaves are as large as the unlimited d allows, and one source stands for all of a leaf:
-// next to a jump that is too coarse, and what is fine in a corner of a leaf was not sampled. With
-// leaves by the limited d it is not.
+// Alternates between computing the limit and refining the leaves by it. The first leaves follow the
+// unlimited d and have one source each, which is too coarse beside a jump, and misses fine d in a
+// corner of a leaf. Leaves that follow the limited d do not.
 template <int Dim>
 void GrowthLimit<Dim>::find_labels(const SpacingEvaluator<Dim>& raw, const SpacingHints<Dim>& known,
                                    const NodeLimit& limit, const Beat& beat) {
@@ -117,7 +117,7 @@ void GrowthLimit<Dim>::limit(std::int64_t n, const Point<Dim>* x, double* d) con
     else
       ask_owners(n, x, limited);
   }
-  // Written so that bad values (not a number) stay and are reported.
+  // NaN fails this comparison and is kept, so that it is reported.
   for (std::int64_t i = 0; i < n; ++i)
     if (d[i] > limited[static_cast<std::size_t>(i)]) d[i] = limited[static_cast<std::size_t>(i)];
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The limit of the growth of a spacing: d grows by at most g per unit of length on the way through
-// the domain. d_limited(x) = min over y of (d(y) + g |x - y|), found once on a background tree, of
-// which each rank holds its part. In the open the way is straight; around corners it is measured
-// from leaf to leaf, up to 8 % too long. One y counts for a leaf, and those of the leaves it
-// touches: in the plane, beside a line of sources d is up to a third too large for it; in space,
-// where leaves are looked into as densely as nodes lie, a fifth. The same to the bit on any number
-// of ranks.
+// The limit of the growth of a spacing: d grows by at most g per unit of length along paths through
+// the domain, d_limited(x) = min over y of (d(y) + g |x - y|). The limit is computed once on a
+// distributed background tree, and it has the same bits on any number of ranks. Straight paths are
+// exact. Paths around corners of the boundary lead from leaf to leaf and are up to 8 % too long. A
+// leaf stores one source and also uses those of touching leaves. Hence d may be up to a third too
+// large beside a line of sources in the plane, and up to a fifth in space, where leaves are sampled
+// as densely as nodes lie.
 #pragma once
 
 #include <functional>
@@ -21,25 +21,27 @@
 
 namespace pnpbs {
 
+// The growth limit of one spacing. Each rank stores a part of it.
 template <int Dim>
 class GrowthLimit {
  public:
   using Beat = std::function<void()>;
-  // For the spacing `raw`, which is evaluated here alone. ways: of the domain, its boundary at the
-  // unlimited spacing.
-  // Calls beat() again and again while it is made; what that throws on one rank ends it on all.
+  // Computes the limit of the spacing `raw`, which is not stored. `ways` has the boundary of the
+  // domain, in the plane discretised by the unlimited spacing. Calls beat() repeatedly; if it
+  // throws on one rank, all ranks throw.
   // Collective.
   GrowthLimit(
       std::shared_ptr<const Communicator> comm, std::unique_ptr<const LineOfSight<Dim>> ways,
       const Spacing<Dim>& raw, const GrowthRule<Dim>& rule, const NodeLimit& limit,
       const Beat& beat = [] {});
 
-  // Lowers d[n], what the spacing is at x[n], to the limit where it is larger. Collective: all
-  // ranks ask at the same time, as many points as each wants. Of points in its own leaves a rank
-  // asks nobody; where all ask the same points, nobody is asked of any.
+  // Lowers d[n], the spacing at x[n], to the limit where it is larger. Points in a rank's own
+  // leaves require no messages. If all ranks pass the same points, each rank evaluates those in its
+  // own leaves, and the results are gathered.
+  // Collective. Each rank may pass a different number of points, including none.
   void limit(std::int64_t n, const Point<Dim>* x, double* d) const;
 
-  // Of the tree, on this rank: own ones, and copies of those that touch them.
+  // Returns the number of leaves stored on this rank: own leaves and copies of touching ones.
   std::int64_t leaves_held() const { return labels_.tree().count(); }
 
  private:

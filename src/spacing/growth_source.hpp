@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What limits a spacing whose growth is limited: in the leaves of a tree, the least by far seen.
+// Sources, labels and rules by which the growth of a spacing is limited.
 #pragma once
 
 #include <cmath>
@@ -11,24 +11,25 @@
 
 namespace pnpbs {
 
-// A point that limits d around it: d there is at most this.
+// A point with a value that limits d around it.
 template <int Dim>
 struct GrowthSource {
   Point<Dim> x{};
   double d = std::numeric_limits<double>::infinity();
 
+  // Returns the upper bound of d at a point, for lengths in coordinates.
   double limit(const Point<Dim>& at, double growth) const {
     return d + growth * distance<Dim>(x, at);
   }
 };
 
-// Growth by which a known value is seen from the cell_samples of a leaf: no place in the leaf is
-// farther than 0.44 sides from one of these, so that the value is below a quarter of the side there
-// if the leaf is much too wide for it.
+// Growth of d assumed around known values when they are compared with the cell_samples of a leaf.
+// [d per d] Derived: no point of a leaf is farther than 0.44 sides from a sample, so a leaf much
+// too wide for the value has a sample with a bound below a quarter of its side.
 inline constexpr double kSeenFromSamples = 0.3;
 
-// What limits d in a leaf, and how far at the place that stands for the leaf. In a total order, so
-// that the least of several is the same in whatever order they come.
+// The source that limits d in a leaf, and its limit at the representative point of the leaf. Labels
+// have a total order, so the smallest of several does not depend on their order.
 template <int Dim>
 struct GrowthLabel {
   double value = std::numeric_limits<double>::infinity();
@@ -40,7 +41,7 @@ struct GrowthLabel {
   }
 };
 
-// By how much d may grow per unit of length, both as users measure them.
+// The largest growth of d per unit of length, both as users measure them.
 template <int Dim>
 struct GrowthRule {
   double growth = 0;
@@ -48,13 +49,13 @@ struct GrowthRule {
 
   GrowthRule(double most = 0, const Embedding<Dim>& of = {}) : growth(most), embedding(of) {}
 
-  // What d is at most at a point, with this source.
+  // Returns the upper bound of d at a point, imposed by this source.
   double limit(const GrowthSource<Dim>& source, const Point<Dim>& at) const {
     return embedding.coordinate_length(at, embedding.measured_length(source.x, source.d) +
                                                growth * embedding.distance(source.x, at));
   }
 
-  // Between points with those d.
+  // Returns the growth between two points with these d.
   double between(const Point<Dim>& x, double d_x, const Point<Dim>& y, double d_y) const {
     return std::abs(embedding.measured_length(x, d_x) - embedding.measured_length(y, d_y)) /
            embedding.distance(x, y);

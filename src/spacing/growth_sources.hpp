@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What limits d around it, points or facets, and what all of it limits d to anywhere: the least of
-// d + g |x - y|.
+// A search tree over sources that limit d around them, such as points or facets. The limit of all
+// sources at x is the minimum of d + g |x - y|.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@ Box<Dim> box_of(const GrowthSource<Dim>& source) {
   return {source.x, source.x};
 }
 
+// A set of sources with a growth. Source requires d, limit(x, growth) and box_of().
 template <int Dim, class Source = GrowthSource<Dim>>
 class GrowthSources {
  public:
@@ -30,19 +31,20 @@ class GrowthSources {
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) split(cell);
   }
 
-  // The limit at x if it is below this bound, or else the bound.
+  // Returns the limit at x if it is below `bound`, otherwise `bound`.
   double limit(const Point<Dim>& x, double bound) const { return limit(x, bound, growth_); }
-  // The same at another growth.
+  // Returns the same for another growth.
   double limit(const Point<Dim>& x, double bound, double growth) const {
     if (!cells_.empty()) look_into(0, least_in(0, x, growth), x, growth, bound);
     return bound;
   }
 
  private:
+  // A node of the search tree: a contiguous range of sources.
   struct Cell {
     Box<Dim> box;
-    double min;                     // of its sources' d
-    std::size_t begin, end, child;  // child: the first of two, or 0
+    double min;                     // smallest d of its sources
+    std::size_t begin, end, child;  // child: index of the first of two children, or 0
   };
 
   void split(std::size_t c) {
@@ -76,8 +78,9 @@ class GrowthSources {
     return cells_[c].min + growth * std::sqrt(squared_gap_to(cells_[c].box, x));
   }
 
-  // Sources that give the least but for rounding are all looked at: so in whichever order they
-  // lie, the bound comes out the same to the bit.
+  // Lowers the bound to the limits of the sources in a cell. Sources whose limits differ from the
+  // minimum by rounding only are all evaluated, so the result has the same bits for any order of
+  // the sources.
   void look_into(std::size_t c, double least, const Point<Dim>& x, double growth,
                  double& bound) const {
     constexpr double kRounding = 1 - 1e-12;

@@ -81,9 +81,9 @@ void LeafPoints<Dim>::add_places(const std::vector<Point<Dim>>& places) {
   sort_nodes();
 }
 
-// As many as the nodes that the least d of the leaf asks for. They come from the additive
-// recurrence by powers of the root of r^4 = r + 1 (M. Roberts, "The unreasonable effectiveness of
-// quasirandom sequences", 2018): no two lie in a plane that is parallel to sides, as layers may be.
+// The points come from the additive recurrence by powers of the root of r^4 = r + 1 (M. Roberts,
+// "The unreasonable effectiveness of quasirandom sequences", 2018). No two of them lie in a plane
+// parallel to the faces, as layers of fine d may.
 template <int Dim>
 void LeafPoints<Dim>::add_probes(const GrowthLeaf<Dim>& leaf,
                                  std::vector<Point<Dim>>& points) const {

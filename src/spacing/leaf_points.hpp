@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points of a leaf at which d is sampled: a pattern in its cell, nodes of the boundary and
-// given places in it, and others where these do not suffice.
+// The points at which d is sampled in a leaf of a growth tree: the cell_samples of its cell,
+// boundary nodes and given points in it, and more points where these do not suffice.
 #pragma once
 
 #include <algorithm>
@@ -13,29 +13,35 @@
 
 namespace pnpbs {
 
+// Computes the sample points of leaves, which may belong to any rank.
 template <int Dim>
 class LeafPoints {
  public:
+  // `places` are additional sample points. `ways` must outlive this object.
   LeafPoints(const LineOfSight<Dim>& ways, std::vector<Point<Dim>> places);
 
+  // Adds sample points.
   void add_places(const std::vector<Point<Dim>>& places);
 
   double side_of(const LeafCell<Dim>& cell) const;
   Box<Dim> box_of(const LeafCell<Dim>& cell) const;
   FineIndex<Dim> fine_index(const Point<Dim>& x) const { return root_.fine_index(x); }
 
-  // visit(n) for the nodes of the boundary in a cell, then, from their number on, the places.
+  // Calls visit(n) for the boundary nodes in a cell, and then for the given points, whose numbers
+  // follow those of the boundary nodes.
   template <class Visit>
   void for_nodes_in(const LeafCell<Dim>& cell, const Visit& visit) const;
+  // Returns the number of cell_samples of the cell that lie in the domain.
   std::size_t samples_inside(const LeafCell<Dim>& cell) const;
 
-  // The points inside at which d is sampled, then the boundary nodes and places.
+  // Appends the cell_samples in the domain, the boundary nodes and the given points of the leaf.
   void add_points(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
-  // For a leaf with few samples inside: all that add_points() adds, and points of the boundary.
+  // Appends the points of add_points() and points of the boundary, for a leaf with few cell_samples
+  // in the domain.
   void add_points_in_sliver(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
-  // The middles of the leaves beside it, if they were as large, as far as they are inside.
+  // Appends the centres of the adjacent cells of the same size that lie in the domain.
   void add_points_beside(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
-  // As many as the nodes that the least d of the leaf asks for, far from any pattern.
+  // Appends as many points as nodes of the leaf's smallest d, in a quasi-random sequence.
   void add_probes(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
 
  private:
@@ -44,8 +50,8 @@ class LeafPoints {
 
   const LineOfSight<Dim>& ways_;
   std::vector<Point<Dim>> places_;
-  BackgroundTree<Dim> root_;         // one cell, for its arithmetic
-  std::vector<std::int64_t> nodes_;  // of the boundary, then the places, in Morton order
+  BackgroundTree<Dim> root_;         // a tree of one cell, used for its index arithmetic
+  std::vector<std::int64_t> nodes_;  // numbers of boundary nodes and given points, in Morton order
   std::vector<FineIndex<Dim>> fine_of_nodes_;
 };
 

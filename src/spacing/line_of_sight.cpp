@@ -35,7 +35,7 @@ LineOfSight<Dim>::LineOfSight(const Box<Dim>& bounds, double measure,
   has_facets_.assign(static_cast<std::size_t>(tree.cell_count()), 0);
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
     has_facets_[static_cast<std::size_t>(tree.leaf_cell(leaf))] = facets_->leaf_has_facets(leaf);
-  // Children come after their parents.
+  // Cells are stored after their parents, so this loop visits children first.
   for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
     const std::int32_t first = tree.cell(c).first_child;
     for (int k = 0; first >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
@@ -61,8 +61,8 @@ typename LineOfSight<Dim>::Side LineOfSight<Dim>::side_of(const Box<Dim>& box) c
 
 template <int Dim>
 Point<Dim> LineOfSight<Dim>::nearest_of_boundary(const Point<Dim>& x, double reach) const {
-  // Mostly it is near: of all that is within reach, which may be thousands of facets, little is
-  // looked at.
+  // The nearest point is usually close, whereas thousands of facets may lie within `reach`. The
+  // search radius therefore grows step by step.
   const BackgroundTree<Dim>& tree = facets_->tree();
   for (double near = tree.cell_side(tree.leaf_cell(tree.leaf_at(x)));; near *= 2) {
     const NearestPoint<Dim> nearest = facets_->nearest(x, std::min(near, reach));
@@ -90,7 +90,7 @@ std::shared_ptr<const FacetIndex<2>> indexed_boundary(const PlaneDomain& domain,
                                                       std::int64_t max_nodes) {
   struct Indexed {
     BoundaryMesh<2> boundary;
-    SizedTree<2> map;  // refined by the boundary alone
+    SizedTree<2> map;  // refined by the boundary only
   };
   const auto indexed = std::make_shared<Indexed>();
   indexed->boundary = discretize_boundary(domain, d, max_nodes);

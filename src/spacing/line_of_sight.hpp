@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which straight ways lead through the domain, for a spacing that is measured along them: asked of
-// the boundary alone, so that every rank can tell of any way.
+// Tests whether straight segments lie in the domain, for a spacing whose growth is measured along
+// paths through the domain. The tests use the boundary alone, so every rank can test any segment.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,13 @@
 
 namespace pnpbs {
 
+// The boundary of a domain, with tests of boxes, points and segments against it.
 template <int Dim>
 class LineOfSight {
  public:
   enum class Side : char { outside, crossed, inside };
 
-  // measure: the domain's area or volume. Of the boundary, whose leaves hold few facets each.
+  // `measure` is the domain's area or volume. The leaves of the index must hold few facets each.
   LineOfSight(const Box<Dim>& bounds, double measure,
               std::shared_ptr<const FacetIndex<Dim>> facets);
 
@@ -30,23 +31,25 @@ class LineOfSight {
     return facets_->boundary().nodes[static_cast<std::size_t>(n)].position;
   }
 
-  // Where the domain is in a box.
+  // Returns whether a box lies inside or outside of the domain, or may be crossed by the boundary.
   Side side_of(const Box<Dim>& box) const;
   bool inside(const Point<Dim>& x) const { return facets_->inside(x); }
-  // The point of the boundary that is nearest to x, if it is nearer than `reach`; else x.
+  // Returns the point of the boundary nearest to x if it is nearer than `reach`, otherwise x.
   Point<Dim> nearest_of_boundary(const Point<Dim>& x, double reach) const;
-  // Does the way from a to b cross no facet of the boundary? Ends may lie on one.
+  // Returns whether the segment from a to b crosses no facet of the boundary. Its ends may lie on
+  // facets.
   bool open(const Point<Dim>& a, const Point<Dim>& b) const;
 
  private:
   Box<Dim> bounds_;
   double measure_;
   std::shared_ptr<const FacetIndex<Dim>> facets_;
-  std::vector<char> has_facets_;  // of all cells of their tree: most have none
+  // For each cell of the tree: whether it contains facets; most do not.
+  std::vector<char> has_facets_;
 };
 
-// The facets of the boundary: in the plane with the nodes that d asks for on it, in space those of
-// the surfaces as they are given.
+// Returns the facets of the boundary: in the plane those of the boundary discretised by d, in space
+// those of the surfaces as given.
 std::shared_ptr<const FacetIndex<2>> indexed_boundary(const PlaneDomain& domain,
                                                       const SpacingEvaluator<2>& d,
                                                       std::int64_t max_nodes);

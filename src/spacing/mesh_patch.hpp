@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A background mesh that a rank has whole as a patch.
+// Conversion of a complete background mesh to a Patch, and the spacing hints of a patch.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 
 namespace pnpbs {
 
-// The slope of a spacing on a simplex, or on a part of a surface in space: the gradient of what is
-// linear there, by edges that are made orthogonal, one by one, to those before. What is left of the
-// values along them are its components.
+// Returns the growth of d on a simplex: the length of the gradient of the linear interpolant, which
+// may live on a surface in space. The edges are orthogonalised one by one (Gram-Schmidt); the
+// remaining differences of the values are the components of the gradient.
 template <int Dim, int In>
 typename SpacingHints<In>::Slope slope_of(const Patch<Dim, In>& patch,
                                           const std::array<std::int32_t, Dim + 1>& simplex) {
@@ -41,7 +41,7 @@ typename SpacingHints<In>::Slope slope_of(const Patch<Dim, In>& patch,
     }
     squares[k] = 0;
     for (const double e : edges[k]) squares[k] += e * e;
-    // Of a simplex that is flat but for rounding, nothing may be left.
+    // A nearly flat simplex may have no remaining edge.
     if (squares[k] > 0) square_of_growth += rises[k] * rises[k] / squares[k];
     squares[k] = std::max(squares[k], std::numeric_limits<double>::min());
   }
@@ -53,8 +53,9 @@ typename SpacingHints<In>::Slope slope_of(const Patch<Dim, In>& patch,
   return slope;
 }
 
-// Those of one simplex alone. Where neighbours do not share whole facets, some inside are among
-// them: as these are within the mesh, they are the nearest to no point beyond it.
+// Returns the facets that belong to one simplex only. If neighbours do not share whole facets, the
+// result also has facets inside the mesh. These are harmless, as they are nearest to no point
+// outside the mesh.
 template <int Dim>
 std::vector<std::array<std::int32_t, Dim>> open_facets(
     const std::vector<std::array<std::int32_t, Dim + 1>>& simplices) {
@@ -78,7 +79,7 @@ std::vector<std::array<std::int32_t, Dim>> open_facets(
   return open;
 }
 
-// Simplices that are given twice are there once.
+// Builds a patch from a mesh. Duplicate simplices are merged.
 template <int Dim, int In>
 Patch<Dim, In> patch_of_mesh(const GivenField<In, Dim + 1>& field) {
   Patch<Dim, In> patch;
@@ -94,7 +95,7 @@ Patch<Dim, In> patch_of_mesh(const GivenField<In, Dim + 1>& field) {
   return patch;
 }
 
-// At the nodes of its simplices, and how steep it is on these.
+// Returns the values at the nodes of simplices and the slopes of all simplices as hints.
 template <int Dim, int In>
 SpacingHints<In> spacing_hints_of(const Patch<Dim, In>& patch) {
   SpacingHints<In> known;

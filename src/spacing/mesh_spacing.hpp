@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing from values at the nodes of a background mesh that every rank has whole: linear on
-// each simplex, beyond the mesh what it is at its nearest point.
+// Spacings from values at the nodes of a background mesh of which every rank has a copy, in the
+// plane, in space and on a sphere.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,12 @@
 
 namespace pnpbs {
 
+// A spacing that is linear on each simplex of a background mesh. Outside the mesh d is the value at
+// the nearest point of the mesh.
 template <int Dim>
 class MeshSpacing : public LocalSpacing<Dim> {
  public:
-  // Of a checked field with elements.
+  // `field` must be checked and have elements.
   explicit MeshSpacing(const GivenField<Dim>& field);
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
   SpacingHints<Dim> spacing_hints() const override;
@@ -32,11 +34,11 @@ class MeshSpacing : public LocalSpacing<Dim> {
 extern template class MeshSpacing<2>;
 extern template class MeshSpacing<3>;
 
-// The spacing from values at the nodes of a background mesh on a sphere, which every rank has
-// whole: linear on each triangle; beyond the mesh what it is at the nearest point of its border.
+// A spacing that is linear on each triangle of a background mesh on a sphere. Outside the mesh d is
+// the value at the nearest point of the border.
 class SphereMeshSpacing : public LocalSpacing<3> {
  public:
-  // Of a checked field with triangles, whose points lie on the sphere.
+  // `field` must be checked and have triangles, with points on the sphere.
   SphereMeshSpacing(const SphereField& field, double radius);
 
   void evaluate(std::int64_t n, const Point<3>* x, double* d) const override;

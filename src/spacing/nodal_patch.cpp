@@ -12,7 +12,7 @@ namespace pnpbs {
 
 namespace {
 
-// The nodes of a simplex or facet.
+// The corners of a simplex or facet.
 template <int Dim, std::size_t N>
 struct Corners {
   std::array<Point<Dim>, N> x;
@@ -34,7 +34,7 @@ struct Corners {
     return box;
   }
 
-  // Rounding must not take the value beyond those of the corners.
+  // Clamps an interpolated value to the range of the corners' values, which rounding may leave.
   double within(double rounded) const {
     const auto [min, max] = std::minmax_element(value.begin(), value.end());
     return std::clamp(rounded, *min, *max);
@@ -53,7 +53,8 @@ BoxTree<Dim> tree_of(const std::vector<PatchNode<Dim>>& nodes,
 int side(const std::array<Point<2>, 3>& x) { return orientation(x[0], x[1], x[2]); }
 int side(const std::array<Point<3>, 4>& x) { return orientation(x[0], x[1], x[2], x[3]); }
 
-// With x in place of one corner after the other it never turns inside out.
+// Returns whether the closed simplex contains x: replacing any corner by x never reverses the
+// orientation.
 template <int Dim>
 bool holds(const std::array<Point<Dim>, Dim + 1>& simplex, const Point<Dim>& x) {
   bool left = false, right = false;
@@ -67,12 +68,12 @@ bool holds(const std::array<Point<Dim>, Dim + 1>& simplex, const Point<Dim>& x) 
   return !(left && right);
 }
 
-// Twice the area of triangle (x, a, b), with its sign.
+// Returns twice the signed area of triangle (x, a, b).
 double area(const Point<2>& x, const Point<2>& a, const Point<2>& b) {
   return (a[0] - x[0]) * (b[1] - x[1]) - (a[1] - x[1]) * (b[0] - x[0]);
 }
 
-// Six times the volume of tetrahedron (x, a, b, c), with its sign.
+// Returns six times the signed volume of tetrahedron (x, a, b, c).
 double volume(const Point<3>& x, const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   const Point<3> u{a[0] - x[0], a[1] - x[1], a[2] - x[2]};
   const Point<3> v{b[0] - x[0], b[1] - x[1], b[2] - x[2]};
@@ -81,7 +82,7 @@ double volume(const Point<3>& x, const Point<3>& a, const Point<3>& b, const Poi
          u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-// How much each corner counts at x: what is left of the simplex with x in its place.
+// Returns the unnormalised barycentric coordinates of x.
 std::array<double, 3> shares(const std::array<Point<2>, 3>& c, const Point<2>& x) {
   return {area(x, c[1], c[2]), area(x, c[2], c[0]), area(x, c[0], c[1])};
 }
@@ -90,7 +91,7 @@ std::array<double, 4> shares(const std::array<Point<3>, 4>& c, const Point<3>& x
           volume(x, c[0], c[2], c[1])};
 }
 
-// A point of an edge: its first end and so much of the way to the other.
+// A point of an edge, and its share of the vector from the first end to the second.
 struct EdgePoint {
   Point<2> x;
   std::array<double, 1> along;
@@ -130,14 +131,14 @@ void NodalPatch<Dim>::interpolate(const Point<Dim>& x, PatchAnswer<Dim>& best) c
       sum += share[k] * corners.value[k];
       all += share[k];
     }
-    // Of a simplex that is flat but for rounding, nothing may be left.
+    // The sum may vanish in a nearly flat simplex.
     answer.value = corners.within(all != 0 ? sum / all : corners.value[0]);
     best = answer;
   });
 }
 
-// The gap is never less than that to the facet's box, so that boxes that are farther than the best
-// answer can be passed over without changing it.
+// The gap is at least the distance to the facet's box, so skipping boxes that are farther than the
+// best answer does not change the result.
 template <int Dim>
 void NodalPatch<Dim>::extend(const Point<Dim>& x, PatchAnswer<Dim>& best) const {
   by_facet_.for_near(

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part of a triangulation with a value at each node, linear on each simplex: what one rank holds
-// of a spacing that is given at nodes. Several patches make up the whole; of the answers that they
-// give for a point the least one counts, so that it does not matter who holds what.
+// A part of a triangulation with a value at each node, interpolated linearly on each simplex. One
+// rank stores one patch of a spacing that is given at nodes. Several patches may answer for one
+// point; the smallest answer in a total order counts, so the result does not depend on the
+// distribution.
 #pragma once
 
 #include <array>
@@ -13,6 +14,7 @@
 
 namespace pnpbs {
 
+// A node of a patch with its value.
 template <int Dim>
 struct PatchNode {
   Point<Dim> x;
@@ -20,31 +22,37 @@ struct PatchNode {
   double value;
 };
 
-// In: the coordinates of its nodes, more than Dim on a surface.
+// A set of simplices with nodes and border. `In` is the number of coordinates, which exceeds Dim on
+// a surface.
 template <int Dim, int In = Dim>
 struct Patch {
   std::vector<PatchNode<In>> nodes;
-  // Indices of nodes, by increasing id in each row.
+  // Node indices, sorted by id in each row.
   std::vector<std::array<std::int32_t, Dim + 1>> simplices;
-  std::vector<std::array<std::int32_t, Dim>> border;  // facets with nothing on one side
-  // The corner of the simplex on the other side of each of these, or -1; may be left empty.
+  std::vector<std::array<std::int32_t, Dim>> border;  // facets of one simplex only
+  // For each border facet, the remaining corner of its simplex, or -1 if that is not known. May be
+  // empty.
   std::vector<std::int32_t> behind;
 };
 
-// How much each of some nodes counts.
+// The nodes and weights from which the value at a point is interpolated or extrapolated.
 template <int Dim>
 struct PatchWeights {
-  std::array<std::int32_t, Dim + 1> nodes{};  // of the patch
-  std::array<double, Dim + 1> weights{};      // sum up to 1
-  bool inside = false;                        // none is negative
+  std::array<std::int32_t, Dim + 1> nodes{};  // indices in the patch
+  std::array<double, Dim + 1> weights{};      // the sum is 1
+  bool inside = false;                        // true: no weight is negative
 };
 
 template <int Dim>
+// A value at a point with its origin. The order of answers prefers the smallest gap, then the
+// smallest ids.
 struct PatchAnswer {
-  double gap = std::numeric_limits<double>::infinity();  // squared distance to simplex or facet
-  std::array<std::int64_t, Dim + 1> ids{};               // of the nodes the value comes from
+  // Squared distance of the point to the simplex or facet.
+  double gap = std::numeric_limits<double>::infinity();
+  std::array<std::int64_t, Dim + 1> ids{};  // ids of the nodes that the value comes from
   double value = 0;
-  // Who told it, and of which simplex; of a facet of the border, -1 - its place.
+  // The rank that gave the answer, and the index of the simplex there. A border facet f has the row
+  // -1 - f.
   std::int32_t rank = -1, row = 0;
 
   bool found() const { return gap < std::numeric_limits<double>::infinity(); }
@@ -54,6 +62,7 @@ struct PatchAnswer {
 };
 
 template <int Dim>
+// A patch with search trees over its simplices and border facets.
 class NodalPatch {
  public:
   static constexpr int kDim = Dim, kIn = Dim;
@@ -61,17 +70,21 @@ class NodalPatch {
   NodalPatch() = default;
   explicit NodalPatch(Patch<Dim> patch);
 
-  // From the simplex that holds x; if several do (x on a facet or node), from the one of least
-  // ids. Leaves `best` alone if none does.
+  // Interpolates at x in the simplex that contains x, and stores the answer in `best` if it is
+  // smaller. If several simplices contain x, the one with the smallest ids counts. Leaves `best`
+  // unchanged if none does.
   void interpolate(const Point<Dim>& x, PatchAnswer<Dim>& best) const;
-  // From the nearest point of the border, if it is nearer than `best`.
+  // Takes the value at the nearest point of the border if this point is nearer than `best`.
   void extend(const Point<Dim>& x, PatchAnswer<Dim>& best) const;
 
   const Patch<Dim>& patch() const { return patch_; }
-  // Those with which an answer of this patch is linear around x: on its simplex, or on the one
-  // behind its facet, which they continue; of a facet alone, those of its place nearest to x.
+  // Returns the weights of the nodes for an answer of this patch at x. The interpolant is that of
+  // the simplex `row`. For a border facet it is extrapolated from the simplex behind it, or, if
+  // this is not known, taken at the point of the facet nearest to x.
   PatchWeights<Dim> weights(const Point<Dim>& x, std::int32_t row) const;
 
+  // Returns at most `many` boxes that cover the simplices; border_cover() does so for the border
+  // facets.
   std::vector<Box<Dim>> simplices_cover(std::size_t many) const { return by_simplex_.cover(many); }
   std::vector<Box<Dim>> border_cover(std::size_t many) const { return by_facet_.cover(many); }
 

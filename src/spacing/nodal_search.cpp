@@ -15,7 +15,7 @@ namespace pnpbs {
 
 namespace {
 
-// Boxes that each rank tells of what it holds: the more, the fewer ranks are asked in vain.
+// Number of boxes by which a rank describes its patch. More boxes mean fewer messages in vain.
 constexpr std::size_t kBoxesPerRank = 64;
 
 template <int Dim>
@@ -27,7 +27,7 @@ struct OwnedBox {
 template <int Dim>
 struct OwnerQuestion {
   Point<Dim> x;
-  std::int64_t index;  // among the points of the asker
+  std::int64_t index;  // index of the point on rank `asker`
   std::int32_t asker, asked;
 };
 
@@ -85,8 +85,8 @@ std::vector<std::int32_t> NodalSearch<Searched>::ranks_holding(const Point<kIn>&
   return ranks;
 }
 
-// No facet of the border is nearer than its box, and some facet in a box is no farther than the
-// box's far corner.
+// Returns the ranks that may have the border facet nearest to x. A facet is no nearer than its box,
+// and each box has a facet that is no farther than the box's farthest corner.
 template <class Searched>
 std::vector<std::int32_t> NodalSearch<Searched>::ranks_nearest(const Point<kIn>& x) const {
   constexpr double kRounding = 1 + 1e-6;
@@ -107,7 +107,8 @@ std::vector<std::int32_t> NodalSearch<Searched>::ranks_nearest(const Point<kIn>&
   return ranks;
 }
 
-// Asks for all points without an answer.
+// Searches for all points without an answer on the ranks that ranks_for(x) returns. `same`: all
+// ranks pass the same points.
 template <class Searched>
 template <class Ranks>
 void NodalSearch<Searched>::look(std::int64_t n, const Point<kIn>* x, bool same,
@@ -152,6 +153,7 @@ void NodalSearch<Searched>::look(std::int64_t n, const Point<kIn>* x, bool same,
 }
 
 template <class Searched>
+// Returns the number of points without an answer on all ranks. Collective.
 std::int64_t NodalSearch<Searched>::open_on_all(const std::vector<Answer>& answers) const {
   const auto open = std::count_if(answers.begin(), answers.end(),
                                   [](const Answer& answer) { return !answer.found(); });

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who holds the simplex of a distributed triangulation that a point lies in: each rank holds the
-// simplices it owned, and all ranks know boxes around what each of them holds. A point is asked of
-// the ranks whose boxes it lies in.
+// Point location in a distributed triangulation. Each rank stores a patch, and all ranks have boxes
+// that cover the patches of the others. A point is sent to the ranks in whose boxes it lies.
 #pragma once
 
 #include <cstdint>
@@ -14,27 +13,28 @@
 
 namespace pnpbs {
 
-// Searched: NodalPatch or SpherePatch.
+// The search in the patches of all ranks. `Searched` is NodalPatch or SpherePatch.
 template <class Searched>
 class NodalSearch {
  public:
   static constexpr int kIn = Searched::kIn;
   using Answer = PatchAnswer<Searched::kDim>;
 
-  // Collective.
+  // Stores the patch of this rank and gathers the boxes of all ranks. Collective.
   NodalSearch(std::shared_ptr<const Communicator> comm, Searched patch);
 
-  // The answers for some points, the same ones whoever holds what: from the simplex that a point
-  // lies in, otherwise from the nearest place of the border. Collective: all ranks ask at the same
-  // time, as many points as each wants. Where all ask the same points, each point is looked for by
-  // the ranks that may hold it, without a question.
+  // Returns one answer for each point: from the simplex that contains it, otherwise from the
+  // nearest point of the border. The answers do not depend on the distribution. If all ranks pass
+  // the same points, each rank searches its own patch without sending points. Throws Error if no
+  // patch has any simplex.
+  // Collective. Each rank may pass a different number of points, including none.
   std::vector<Answer> find(std::int64_t n, const Point<kIn>* x) const;
 
-  const Searched& patch() const { return patch_; }  // of this rank
+  const Searched& patch() const { return patch_; }  // patch of this rank
   const Communicator& communicator() const { return *comm_; }
 
  private:
-  // Boxes of all ranks.
+  // Boxes of all ranks with the rank of each.
   struct Directory {
     std::vector<Box<kIn>> boxes;
     std::vector<std::int32_t> ranks;

@@ -10,7 +10,7 @@
 namespace pnpbs {
 namespace {
 
-// As longitude and latitude would lie.
+// Returns whether the coordinates are in the range of longitudes and latitudes.
 template <int Dim>
 bool may_be_degrees(const Box<Dim>& box) {
   return box.low[0] >= -180 && box.high[0] <= 360 && box.low[1] >= -91 && box.high[1] <= 91;

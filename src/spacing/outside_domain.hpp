@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of d that are given on a part of space: whether the domain is there at all. Mostly it is
-// elsewhere because one of them is in another unit, or in degrees.
+// Checks whether the part of space on which d is given meets the domain. If it does not, one of
+// them is usually in another unit or in degrees.
 #pragma once
 
 #include <string>
@@ -10,12 +10,13 @@
 
 namespace pnpbs {
 
-// Throws Error(ErrorKind::spacing) with both extents unless the boxes meet. `what` has the values,
-// in the plural: "argument coordinates".
+// Throws Error(ErrorKind::spacing), which states both extents, unless the boxes meet. `what` is the
+// plural subject of the message, such as "argument coordinates".
 template <int Dim>
 void require_meeting_boxes(const std::string& what, const Box<Dim>& given, const Box<Dim>& domain);
 
-// "from (0, 0) to (1, 2)"; where the box has no end, it ends with `within`.
+// Returns the text "from (0, 0) to (1, 2)". Infinite sides of the box are replaced by those of
+// `within`.
 template <int Dim>
 MessageText extent_text(const Box<Dim>& box, const Box<Dim>& within);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// With which nodes of a patch an answer is linear, whatever shape its simplices have.
+// Computation of PatchWeights for patches with any shape of simplices.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,16 @@
 
 namespace pnpbs {
 
-// The simplex or facet that an answer is of: the corners, and whether they are those of a simplex.
+// The nodes of the simplex or facet that gave an answer. `simplex` is false if they are those of a
+// facet only.
 template <int Dim>
 struct AnsweringCorners {
   std::array<std::int32_t, Dim + 1> nodes{};
   bool simplex = false;
 };
 
-// In the order of ids, as everywhere, so that rounding is the same. A facet without a simplex
-// behind it has its first node once more.
+// Returns the nodes of an answer, sorted by id so that rounding is the same everywhere. A facet
+// without a known simplex has its first node twice.
 template <int Dim, int In>
 AnsweringCorners<Dim> answering_corners(const Patch<Dim, In>& patch, std::int32_t row) {
   if (row >= 0) return {patch.simplices[static_cast<std::size_t>(row)], true};
@@ -35,8 +36,9 @@ AnsweringCorners<Dim> answering_corners(const Patch<Dim, In>& patch, std::int32_
   return corners;
 }
 
-// shares_in(nodes): what is left of that simplex with x in place of each corner. along(facet): the
-// parts of the ways from its first corner to the others, to the place nearest to x.
+// Returns the weights for an answer at x. shares_in(nodes) returns the unnormalised barycentric
+// coordinates of x in a simplex. along(facet) returns the coordinates of the point of the facet
+// nearest to x along the edges from its first corner.
 template <int Dim, int In, class Shares, class Along>
 PatchWeights<Dim> weights_in(const Patch<Dim, In>& patch, const std::type_identity_t<Point<In>>& x,
                              std::int32_t row, const Shares& shares_in, const Along& along) {
@@ -44,7 +46,7 @@ PatchWeights<Dim> weights_in(const Patch<Dim, In>& patch, const std::type_identi
   PatchWeights<Dim> result;
   result.inside = row >= 0;
   result.nodes = corners.nodes;
-  // What was a node keeps its value as it was.
+  // A point at a node has exactly the node's value.
   for (std::size_t k = 0; k <= Dim; ++k)
     if (patch.nodes[static_cast<std::size_t>(result.nodes[k])].x == x) {
       result.weights[k] = 1;

@@ -13,7 +13,7 @@ namespace pnpbs {
 
 namespace {
 
-// A part of a facet, which is looked at in its middle.
+// A part of a facet, represented by its centroid.
 struct Piece {
   FacetCorners<3> corners;
   std::int32_t facet;
@@ -44,6 +44,7 @@ void append_halves(const Piece& piece, std::vector<Piece>& pieces) {
   }
 }
 
+// Measures the room in front of and behind the facets of a body.
 class ShapeToResolve {
  public:
   ShapeToResolve(const VolumeDomain& domain, const Resolution& resolution)
@@ -57,7 +58,7 @@ class ShapeToResolve {
     return pieces;
   }
 
-  // What d must not exceed at a point of a facet, or d itself.
+  // Returns the upper bound of d at a point of a facet; d itself if there is room enough.
   double held(std::int32_t facet, const Point<3>& x, double d) const {
     const bool bounds = mesh_.facets[static_cast<std::size_t>(facet)].bounds();
     const double in_gap = bounds ? resolution_.in_gap : resolution_.in_wall;
@@ -71,8 +72,8 @@ class ShapeToResolve {
     return facet_normal(mesh_, mesh_.facets[static_cast<std::size_t>(f)]);
   }
 
-  // Between surfaces that meet in an edge at an angle there is less and less room, whatever d is:
-  // there the room that they leave at a distance of d from the edge counts.
+  // Returns the bound on one side of the facet. Surfaces that meet at an edge leave ever less room
+  // towards it for any d, so there the room at a distance of d from the edge counts.
   double held_on_side(std::int32_t facet, const Point<3>& x, double side, double layers,
                       double d) const {
     const Point<3> out = normal(facet), ahead{side * out[0], side * out[1], side * out[2]};
@@ -92,12 +93,12 @@ class ShapeToResolve {
 
 }  // namespace
 
-// Pieces are halved until they are not much larger than what d is held to there.
+// Pieces are bisected until they are not much larger than the bound of d on them.
 std::vector<GrowthSource<3>> resolving_sources(const Spacing<3>& raw, const VolumeDomain& domain,
                                                const NodeLimit& limit, const Resolution& resolution,
                                                const std::function<void()>& beat) {
-  constexpr double kPieces = 1.5;       // length of their edges
-  constexpr std::size_t kChunk = 1024;  // pieces between two calls of beat()
+  constexpr double kPieces = 1.5;       // longest edge of a piece [bound of d]
+  constexpr std::size_t kChunk = 1024;  // number of pieces between two calls of beat()
   const ShapeToResolve shape(domain, resolution);
   std::vector<GrowthSource<3>> sources;
   std::vector<Piece> pieces = shape.facets();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where d is held down so that it resolves the shape of a body: in thin walls, in narrow gaps, and
-// where the sides of an edge are too near to each other.
+// Points at which d is reduced to resolve the shape of a body: in thin walls, in narrow gaps, and
+// where the sides of an edge are too close to each other.
 #pragma once
 
 #include <functional>
@@ -14,16 +14,18 @@
 
 namespace pnpbs {
 
-// What there is to be room for: layers of d in the thickness of a wall and in the width of a gap;
-// and the part of d below which it is not held, however thin they are.
+// The required resolution: layers of d across a wall and across a gap, and the smallest share of d
+// to which d is reduced, however thin they are.
 struct Resolution {
   double in_wall, in_gap, least;
 };
 inline constexpr Resolution kResolved{method::kLayersInWall, method::kLayersInGap, 0};
 
-// The domain, checked, is looked at here alone. d is asked on the surfaces, at the same points on
-// all ranks. Throws Error(ErrorKind::spacing) if they needed more nodes than the limit allows.
-// Calls beat() again and again. Collective.
+// Returns the points on the surfaces where d must be reduced, with the reduced d. `domain` must be
+// checked, and all ranks evaluate `raw` at the same points. The references are not stored. Calls
+// beat() repeatedly. Throws Error(ErrorKind::spacing) if the surfaces require more nodes than the
+// limit allows.
+// Collective.
 std::vector<GrowthSource<3>> resolving_sources(
     const Spacing<3>& raw, const VolumeDomain& domain, const NodeLimit& limit,
     const Resolution& resolution, const std::function<void()>& beat = [] {});

@@ -20,25 +20,26 @@
 namespace pnpbs {
 namespace {
 
-// A point near x, seen from there.
+// A point near x, with its position relative to x.
 template <int Dim>
 struct CloudSample {
   Point<Dim> way;
   double value, weight;
 };
 
-// The part of the weight of a point that another one, from which it is seen in the direction
-// `onwards`, leaves to it: none if it lies behind that one, all if it lies beside or before it.
+// Returns the share of its weight that a point keeps behind another one. `way` leads from x to the
+// other point and `onwards` from there to the point. The share is 0 if the point lies behind the
+// other one, and 1 if it lies beside it or in front.
 template <int Dim>
 double part_not_hidden(const Point<Dim>& way, const Point<Dim>& onwards) {
-  constexpr double kHidden = 0.7;  // cosine of the angle from which on nothing is left
+  constexpr double kHidden = 0.7;  // cosine of the angle at which the share becomes 0
   const double along = dot(way, onwards);
   if (along <= 0) return 1;
   const double cosine = along / std::sqrt(dot(way, way) * dot(onwards, onwards));
   return std::max(0.0, 1 - cosine / kHidden);
 }
 
-// Samples are by increasing distance.
+// Reduces the weights of hidden samples. `samples` must be sorted by distance.
 template <int Dim>
 void weaken_hidden(std::span<CloudSample<Dim>> samples) {
   for (std::size_t far = 1; far < samples.size(); ++far) {
@@ -52,7 +53,7 @@ void weaken_hidden(std::span<CloudSample<Dim>> samples) {
   }
 }
 
-// Makes the weights add up to 1; equal ones if all are 0.
+// Normalises the weights to the sum 1. Makes them equal if all are 0.
 template <int Dim>
 void share_out(std::span<CloudSample<Dim>> samples) {
   double sum = 0;
@@ -61,9 +62,9 @@ void share_out(std::span<CloudSample<Dim>> samples) {
   for (CloudSample<Dim>& sample : samples) sample.weight = sum > 0 ? sample.weight / sum : equal;
 }
 
-// Changes the weights to those that the samples have in the value at the origin of the plane fitted
-// to them by weighted least squares, none of them by more than a factor: so all remain positive.
-// Where that bounds none, linear functions are met.
+// Changes the weights to those that the samples have in the value at the origin of a plane fitted
+// by weighted least squares. No weight changes by more than kMaxFactor, so all remain positive.
+// Linear functions are reproduced if this bound is not reached.
 template <int Dim>
 void fit_plane(std::span<CloudSample<Dim>> samples) {
   Point<Dim> mean{};
@@ -79,7 +80,7 @@ void fit_plane(std::span<CloudSample<Dim>> samples) {
     trace += sample.weight * dot(way, way);
   }
   if (!(trace > 0)) return;
-  // Across points on a line the values tell no slope: it is 0 there.
+  // Values at points on a line do not determine the slope across it; this makes it 0.
   constexpr double kFlat = 1e-10;
   for (int i = 0; i < Dim; ++i) normal[i][i] += kFlat * trace;
   if (!factor_cholesky(normal)) return;
@@ -92,8 +93,8 @@ void fit_plane(std::span<CloudSample<Dim>> samples) {
   share_out(samples);
 }
 
-// From x to y: straight or, on a sphere, as far as it is along that, in the direction that it
-// begins in (the azimuthal equidistant projection about x).
+// Returns the vector from x to y. On a sphere it has the length of the arc and the arc's initial
+// direction (the azimuthal equidistant projection about x).
 template <int Dim, int Across>
 Point<Across> way_between(const Point<Dim>& x, const Point<Dim>& y) {
   Point<Across> way{};
@@ -208,7 +209,7 @@ void ScatteredSpacing<Dim, Across>::find_known() {
   std::vector<std::array<Neighbour, kNearest>> nearest_ones(points_.size());
   for_each_if_started("pnpbs::CloudSpacing::find_known", count, [&](std::int64_t i) {
     const auto at = static_cast<std::size_t>(i);
-    const Neighbours near = nearest(points_[at]);  // the first one is itself
+    const Neighbours near = nearest(points_[at]);  // the first one is the point itself
     for (std::size_t k = 0; k < kNearest; ++k) {
       const bool is_there = static_cast<int>(k) + 1 < near.found;
       nearest_ones[at][k] = near.nearest[is_there ? k + 1 : 0];

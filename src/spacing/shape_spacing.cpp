@@ -16,7 +16,7 @@
 namespace pnpbs {
 namespace {
 
-// A part of a piece, which is looked at in its middle.
+// A part of a piece, represented by its centroid.
 template <int Dim>
 struct Part {
   FacetCorners<Dim> corners;
@@ -53,7 +53,7 @@ void append_halves(const Part<Dim>& part, std::vector<Part<Dim>>& parts) {
   }
 }
 
-// To its front; 0 if it has no extent.
+// Returns the unit normal on the front of a facet; 0 or NaN if the facet has no extent.
 Point<2> unit_normal(const FacetCorners<2>& f) {
   const double whole = distance<2>(f[0], f[1]);
   return {(f[0][1] - f[1][1]) / whole, (f[1][0] - f[0][0]) / whole};
@@ -70,7 +70,7 @@ class Widths {
       normals_.push_back(piece.is_facet() ? unit_normal(piece.corners) : Point<Dim>{});
   }
 
-  // Sources with the width itself for d.
+  // Returns sources whose d is the width itself.
   std::vector<ShapeSource<Dim>> run() const {
     constexpr std::size_t kMaxParts = 50'000'000;
     std::vector<Part<Dim>> parts;
@@ -102,7 +102,7 @@ class Widths {
   }
 
  private:
-  // Calls visit(place) for the sides of the part that the domain lies on.
+  // Calls visit(place) for each side of the part on which the domain lies.
   template <class Visit>
   void for_places(const Part<Dim>& part, const Visit& visit) const {
     const ShapePiece<Dim>& piece = index_.shape()[part.piece];
@@ -114,7 +114,7 @@ class Widths {
   }
 
   bool is_small(const Part<Dim>& part) const {
-    constexpr double kMinPart = 1e-6;  // of the domain
+    constexpr double kMinPart = 1e-6;  // [size of the domain]
     const double edge = longest_edge(part.corners);
     bool small = true;
     for_places(part, [&](const auto& place) {
@@ -125,8 +125,9 @@ class Widths {
     return small || edge <= kMinPart * index_.size();
   }
 
-  // What a small part does not see itself, as it looks elsewhere: what its corners stand over, not
-  // much farther than it is long.
+  // Adds widths that a small part does not detect because its normal points elsewhere: those of
+  // pieces that have its corners in front of them, at most a few part lengths away. `seen` is the
+  // width already known.
   void add_feet(const Part<Dim>& part, double seen, std::vector<ShapeSource<Dim>>& sources) const {
     constexpr double kAsMuch = 0.9;
     const double reach = std::min(seen, 4.5 * longest_edge(part.corners));

@@ -17,8 +17,8 @@ namespace pnpbs {
 
 namespace {
 
-// A cell with more boundary nodes than this is split whatever d is. In the plane they have an edge
-// each, in space two triangles.
+// Number of boundary nodes above which a cell is split for any d. A node has about one edge in the
+// plane and two triangles in space.
 constexpr std::size_t kMaxBoundaryNodes = 48;
 constexpr int kMaxDepthByNodes = 26;
 
@@ -33,7 +33,7 @@ template <int Dim>
 class SizedTree<Dim>::Growth {
  public:
   struct CellState {
-    double min = 0, max = 0;  // of the samples of d
+    double min = 0, max = 0;  // range of the samples of d
     double mean_density = 0;  // mean of 1/d^Dim
   };
 
@@ -59,7 +59,7 @@ class SizedTree<Dim>::Growth {
   const FacetCells<Dim>& facets() const { return *facets_; }
   const CellState& state(std::int32_t c) const { return cells_[static_cast<std::size_t>(c)]; }
 
-  // d at the boundary nodes is asked once.
+  // d is evaluated at the boundary nodes only once.
   void start() {
     facets_.emplace(boundary_);
     std::vector<Point<Dim>> positions;
@@ -74,7 +74,7 @@ class SizedTree<Dim>::Growth {
     cells_.assign(1, CellState());
   }
 
-  // What a child has of d until it is sampled, it has from its parent.
+  // Children inherit the state of their parent until they are sampled.
   void add_children(const BackgroundTree<Dim>& tree, std::int32_t parent) {
     facets_->add_children(tree, parent);
     cells_.insert(cells_.end(), BackgroundTree<Dim>::kChildren, CellState(state(parent)));
@@ -84,7 +84,8 @@ class SizedTree<Dim>::Growth {
   void check_count(const BackgroundTree<Dim>& tree, std::int32_t first, std::int32_t last) const;
   bool wants_split(const BackgroundTree<Dim>& tree, std::int32_t c) const;
 
-  // By its samples of d, whether they lie in the domain or not.
+  // Returns the number of nodes that the samples of d require in the whole cell, including its part
+  // outside of the domain.
   double nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const {
     return Lattice<Dim>::kDensity * power<Dim>(tree.cell_side(c)) * state(c).mean_density;
   }
@@ -116,7 +117,7 @@ class SizedTree<Dim>::Growth {
   std::optional<FacetCells<Dim>> facets_;
   std::vector<double> boundary_spacing_;
   std::vector<CellState> cells_;
-  double nodes_in_leaves_ = 0;  // estimate for the leaves found so far
+  double nodes_in_leaves_ = 0;  // estimate for the leaves so far
 };
 
 // Samples d in the cells first .. last-1, in one batch.
@@ -154,15 +155,16 @@ void SizedTree<Dim>::Growth::sample(const BackgroundTree<Dim>& tree, std::int32_
   }
 }
 
-// What is known to be fine near to a cell is looked for in it, whatever its samples are.
+// Lowers the smallest d of a cell to the bound by known values near it.
 template <int Dim>
 void SizedTree<Dim>::Growth::expect_known(const Box<Dim>& box, CellState& cell) const {
   for (const Point<Dim>& fraction : cell_samples<Dim>())
     cell.min = known_.limit(point_in<Dim>(box, fraction), cell.min);
 }
 
-// In the chart of a sphere d is least where its stretch is: a few samples of a large cell miss
-// that, but they tell how small d is along the sphere.
+// Lowers the smallest d of a cell to what is possible in the chart of a sphere. d is smallest where
+// the stretch of the chart is, and the few samples of a large cell may miss that point. But they
+// determine d along the sphere.
 template <int Dim>
 void SizedTree<Dim>::Growth::expect_by_chart(const Box<Dim>& box, const CellSamples& samples,
                                              CellState& cell) const {
@@ -174,8 +176,9 @@ void SizedTree<Dim>::Growth::expect_by_chart(const Box<Dim>& box, const CellSamp
   cell.min = std::min(cell.min, along * embedding.least_stretch_in(box));
 }
 
-// Where a sample point of the cell asks for d: there if it is inside; for surfaces alone at the
-// nearest point of one of their facets, in turn.
+// Adds the point at which d is evaluated for a sample position: the position itself if it is inside
+// the domain. For surfaces without a volume it is the nearest point of a facet; the facets of the
+// cell take turns.
 template <int Dim>
 void SizedTree<Dim>::Growth::add_samples(const BackgroundTree<Dim>& tree, std::int32_t c,
                                          const Point<Dim>& fraction, std::size_t number,
@@ -217,7 +220,7 @@ void SizedTree<Dim>::Growth::add_boundary_samples(const Box<Dim>& box, std::int3
 template <int Dim>
 void SizedTree<Dim>::Growth::take_samples(const std::vector<double>& values,
                                           CellState& cell) const {
-  if (values.empty()) return;  // in the plane: what the parent cell has must do
+  if (values.empty()) return;  // in the plane: the state of the parent is kept
   cell.min = values[0];
   cell.max = values[0];
   double sum = 0;
@@ -239,8 +242,9 @@ bool SizedTree<Dim>::Growth::wants_split(const BackgroundTree<Dim>& tree, std::i
          holds_many_boundary_nodes(tree, c);
 }
 
-// As its facets tell. In space hundreds of them may share a corner, and splitting leaves one cell
-// with all of these: the facets of the only node in a cell do not count.
+// Returns whether the cell has too many facets. In space, hundreds of facets may share a corner,
+// and splitting would leave one cell with all of them. If the cell has only one node, the facets of
+// this node do not count.
 template <int Dim>
 bool SizedTree<Dim>::Growth::holds_many_boundary_nodes(const BackgroundTree<Dim>& tree,
                                                        std::int32_t c) const {
@@ -263,8 +267,8 @@ bool SizedTree<Dim>::Growth::holds_many_boundary_nodes(const BackgroundTree<Dim>
   return facets.size() - having_it > kMaxBoundaryNodes * (Dim - 1);
 }
 
-// With the largest d of the cell. A surface takes two thirds of the square of each cell's side that
-// it crosses, on average.
+// Returns the number of nodes that the largest d of the cell requires. On average, a surface has
+// two thirds of the squared side as its area in a cell that it crosses.
 template <int Dim>
 double SizedTree<Dim>::Growth::min_nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const {
   constexpr double kPart = 2.0 / 3;
@@ -273,7 +277,8 @@ double SizedTree<Dim>::Growth::min_nodes_in(const BackgroundTree<Dim>& tree, std
   return wholly_inside(c) ? Lattice<Dim>::kDensity * power<Dim>(sides) : 0;
 }
 
-// Even with the largest d of each cell there would be more nodes than allowed: stop early.
+// Stops early: this lower bound, from the largest d of each cell, already exceeds the allowed
+// number of nodes.
 template <int Dim>
 void SizedTree<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::int32_t first,
                                          std::int32_t last) const {
@@ -312,7 +317,7 @@ template <int Dim>
 void SizedTree<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Growth& growth,
                           const MaySplit& may_split) {
   collective_try(comm, [&] { growth.start(); });
-  std::int32_t parents = 0;  // first cell of the depth above
+  std::int32_t parents = 0;  // first cell of the previous depth
   const auto add_children_before = [&](const BackgroundTree<Dim>& tree, std::int32_t last) {
     for (std::int32_t parent = parents; parent < last; ++parent)
       if (tree.cell(parent).first_child >= 0) growth.add_children(tree, parent);
@@ -335,7 +340,8 @@ void SizedTree<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Grow
   };
   BackgroundTree<Dim> tree;
   tree.build(bounds, split_depth, [&](bool more) { return comm.allreduce_max(more) > 0; });
-  add_children_before(tree, tree.cell_count());  // those of the greatest depth are not asked about
+  // split_depth() is not called for the greatest depth.
+  add_children_before(tree, tree.cell_count());
   collective_try(comm, [&] { keep_leaves(std::move(tree), growth); });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The background tree of a level, refined by d and the boundary, with what lies in its leaves: the
-// facets of the boundary, and samples of d.
+// The background tree of a level, refined by d and the boundary, with the boundary facets and the
+// samples of d in its leaves.
 #pragma once
 
 #include <cstdint>
@@ -16,42 +16,44 @@
 
 namespace pnpbs {
 
-// What a tree is refined by. The boundary of a plane level has nodes that d asks for; the surfaces
-// of a volume may be far finer than d, and have an index of their own.
+// The criteria by which a tree is refined. The boundary of a plane level is discretised by d. The
+// surfaces of a volume may be far finer than d and have an index of their own, so the tree ignores
+// them.
 enum class Refinement { spacing, spacing_and_boundary };
 
 template <int Dim>
 constexpr Refinement kLevelRefinement{Dim == 2 ? Refinement::spacing_and_boundary
                                                : Refinement::spacing};
 
+// A background tree with facets and samples of d in its leaves.
 template <int Dim>
 class SizedTree : public FacetIndex<Dim> {
  public:
-  // Refines the tree until leaves are at most method::kLeafSpacings times d wide (so at least half
-  // of that where d allows) and hold few boundary nodes. d is asked inside the domain only, at the
-  // cell_samples of each cell, and at the boundary nodes: dips of d between them are not seen,
-  // unless they are among the values known.
-  // Throws Error(ErrorKind::spacing or ::memory) when d would mean more nodes than the limit
-  // allows.
+  // Refines the tree until its leaves are at most method::kLeafSpacings times d wide, and hold few
+  // boundary nodes. Leaves are then at least half as wide as that where d permits. d is evaluated
+  // at the cell_samples of each cell inside the domain and at the boundary nodes. Dips of d between
+  // these points are not detected unless `known` contains them. Throws Error(ErrorKind::spacing or
+  // ::memory) if d requires more nodes than the limit allows.
   void build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
              const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
              Refinement by = Refinement::spacing_and_boundary,
              const std::vector<GrowthSource<Dim>>& known = {});
 
-  // May a cell that d or the boundary wants split be split? `nodes`: those its samples of d ask
-  // for.
+  // Returns whether a cell may be split that should be split. `nodes` is the number of nodes that
+  // its samples of d require.
   using MaySplit =
       std::function<bool(const BackgroundTree<Dim>& tree, std::int32_t cell, double nodes)>;
-  // The same tree, refined only where may_split allows it. Where that differs between ranks the
-  // call is collective, and a failure on one rank is thrown on all.
+  // Builds the same tree, but splits a cell only if may_split allows it.
+  // Collective if may_split differs between ranks. If one rank throws, all ranks throw.
   void build_part(const Communicator& comm, const Box<Dim>& bounds,
                   const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
                   const NodeLimit& limit, const MaySplit& may_split,
                   Refinement by = Refinement::spacing_and_boundary,
                   const std::vector<GrowthSource<Dim>>& known = {});
 
-  // Its area (volume) in units of a cell of depth kSizeDepth: the smallest there can be in the
-  // plane; in space, where these are too many, smaller ones count as nothing.
+  // Returns the area or volume of a leaf in units of a cell of depth kSizeDepth. In the plane this
+  // is the smallest possible cell; in space, where such units would overflow, smaller leaves have
+  // size 0.
   static constexpr int kMaxDepth = BackgroundTree<Dim>::kMaxDepth;
   static constexpr int kSizeDepth = Dim * kMaxDepth < 64 ? kMaxDepth : 60 / Dim;
   std::uint64_t leaf_size(std::int32_t leaf) const {
@@ -59,13 +61,14 @@ class SizedTree : public FacetIndex<Dim> {
     const int above = kSizeDepth - tree.cell(tree.leaf_cell(leaf)).depth;
     return above < 0 ? 0 : std::uint64_t{1} << (Dim * above);
   }
-  // d that holds the right number of nodes in the leaf, and the least and largest of its samples.
+  // Returns a d for which a lattice in the leaf has the number of nodes that the samples require.
+  // The other functions return the smallest and the largest sample.
   double leaf_spacing(std::int32_t leaf) const { return at(leaf_spacing_, leaf); }
   double leaf_min_spacing(std::int32_t leaf) const { return at(leaf_min_, leaf); }
   double leaf_max_spacing(std::int32_t leaf) const { return at(leaf_max_, leaf); }
 
  private:
-  class Growth;  // what is known of the cells while the tree grows
+  class Growth;  // state of the cells while the tree grows
   void grow(const Communicator& comm, const Box<Dim>& bounds, Growth& growth,
             const MaySplit& may_split);
   void keep_leaves(BackgroundTree<Dim> tree, const Growth& growth);

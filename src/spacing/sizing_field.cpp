@@ -104,7 +104,8 @@ void SizingField<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) 
   multiply(n, d, level_factor_);
 }
 
-// Where the growth is limited, samples miss nothing that would have to be known besides.
+// The hints of the source are not needed if the growth is limited, because the limited d is sampled
+// sufficiently.
 template <int Dim>
 SpacingHints<Dim> SizingField<Dim>::spacing_hints() const {
   SpacingHints<Dim> known;

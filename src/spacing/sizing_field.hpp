@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// d(x) as it counts: the user's spacing, and everything that the library makes of it. A value,
-// whose copies share what does not change.
+// The effective spacing d(x): the user's spacing and all modifications by the library. A
+// SizingField has value semantics; copies share immutable parts.
 #pragma once
 
 #include <functional>
@@ -16,52 +16,57 @@
 
 namespace pnpbs {
 
-// Its parts apply in the order in which they are declared below: a factor for a wanted number of
-// nodes, an upper bound, reductions that resolve the shape, a growth limit, reductions where an
-// earlier round left elements that cannot be used, and the factor of a coarser level.
+// The effective spacing of a placement or a level. Modifications apply in the order of their
+// declaration below: a factor for the number of nodes, an upper bound, reductions that resolve the
+// shape, a growth limit, reductions where an earlier round left unusable elements, and the factor
+// of a coarser level.
 template <int Dim>
 class SizingField : public Spacing<Dim> {
  public:
-  // Has no source yet, and cannot be evaluated.
+  // Constructs a field without a source, which must not be evaluated.
   SizingField() = default;
   explicit SizingField(std::shared_ptr<const Spacing<Dim>> source) : source_(std::move(source)) {}
 
-  // Sets what beat() calls. What it throws ends the evaluation, as an error of a callback does.
+  // Sets the function that beat() calls. Its exceptions end the evaluation, like errors of a
+  // callback.
   void set_beat(std::function<void()> beat) { beat_ = std::move(beat); }
-  // Is called by every evaluation, and by other work that takes long where d is small: so that a
-  // monitor is asked while levels are made. Local.
+  // Calls the function of set_beat(), if any. Every evaluation and other long operations call it,
+  // so that a monitor runs while levels are built. Local.
   void beat() const {
     if (beat_) beat_();
   }
 
   bool has_source() const { return source_ != nullptr; }
-  const Spacing<Dim>& source() const { return *source_; }  // the user's
-  // Places where nodes came upon a smaller d than the samples around had told. The tree is refined
-  // there. They are part of what a checkpoint stores.
+  const Spacing<Dim>& source() const { return *source_; }  // Returns the user's spacing.
+  // Points where nodes found a smaller d than the samples around them had shown. The tree is
+  // refined there, and checkpoints store these points.
   const SpacingHints<Dim>& undersampled_points() const { return undersampled_points_; }
   void add_undersampled_points(const SpacingHints<Dim>& places);
   void set_undersampled_points(SpacingHints<Dim> places) {
     undersampled_points_ = std::move(places);
   }
 
-  // For `factor` times the distance between nodes. A spacing with a growth of its own keeps that.
+  // Returns this field for `factor` times the distance between nodes. A spacing with a growth of
+  // its own keeps this growth.
   SizingField multiplied(double factor) const;
-  // Bounds d from above. Far above the size of the domain, where all d mean the same, arithmetic
-  // with d would overflow. Values that are not finite stay, to be reported.
+  // Sets an upper bound of d. Without it, arithmetic with d could overflow; far above the size of
+  // the domain all d are equivalent. Values that are not finite are kept so that they are reported.
   void set_bound(double bound) { bound_ = bound; }
-  // Reduces d to the values of the sources, and to what they allow around them.
+  // Reduces d at and around the sources to d_source + growth * distance.
   void resolve(std::vector<GrowthSource<Dim>> sources, double growth);
-  // Limits the growth of what the field is so far. The arguments are those of GrowthLimit.
+  // Limits the growth of the field with its modifications up to now. The arguments are those of
+  // GrowthLimit.
   // Collective.
   void limit_growth(std::shared_ptr<const Communicator> comm,
                     std::unique_ptr<const LineOfSight<Dim>> ways, const GrowthRule<Dim>& rule,
                     const NodeLimit& limit);
   const GrowthLimit<Dim>* growth_limit() const { return growth_limit_.get(); }
-  // Reduces d at these places and around them, in addition to all else. The tree is refined there.
+  // Reduces d at and around these points, in addition to all other modifications. Replaces earlier
+  // reductions of this kind. The tree is refined at these points.
   void reduce_at(const std::vector<GrowthSource<Dim>>& places, double growth);
-  // Without the places that reduce_at() was given.
+  // Returns this field without the reductions of reduce_at().
   SizingField without_reductions() const;
-  // Of a level that is coarser by this factor.
+  // Returns the field of a level that is coarser by this factor.
   SizingField coarsened(double factor) const;
 
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
@@ -83,7 +88,7 @@ class SizingField : public Spacing<Dim> {
   std::shared_ptr<const Sources> resolving_;
   std::shared_ptr<const GrowthLimit<Dim>> growth_limit_;
   std::shared_ptr<const Sources> reductions_;
-  std::vector<GrowthSource<Dim>> reduced_places_;  // of the reductions
+  std::vector<GrowthSource<Dim>> reduced_places_;  // points of reductions_
   double level_factor_ = 1;
   std::function<void()> beat_;
 };

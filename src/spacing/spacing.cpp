@@ -79,14 +79,15 @@ Point<Dim> GridSpacing<Dim>::grid_point(std::int64_t index) const {
   return x;
 }
 
-// Noise of a fine grid is steep, too, but changes d by a small part.
+// Steps between grid points count if d changes by a considerable share; noise on a fine grid is
+// steep but small.
 template <int Dim>
 SpacingHints<Dim> GridSpacing<Dim>::spacing_hints() const {
   constexpr double kMatters = 0.1;
   SpacingHints<Dim> known;
   const auto count = static_cast<std::int64_t>(values_.size());
   std::vector<char> is_low(values_.size(), 0);
-  std::int64_t next = 1;  // grid points from one to the next along an axis
+  std::int64_t next = 1;  // index distance of neighbours along axis k
   for (int k = 0; k < Dim; ++k) {
     for (std::int64_t i = 0; i + next < count; ++i) {
       if (i / next % size_[k] + 1 == size_[k]) continue;
@@ -120,7 +121,7 @@ std::optional<GivenExtent<Dim>> GridSpacing<Dim>::extent() const {
 
 namespace {
 
-// Nodes that spacing d means in a domain of this measure.
+// Returns the number of nodes that a constant spacing d requires in a domain of this measure.
 template <int Dim>
 double meant_nodes(double d, double measure) {
   return Lattice<Dim>::kDensity * measure / power<Dim>(d);
@@ -131,7 +132,8 @@ double meant_nodes(double d, double measure) {
 template <int Dim>
 void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t n,
                       const Point<Dim>* x, double* d) {
-  constexpr double kMaxNodes = 1e15;  // more than any machine holds, even if meant only nearby
+  // more than any machine can store, even if only a small region requires them
+  constexpr double kMaxNodes = 1e15;
   spacing.evaluate(n, x, d);
   for (std::int64_t i = 0; i < n; ++i) {
     if (std::isfinite(d[i]) && d[i] > 0 && meant_nodes<Dim>(d[i], measure) < kMaxNodes) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing function d(x) as the user gives it. What the library makes of it is a SizingField.
+// The spacing function d(x) as the user specifies it. The spacing that the library places nodes
+// with is a SizingField.
 #pragma once
 
 #include <cstdint>
@@ -15,57 +16,63 @@
 
 namespace pnpbs {
 
-// Where a spacing has its values from, if from places of its own: samples of d in cells may miss
-// what is fine between them. The same on all ranks.
+// Points at which a spacing is known to be fine or steep. Samples of d in the cells of a tree may
+// miss fine regions between them; these hints make up for it. They are the same on all ranks.
 template <int Dim>
 struct SpacingHints {
+  // The growth of d over a part of space, with the point where it is measured.
   struct Slope {
-    double growth, d;  // d at its lower end
+    double growth, d;  // d: smallest d on that part
     Point<Dim> at;
-    bool in_domain = false;  // surely; else that is found out
+    bool in_domain = false;  // true: `at` is known to lie in the domain; false: not known
   };
 
+  // Values of d at the points that define the spacing; they may lie outside the domain.
   std::vector<GrowthSource<Dim>> values;
-  std::vector<Slope> slopes;                 // of what is linear between them
-  std::vector<GrowthSource<Dim>> in_domain;  // surely there: d is sampled at these, too
+  std::vector<Slope> slopes;  // growth of d between these points
+  // values known to lie in the domain; d is sampled there as well
+  std::vector<GrowthSource<Dim>> in_domain;
 };
 
-// A part of space that d is given on, and what is said of it: "the grid of the spacing", and what d
-// is beyond.
+// The part of space on which a spacing is given, and texts about it for messages: its name, such as
+// "the grid of the spacing", and the definition of d outside.
 template <int Dim>
 struct GivenExtent {
   const char* name;
   const char* beyond;
-  Box<Dim> box;  // around it; infinite where it has no end
-  // In words, on a sphere, which has no box: "from latitude 0 to latitude 60", or nothing.
+  Box<Dim> box;  // bounding box; infinite in unbounded directions
+  // The extent in words on a sphere, where there is no box: "from latitude 0 to latitude 60". May
+  // be empty.
   std::string on_sphere = {};
 };
 
-// As a placement asks for it. Values may be with other ranks: who asks on one rank alone takes a
-// LocalSpacing.
+// A spacing function that a placement can evaluate. Its values may be distributed over the ranks,
+// so evaluation is collective; code that runs on one rank only requires a LocalSpacing.
 template <int Dim>
 class Spacing {
  public:
   virtual ~Spacing() = default;
-  // Fills d[n] at x[n]. Throws Error if the user's callback fails. Values are as the user has
-  // them: checked by evaluate_spacing. Collective: all ranks ask at the same time, as many points
-  // as each wants.
+  // Computes d[n] at x[n]. The values are not checked; evaluate_spacing() checks them. Throws Error
+  // if the user's callback fails.
+  // Collective. Each rank may pass a different number of points, including none.
   virtual void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const = 0;
+  // Returns the hints of this spacing, which may be empty.
   virtual SpacingHints<Dim> spacing_hints() const { return {}; }
-  // With the sizes that it is made of multiplied, but its growth as it is, if there is a growth of
-  // its own; others return nothing.
+  // Returns this spacing with its sizes multiplied by the factor but its growth unchanged. Returns
+  // null if the spacing has no growth of its own.
   virtual std::shared_ptr<const Spacing> with_sizes_multiplied(double) const { return nullptr; }
-  // Where the values are, if they are those of a mesh, of a grid or of points.
+  // Returns the extent of the values if they are those of a mesh, a grid or points.
   virtual std::optional<GivenExtent<Dim>> extent() const { return std::nullopt; }
-  // How far each x is from there, 0 in it; as long as there is an extent, from its box unless the
-  // spacing knows better.
+  // Computes the distance of each x from the extent, 0 inside. The default is the distance from the
+  // box of extent(). Valid only if there is an extent.
   virtual void distance_to_extent(std::int64_t n, const Point<Dim>* x, double* distances) const;
 };
 
-// One of which every rank has all values: evaluate() is local.
+// A spacing whose values every rank has. evaluate() is local.
 template <int Dim>
 class LocalSpacing : public Spacing<Dim> {};
 
+// A spacing that is the same everywhere.
 template <int Dim>
 class ConstantSpacing : public LocalSpacing<Dim> {
  public:
@@ -76,7 +83,7 @@ class ConstantSpacing : public LocalSpacing<Dim> {
   double d_;
 };
 
-// A batch callback; 0 is success.
+// A spacing that the user evaluates for batches of points. The callback must return 0 for success.
 template <int Dim>
 class CallbackSpacing : public LocalSpacing<Dim> {
  public:
@@ -88,9 +95,10 @@ class CallbackSpacing : public LocalSpacing<Dim> {
   Function function_;
 };
 
-// Values on a rectangular grid, x fastest; linear in each direction between the grid points,
-// constant beyond the border. Where values stand for cells, these reach half a step beyond their
-// middles; a direction with one grid point has the same value everywhere.
+// A spacing from values on a rectangular grid, with x varying fastest. It is linear in each
+// direction between grid points and constant outside. The extent reaches half a step beyond the
+// outer grid points, as for values of cells. In a direction with one grid point the value is the
+// same everywhere.
 template <int Dim>
 class GridSpacing : public LocalSpacing<Dim> {
  public:
@@ -98,8 +106,8 @@ class GridSpacing : public LocalSpacing<Dim> {
               const Point<Dim>& step, std::vector<double> values)
       : size_(size), origin_(origin), step_(step), values_(std::move(values)) {}
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
-  // The ends of steps between grid points in which d changes by a part that matters, and their
-  // slopes. The least d of a cell is at one of its corners.
+  // Returns as hints the grid points between which d changes considerably, and the slopes there.
+  // The smallest d of a cell is at one of its corners.
   SpacingHints<Dim> spacing_hints() const override;
   std::optional<GivenExtent<Dim>> extent() const override;
 
@@ -112,13 +120,16 @@ class GridSpacing : public LocalSpacing<Dim> {
   std::vector<double> values_;
 };
 
-// Evaluates d and checks it: an Error(ErrorKind::spacing) names the point, the value and the
-// number of nodes that it would mean in a domain of this area (volume). Collective.
+// Computes d[n] at x[n] and checks the values. `measure` is the area or volume of the domain.
+// Throws Error(ErrorKind::spacing), which names the point, the value and the number of nodes that
+// this value requires in the whole domain.
+// Collective.
 template <int Dim>
 void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t n,
                       const Point<Dim>* x, double* d);
 
-// The same of a spacing that outlives it, for who asks on one rank alone.
+// Returns evaluate_spacing() of a local spacing as a function that one rank can call alone.
+// `spacing` must outlive the result.
 template <int Dim>
 LocalSpacingEvaluator<Dim> local_evaluator(const LocalSpacing<Dim>& spacing, double measure) {
   return LocalSpacingEvaluator<Dim>(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The least and the largest d of the nodes of all ranks.
+// The smallest and the largest d of the nodes of all ranks, and bands of d between them.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,13 @@
 
 namespace pnpbs {
 
+// A range of d. It is empty if there are no nodes.
 struct SpacingRange {
   double min, max;
   bool empty() const { return min > max; }
 };
 
-// d(i): of node i. Collective.
+// Returns the range of d(i) over the owned nodes i of all ranks. Collective.
 template <int Dim, class Spacing>
 SpacingRange spacing_range(const Communicator& comm, const Nodes<Dim>& nodes, const Spacing& d) {
   const auto max = [&](double sign) {
@@ -33,12 +34,13 @@ SpacingRange spacing_range(const Communicator& comm, const Nodes<Dim>& nodes) {
   return spacing_range<Dim>(comm, nodes, [&](std::int64_t i) { return nodes.d(i); });
 }
 
-// Bands of d, by which it is told how well the nodes follow it: equal in log d between the least
-// and the largest d, one where d is nearly constant.
+// Bands of d in which statistics are reported. They have equal widths in log d between the smallest
+// and the largest d. There is one band if d is nearly constant.
 class SpacingBands {
  public:
   static constexpr int kMaxBands = 8;
-  // Where d varies by less, bands would tell of noise only.
+  // Ratio of the largest to the smallest d below which there is one band. Statistics of more bands
+  // would show noise only.
   static constexpr double kNearlyConstant = 1.1;
 
   SpacingBands(double min, double max) : count_(max > kNearlyConstant * min ? kMaxBands : 1) {
@@ -51,7 +53,7 @@ class SpacingBands {
   double from(int band) const { return limits_[static_cast<std::size_t>(band)]; }
   double to(int band) const { return limits_[static_cast<std::size_t>(band) + 1]; }
 
-  // By comparisons: a logarithm would take longer than the edge whose band is asked.
+  // Returns the band of d. Comparisons are faster than a logarithm.
   int band_of(double d) const {
     int band = 0;
     for (int k = 1; k < count_; ++k) band += d >= limits_[static_cast<std::size_t>(k)];

@@ -17,19 +17,20 @@ namespace {
 
 constexpr double kTurn = 360;
 
-// What is left of a turn behind the last column.
+// Returns the angle from the last column to the first after a full turn.
 double open_degrees(const DegreeGrid& grid, std::int64_t columns) {
   return kTurn - static_cast<double>(columns - 1) * grid.step[0];
 }
 
-// From one longitude eastwards to another, less than a turn.
+// Returns the angle eastwards from one longitude to another, in [0, 360).
 double degrees_east(double from, double to) {
   const double way = to - from;
   return std::clamp(way - kTurn * std::floor(way / kTurn), 0.0, std::nextafter(kTurn, 0.0));
 }
 
-// In radians, to the nearest place of a meridian between two latitudes. The cosine of the angle to
-// it is a multiple of cos(latitude - nearest): it falls to both sides of the nearest one.
+// Returns the angle to the nearest point of a meridian between two latitudes. [radians] The cosine
+// of the angle to a point of the meridian is a multiple of cos(latitude - nearest), so it decreases
+// on both sides of the nearest point.
 double angle_to_meridian(const Point<3>& direction, double longitude, double low, double high) {
   const Point<3> meridian = direction_at({longitude, 0});
   const double nearest =
@@ -60,7 +61,8 @@ SphereGridSpacing::SphereGridSpacing(DegreeGrid grid, double radius)
   if (!north_) high_[1] = grid_.latitude(grid_.rows - 1) + 0.5 * grid_.step[1];
 }
 
-// A row on the pole itself is one place.
+// Sets the value at a pole if the row comes close to it. The values of a row on the pole itself all
+// become this value.
 void SphereGridSpacing::join_at_pole(double pole, std::int64_t row, std::optional<double>& value) {
   const double away = std::fabs(grid_.latitude(row) - pole) / grid_.step[1];
   if (away > 1 + kRounding) return;

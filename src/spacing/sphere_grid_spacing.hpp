@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing from values on a grid of longitudes and latitudes: linear in both between grid
-// points, and beyond the grid that of its nearer edge. Columns that go all around are joined, and
-// where the grid comes within a step of a pole, the pole has the mean of the row next to it: so d
-// has no jump at the meridian where such a grid begins, nor at poles.
+// The spacing from values on a grid of longitudes and latitudes. It is bilinear between grid
+// points, and outside of the grid it is that of the nearer edge. Columns that go all around are
+// joined. If the grid comes within one step of a pole, the pole has the mean of the adjacent row.
+// Hence d jumps neither at the meridian where such a grid begins nor at the poles.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,11 @@
 
 namespace pnpbs {
 
-// Rows are parallels; longitudes run along them. In degrees.
+// A grid of longitudes and latitudes. Rows are parallels, along which longitudes increase.
+// [degrees]
 struct DegreeGrid {
   std::int64_t columns, rows;
-  Point<2> origin, step;       // longitude and latitude
+  Point<2> origin, step;       // longitude, latitude
   std::vector<double> values;  // [rows][columns]
 
   double longitude(std::int64_t column) const { return at(0, column); }
@@ -29,26 +30,27 @@ struct DegreeGrid {
   }
 };
 
+// A spacing on a sphere, interpolated in a DegreeGrid.
 class SphereGridSpacing : public LocalSpacing<3> {
  public:
-  // By how much columns may miss a full turn, and rows a pole, and still be meant to meet them.
-  // [steps] A step with six digits does so after 100 000 columns.
+  // Tolerance by which columns may miss a full turn, and rows a pole, and still count as meeting
+  // them. [steps] Derived: a step of six digits accumulates this error after 100 000 columns.
   static constexpr double kRounding = 0.1;
 
-  // Of a grid that goes around once at most, with latitudes of the sphere.
+  // `grid` must go around once at most and have valid latitudes.
   SphereGridSpacing(DegreeGrid grid, double radius);
 
   void evaluate(std::int64_t n, const Point<3>* x, double* d) const override;
-  // As of a grid in the plane, with lengths along the sphere.
+  // Returns the hints as for a grid in the plane, with lengths along the sphere.
   SpacingHints<3> spacing_hints() const override;
   std::optional<GivenExtent<3>> extent() const override;
   void distance_to_extent(std::int64_t n, const Point<3>* x, double* distances) const override;
 
-  // Of a column that comes again at the end of a full turn, as at its beginning.
+  // Returns whether the last column is the first one again after a full turn.
   static bool repeats_first_column(const DegreeGrid& grid);
 
  private:
-  // A place between two neighbours, as a part of the way from one to the other.
+  // A position between two adjacent columns, as a share of the step from the first to the second.
   struct Between {
     std::int64_t first, second;
     double part;
@@ -62,10 +64,11 @@ class SphereGridSpacing : public LocalSpacing<3> {
 
   DegreeGrid grid_;
   double radius_;
-  std::int64_t columns_;  // that are different
-  bool closed_;           // the last one is beside the first
+  std::int64_t columns_;  // number of distinct columns
+  bool closed_;           // the last column is adjacent to the first
+  // Values at the poles, if the grid comes close to them.
   std::optional<double> south_, north_;
-  Point<2> low_, high_;  // what it covers
+  Point<2> low_, high_;  // covered longitudes and latitudes
 };
 
 }  // namespace pnpbs

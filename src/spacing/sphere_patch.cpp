@@ -29,15 +29,15 @@ struct SphereCorners {
     }
   }
 
-  // Rounding must not take the value beyond those of the corners.
+  // Clamps an interpolated value to the range of the corners' values, which rounding may leave.
   double within(double rounded) const {
     const auto [min, max] = std::minmax_element(value.begin(), value.end());
     return std::clamp(rounded, *min, *max);
   }
 
-  // Around what lies on the sphere above the simplex. A point of it with parts l_i of the corners
-  // has the square R^2 - sum of l_i l_j |x_i - x_j|^2 over pairs; the sum of l_i l_j is at most
-  // (1 - 1 / N) / 2.
+  // Returns a box around the part of the sphere above the simplex. A point of the simplex with
+  // barycentric coordinates l_i has the squared norm R^2 - sum of l_i l_j |x_i - x_j|^2 over pairs,
+  // and the sum of l_i l_j is at most (1 - 1 / N) / 2.
   Box<3> box(double radius) const {
     Box<3> box{x[0], x[0]};
     double square = 0;
@@ -65,13 +65,13 @@ BoxTree<3> tree_over(const Patch<2, 3>& patch, const std::vector<std::array<std:
   return BoxTree<3>(std::move(boxes));
 }
 
-// Six times the volume of the tetrahedron with the centre, with its sign: by differences, which
-// are small.
+// Returns six times the signed volume of the tetrahedron with the centre of the sphere. Differences
+// are small and keep rounding errors small.
 double volume_below(const std::array<Point<3>, 3>& x) {
   return dot(x[0], cross(difference(x[1], x[0]), difference(x[2], x[0])));
 }
 
-// Exact, so that triangles with a common side leave no gap between them.
+// Returns the exact orientation, so that adjacent triangles leave no gap between them.
 int turn_below(const std::array<Point<3>, 3>& x) { return orientation(x[0], x[1], x[2], kCentre); }
 
 std::array<Point<3>, 3> with(std::array<Point<3>, 3> corners, std::size_t k, const Point<3>& x) {
@@ -79,16 +79,17 @@ std::array<Point<3>, 3> with(std::array<Point<3>, 3> corners, std::size_t k, con
   return corners;
 }
 
-// How much each corner counts at x: what is left with x in its place.
+// Returns the unnormalised barycentric coordinates of the ray through x.
 std::array<double, 3> shares_below(const std::array<Point<3>, 3>& corners, const Point<3>& x) {
   std::array<double, 3> shares;
   for (std::size_t k = 0; k < 3; ++k) shares[k] = volume_below(with(corners, k, x));
   return shares;
 }
 
-// Beyond the triangle rays get long, and at 90 degrees from it none meets its plane. So where they
-// are longer than the radius, the field goes on from there in space, with the mean of the corners
-// at the centre of the sphere: that is bounded.
+// Returns barycentric coordinates for extrapolation outside of the triangle. Far from the triangle
+// rays meet its plane at large distances, and at 90 degrees they do not meet it. Where a ray is
+// longer than the radius, the field is therefore extended in space instead, with the mean of the
+// corners at the centre of the sphere, which is bounded.
 std::array<double, 3> shares_beyond(const std::array<Point<3>, 3>& corners, const Point<3>& x) {
   std::array<double, 3> shares = shares_below(corners, x);
   const double whole = volume_below(corners);
@@ -98,7 +99,7 @@ std::array<double, 3> shares_beyond(const std::array<Point<3>, 3>& corners, cons
   return shares;
 }
 
-// Is x on a ray from the centre through the triangle?
+// Returns whether x lies on a ray from the centre through the triangle.
 bool is_above(const std::array<Point<3>, 3>& corners, const Point<3>& x) {
   const int whole = turn_below(corners);
   for (std::size_t k = 0; k < 3; ++k)
@@ -106,8 +107,8 @@ bool is_above(const std::array<Point<3>, 3>& corners, const Point<3>& x) {
   return true;
 }
 
-// The part of the straight way from a to b after which the ray through the nearest point of the
-// arc between them meets it.
+// Returns the position on the chord from a to b, from 0 to 1, that is below the point of the arc
+// nearest to x.
 double nearest_on_arc(const std::array<Point<3>, 2>& arc, const Point<3>& x) {
   const auto& [a, b] = arc;
   const Point<3> normal = cross(a, difference(b, a));
@@ -145,8 +146,8 @@ void SpherePatch::interpolate(const Point<3>& x, PatchAnswer<2>& best) const {
   });
 }
 
-// The gap is never less than that to the side's box, so that boxes that are farther than the best
-// answer can be passed over without changing it.
+// The gap is at least the distance to the side's box, so skipping boxes that are farther than the
+// best answer does not change the result.
 void SpherePatch::extend(const Point<3>& x, PatchAnswer<2>& best) const {
   by_side_.for_near(
       x, [&] { return best.gap; },

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A patch of triangles on a sphere: linear on each of them, at the point of it on the ray from the
-// centre of the sphere. In space, so that no triangle is different from others: in a chart those
-// about the point that it is projected from are unbounded.
+// A patch of triangles on a sphere. A value is interpolated linearly in the flat triangle, at its
+// intersection with the ray from the centre. All computations are in space, because triangles
+// around the projection point are unbounded in a chart.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace pnpbs {
 
-// The interface of NodalPatch.
+// A patch on a sphere with the interface of NodalPatch.
 class SpherePatch {
  public:
   static constexpr int kDim = 2, kIn = 3;
 
   SpherePatch() = default;
-  // Its nodes lie on the sphere of this radius.
+  // The nodes of `patch` must lie on the sphere of this radius.
   SpherePatch(Patch<2, 3> patch, double radius);
 
-  // Points lie on the sphere. Gaps are squared distances in space.
+  // x must lie on the sphere. The gap of an answer is the squared distance in space.
   void interpolate(const Point<3>& x, PatchAnswer<2>& best) const;
   void extend(const Point<3>& x, PatchAnswer<2>& best) const;
 

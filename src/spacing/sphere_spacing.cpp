@@ -23,7 +23,7 @@ void SphereSpacing::evaluate(std::int64_t n, const Point<2>* u, double* d) const
       });
 }
 
-// Without those so near to the point that is projected from that the chart has no place for them.
+// Omits points so close to the chart's projection point that the chart cannot represent them.
 SpacingHints<2> SphereSpacing::spacing_hints() const {
   const SpacingHints<3> along = along_->spacing_hints();
   SpacingHints<2> known;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing along a sphere, in a chart of it: there it is what the chart makes of that length.
+// A spacing on a sphere, converted to a chart of the sphere.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,14 @@
 
 namespace pnpbs {
 
+// A spacing in a chart: the spacing on the sphere times the stretch of the chart.
 class SphereSpacing : public LocalSpacing<2> {
  public:
-  // along: d at points of the sphere.
+  // `along` is the spacing at points of the sphere.
   SphereSpacing(std::shared_ptr<const LocalSpacing<3>> along, const StereographicChart& chart)
       : along_(std::move(along)), chart_(chart) {}
 
-  // Throws Error(ErrorKind::spacing) where d is not finite and greater than 0.
+  // Throws Error(ErrorKind::spacing) if d is not finite and greater than 0.
   void evaluate(std::int64_t n, const Point<2>* u, double* d) const override;
   SpacingHints<2> spacing_hints() const override;
   std::optional<GivenExtent<2>> extent() const override;
@@ -27,8 +28,8 @@ class SphereSpacing : public LocalSpacing<2> {
   StereographicChart chart_;
 };
 
-// Returns the spacing in the chart for make(radius), one along the sphere; null for an embedding
-// that is not of a sphere.
+// Returns the spacing in the chart of make(radius), which makes a spacing on the sphere. Returns
+// null if the embedding is not that of a sphere.
 template <class Make>
 std::shared_ptr<const LocalSpacing<2>> spacing_on_sphere(const Embedding<2>& embedding,
                                                          const Make& make) {

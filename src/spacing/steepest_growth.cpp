@@ -11,6 +11,7 @@ namespace pnpbs {
 namespace {
 
 template <int Dim>
+// A point at which d is sampled, in a leaf of this rank.
 struct Sample {
   std::int32_t leaf;
   Point<Dim> x;
@@ -29,7 +30,7 @@ std::vector<Sample<Dim>> samples_of_own(const SizedTree<Dim>& map,
     const auto add_if_inside = [&](const Point<Dim>& x) {
       if (map.inside_in_leaf(leaf, x)) samples.push_back({leaf, x, false});
     };
-    // On its sides a jump between two leaves shows in one of them.
+    // Samples on the faces ensure that a jump between two leaves shows in one of them.
     add_if_inside(middle);
     for (int k = 0; k < Dim; ++k)
       for (const double off : {-0.5, 0.5}) {
@@ -47,12 +48,13 @@ std::vector<Sample<Dim>> samples_of_own(const SizedTree<Dim>& map,
 
 template <int Dim>
 struct Slope {
-  double growth, d;  // d at its lower end
+  double growth, d;  // d: the smaller of the two values
   Point<Dim> at;
   bool in_domain = true;
 };
 
 template <int Dim>
+// Returns the steepest slope in each leaf that this rank owns.
 std::vector<Slope<Dim>> slopes_of_own(const SizedTree<Dim>& map,
                                       const std::function<bool(std::int32_t)>& owns_leaf,
                                       const SpacingEvaluator<Dim>& spacing,
@@ -62,11 +64,11 @@ std::vector<Slope<Dim>> slopes_of_own(const SizedTree<Dim>& map,
   for (const Sample<Dim>& sample : samples) points.push_back(sample.x);
   std::vector<double> d(points.size());
   spacing(std::ssize(points), points.data(), d.data());
-  std::vector<Slope<Dim>> slopes;  // the steepest of each leaf
+  std::vector<Slope<Dim>> slopes;  // one for each leaf
   for (std::size_t a = 0; a < samples.size(); ++a) {
     const std::int32_t leaf = samples[a].leaf;
     if (a == 0 || samples[a - 1].leaf != leaf) slopes.push_back({0, d[a], points[a]});
-    // Those on the boundary are the last of their leaf, and not compared with each other.
+    // Boundary samples come last in their leaf and are not compared with each other.
     if (samples[a].on_boundary) continue;
     for (std::size_t b = a + 1; b < samples.size() && samples[b].leaf == leaf; ++b) {
       const double growth = rule.between(points[a], d[a], points[b], d[b]);
@@ -78,7 +80,8 @@ std::vector<Slope<Dim>> slopes_of_own(const SizedTree<Dim>& map,
   return slopes;
 }
 
-// Most places are not asked whether they are this rank's.
+// Appends the steepest known slope that belongs to this rank. Sorting first avoids most calls of
+// is_own.
 template <int Dim, class IsOwn>
 void add_steepest(std::vector<Slope<Dim>>& known, const IsOwn& is_own,
                   std::vector<Slope<Dim>>& slopes) {
@@ -87,7 +90,8 @@ void add_steepest(std::vector<Slope<Dim>>& known, const IsOwn& is_own,
   if (first != known.end()) slopes.push_back(*first);
 }
 
-// Of those at least as steep as that; all that are equally fine.
+// Appends the known slopes of this rank that are at least as steep as `growth` and have the
+// smallest d, including ties.
 template <int Dim, class IsOwn>
 void add_finest(std::vector<Slope<Dim>>& known, double growth, const IsOwn& is_own,
                 std::vector<Slope<Dim>>& slopes) {
@@ -121,7 +125,8 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const SizedTree<Di
       known_slopes.push_back({growth, d, at, in_domain});
     add_steepest<Dim>(known_slopes, is_own, slopes);
   });
-  // Of the slopes that are left, over all ranks, those with the largest of something.
+  // Keeps the slopes that have the largest value over all ranks, and returns this value.
+  // Collective.
   const auto keep_max = [&](const auto& value) {
     double own = -std::numeric_limits<double>::infinity();
     for (const Slope<Dim>& slope : slopes) own = std::max(own, value(slope));

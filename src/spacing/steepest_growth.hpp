@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the spacing grows fastest: bubbles that touch must not differ too much in size.
+// Measures the fastest growth of the spacing, because touching bubbles must not differ too much in
+// size.
 #pragma once
 
 #include <functional>
@@ -13,14 +14,17 @@
 namespace pnpbs {
 
 template <int Dim>
+// The largest growth of d and a point where d grows fast.
 struct SteepestGrowth {
-  double growth = 0;  // of d, per unit of length
-  Point<Dim> at{};    // the finest of the places where it is at least half of that
+  double growth = 0;  // [d per unit of length]
+  Point<Dim> at{};    // the point with the smallest d among those with at least half of that growth
 };
 
-// By samples in the middle and on the sides of the leaves that this rank owns, and at the boundary
-// nodes in them: of each pair with one inside the domain and no boundary between. The same on any
-// number of ranks. Lengths are those that users measure. Collective.
+// Measures the growth of d between samples: the centre and the face centres of each leaf that this
+// rank owns, and the boundary nodes in it. Pairs count if one of them lies inside and no boundary
+// is between them. The slopes of `known` count as well. Lengths are those that users measure. The
+// result is the same on any number of ranks.
+// Collective.
 template <int Dim>
 SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const SizedTree<Dim>& map,
                                     const std::function<bool(std::int32_t)>& owns_leaf,

@@ -14,15 +14,15 @@ namespace pnpbs {
 
 namespace {
 
-// A triangle of at least this quality has at least that shape: of all with the same smallest angle
-// the isosceles one has the largest quality.
+// Returns a quality that implies a triangle_shape() of at least `shape`. Among the triangles with
+// the same smallest angle an isosceles one has the largest quality.
 double quality_that_suffices(double shape) {
   const double angle = std::asin(std::min(1.0, shape / method::kAngleWeight));
   const double sine = std::sin(0.25 * (M_PI - angle));
   return std::max(shape, 8 * std::sin(0.5 * angle) * sine * sine);
 }
 
-// Where to look, ever nearer.
+// Directions of the trial positions.
 constexpr double kDiagonal = 0.70710678118654752;
 constexpr std::array<Point<2>, 8> kDirections{{{1, 0},
                                                {kDiagonal, kDiagonal},
@@ -62,7 +62,7 @@ BadTriangleRepair::BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars
     if (nodes.moves(i) && stars.closed(i)) candidates_.push_back({i});
 }
 
-// Of the triangles around node i if it were at x.
+// Computes the values of the triangles around node i with the node at x.
 void BadTriangleRepair::find_values(std::int64_t i, const Point<2>& x,
                                     std::vector<double>& values) const {
   values.clear();
@@ -71,7 +71,7 @@ void BadTriangleRepair::find_values(std::int64_t i, const Point<2>& x,
   });
 }
 
-// Does a triangle get worse that is or becomes bad?
+// Returns whether a triangle gets worse that is or becomes bad.
 bool BadTriangleRepair::spoils(const std::vector<double>& before,
                                const std::vector<double>& after) const {
   for (std::size_t t = 0; t < after.size(); ++t)
@@ -79,6 +79,8 @@ bool BadTriangleRepair::spoils(const std::vector<double>& before,
   return false;
 }
 
+// Returns x, moved off the boundary edges as far as necessary, or the current position of node i if
+// that fails.
 Point<2> BadTriangleRepair::allowed_place(std::int64_t i, const Point<2>& x) const {
   if (!near_edges_.any(i)) return x;
   const ClearPosition<2> kept =
@@ -86,6 +88,8 @@ Point<2> BadTriangleRepair::allowed_place(std::int64_t i, const Point<2>& x) con
   return kept.clear ? kept.position : nodes_.position(i);
 }
 
+// Searches for the position of the candidate that improves its worst triangle most, at ever smaller
+// distances.
 void BadTriangleRepair::look_around(Candidate& candidate) const {
   const std::int64_t i = candidate.node;
   const Point<2> x = nodes_.position(i);
@@ -116,7 +120,7 @@ const BadTriangleRepair::Candidate* BadTriangleRepair::candidate_of(std::int64_t
   return found != candidates_.end() && found->node == i ? &*found : nullptr;
 }
 
-// The contest: neighbours would change each other's triangles.
+// Returns whether the candidate wins against its neighbours, which would change the same triangles.
 bool BadTriangleRepair::comes_first(const Candidate& candidate) const {
   return for_rings(stars_, candidate.node, 1, [&](std::int64_t j, int) {
     const Candidate* other = candidate_of(j);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repair of the second kind of defect: bad triangles. Their nodes go a little way where the worst
-// triangle around them gets better and none that is bad gets worse (optimisation-based smoothing:
-// L. Freitag, M. Jones, P. Plassmann, Proc. 4th International Meshing Roundtable, 1995, 47-58).
-// They are few, so that it costs nearly nothing.
+// Repair of bad triangles. Their nodes move a short way if this improves the worst triangle around
+// the node and makes no bad triangle worse (optimisation-based smoothing: L. Freitag, M. Jones, P.
+// Plassmann, Proc. 4th International Meshing Roundtable, 1995, 47-58). Bad triangles are few, so
+// the cost is negligible.
 #pragma once
 
 #include <cstdint>
@@ -16,42 +16,46 @@
 
 namespace pnpbs {
 
+// Parameters of the repair of bad triangles.
 struct RepairRule {
   std::int64_t rounds;
-  double bad_below;                          // shape of a triangle
-  double worst_below = method::kWorstBelow;  // these first
+  double bad_below;                          // bound of bad triangles, by triangle_shape()
+  double worst_below = method::kWorstBelow;  // bound of the triangles that are repaired first
 };
 
-// The quality of a triangle, 2 r_in / R, or the sine of its smallest angle times a weight if that
-// is less: 38.5 degrees count as much as a quality of 0.85.
+// Returns the quality of a triangle, 2 r_in / R, or kAngleWeight times the sine of its smallest
+// angle if that is less. An angle of 38.5 degrees counts as much as a quality of 0.85.
 double triangle_shape(const Point<2>& a, const Point<2>& b, const Point<2>& c);
 
-// Which triangles are bad: those with a value below the bound; in the plane, or the chart of a
-// sphere, none of at least that quality is.
+// The criterion for bad triangles: those whose value is below `bad_below`. No triangle is bad that
+// has at least `sufficient_quality` in the plane or in the chart of a sphere.
 struct TriangleMeasure {
   std::function<double(const Point<2>&, const Point<2>&, const Point<2>&)> value_of;
   double bad_below;
   double sufficient_quality;
 };
+// Returns the criterion by triangle_shape().
 TriangleMeasure measure_by_shape(double bad_below);
 
-// The stars must stay as they are in between.
+// The repair of the bad triangles of this rank, in rounds. All references must outlive this object,
+// and the stars must not change during its life.
 class BadTriangleRepair {
  public:
-  // Finds the nodes of bad triangles.
+  // Finds the moving nodes that may have bad triangles.
   BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
                     const SizedTree<2>& map, TriangleMeasure measure);
 
-  // Moves the nodes of bad triangles, of neighbours only the one with the worst. Returns how many
-  // of this rank's. Ghosts must be exact.
+  // Moves nodes of bad triangles; of adjacent candidates only the one with the worst triangle
+  // moves. Returns the number of owned nodes moved. Ghosts must be exact.
   std::int64_t round();
 
  private:
-  // A node of a bad triangle, and where it wants to go.
+  // A node that may have a bad triangle, with the best position found for it.
   struct Candidate {
     std::int32_t node;
+    // whether a better position was found
     bool wants = false;
-    double worst = 0;  // value around it
+    double worst = 0;  // smallest value of the triangles around it
     Point<2> goal{};
   };
 
@@ -67,7 +71,7 @@ class BadTriangleRepair {
   const NearEdges& near_edges_;
   const SizedTree<2>& map_;
   const TriangleMeasure measure_;
-  std::vector<Candidate> candidates_;  // in the order of memory
+  std::vector<Candidate> candidates_;  // in memory order
 };
 
 }  // namespace pnpbs

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kEquilateralHeight = 0.8660254037844386;  // sqrt(3) / 2
 
-// Heights over the edge at which the boundary must be far, in heights of the apex: on the way to
-// it, at the apex, and where the second row will be.
+// Heights over the edge at which other parts of the boundary must be far, in units of the apex
+// height: half-way to the apex, at the apex, and in the second row.
 constexpr std::array<double, 3> kLookedAt{0.5, 1, 2};
 
 }  // namespace
@@ -51,7 +51,7 @@ std::int64_t BoundaryApexes::over(std::int32_t edge, bool left) const {
   return apexes_[static_cast<std::size_t>(apex)].stands ? apex : -1;
 }
 
-// As long as d asks for, and at no end or corner of its curve.
+// Returns whether the edge length agrees with d and neither end is a corner or an end of the curve.
 bool BoundaryApexes::is_regular(std::int32_t edge) const {
   const BoundaryEdge& e = map_.facet(edge);
   const auto& [a, b] = map_.corners(edge);
@@ -60,6 +60,7 @@ bool BoundaryApexes::is_regular(std::int32_t edge) const {
          goes_straight_on(e.begin) && goes_straight_on(e.end);
 }
 
+// Returns whether exactly two edges meet at the boundary node, with a turn of less than 30 degrees.
 bool BoundaryApexes::goes_straight_on(std::int32_t boundary_node) const {
   const std::int32_t first = sectors_.begin(boundary_node);
   if (sectors_.end(boundary_node) - first != 2) return false;
@@ -73,7 +74,8 @@ bool BoundaryApexes::goes_straight_on(std::int32_t boundary_node) const {
          method::kRegularTurnCosine * std::sqrt(dot(back, back) * dot(ahead, ahead));
 }
 
-// Stands unless something of the boundary is near.
+// Builds the apex on this side of the edge. It stands if the edge is regular and no other part of
+// the boundary is near.
 BoundaryApex BoundaryApexes::made_over(std::int32_t edge, bool left) const {
   const BoundaryEdge& e = map_.facet(edge);
   const auto& [a, b] = map_.corners(edge);
@@ -95,8 +97,8 @@ BoundaryApex BoundaryApexes::made_over(std::int32_t edge, bool left) const {
   return apex;
 }
 
-// Does nothing of the boundary lie between it and the middle of its edge, such as the other side of
-// a strait?
+// Returns whether no other boundary edge, such as the opposite side of a strait, crosses the
+// segment from `middle` to the apex.
 bool BoundaryApexes::is_visible(const BoundaryApex& apex, const Point<2>& middle) const {
   bool visible = true;
   const Point<2>& x = apex.place;
@@ -109,8 +111,8 @@ bool BoundaryApexes::is_visible(const BoundaryApex& apex, const Point<2>& middle
   return visible;
 }
 
-// Of two that are too close to each other neither stands: whichever did would leave an edge beside
-// it without one.
+// Returns whether another standing apex is too close to this one. Both are removed then: keeping
+// either would leave an adjacent edge without an apex.
 bool BoundaryApexes::is_crowded(const BoundaryApex& apex) const {
   const auto is_close = [&](std::int64_t k) {
     if (k < 0) return false;
@@ -120,7 +122,7 @@ bool BoundaryApexes::is_crowded(const BoundaryApex& apex) const {
                method::kApexesApart * 0.5 * (apex.edge_length + other.edge_length);
   };
   bool crowded = false;
-  constexpr double kReach = 2;  // an edge farther away has its apex farther than kApexesApart
+  constexpr double kReach = 2;  // apexes of edges farther away are farther than kApexesApart
   map_.for_facets_near(apex.place, kReach * apex.edge_length, [&](std::int32_t edge) {
     crowded = crowded || is_close(over(edge, false)) || is_close(over(edge, true));
   });

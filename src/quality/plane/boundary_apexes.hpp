@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where an advancing front would put its first nodes: over each regular edge of the boundary, the
-// third corner of an equilateral triangle. They follow from the boundary alone, so that all ranks
-// agree on them.
+// The apexes over the edges of the boundary: the positions at which an advancing front would put
+// its first nodes. The apex over a regular edge is the third corner of an equilateral triangle.
+// Apexes depend on the boundary alone, so all ranks compute the same ones.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,29 @@
 
 namespace pnpbs {
 
+// The apex over one side of a boundary edge.
 struct BoundaryApex {
   std::int32_t edge;
   double edge_length;
   Point<2> place{};
-  bool stands = false;  // else no node should come there
+  bool stands = false;  // false: no node may be put at this apex
 };
 
+// The apexes over a set of boundary edges.
 class BoundaryApexes {
  public:
-  // Over these edges, on the sides that are inside the domain. spacing(b): d at boundary node b. An
-  // edge beside these may be missing if it does not matter whether those near it stand.
+  // Builds the apexes over `edges` on the sides that lie inside the domain. spacing(b) returns d at
+  // boundary node b. All references must outlive this object. Whether an apex stands also depends
+  // on the apexes of edges near it, so `edges` must contain all edges close to those of interest.
   BoundaryApexes(const SizedTree<2>& map, const IncidentSectors& sectors,
                  const std::function<double(std::int32_t)>& spacing,
                  std::vector<std::int32_t> edges);
 
-  // Those that stand and those that do not, in the order of the edges.
+  // Returns all apexes, standing or not, in the order of the edges.
   const std::vector<BoundaryApex>& all() const { return apexes_; }
-  // The one on that side of the edge, by its place among all; -1 where none stands.
+  // Returns the index in all() of the apex on this side of the edge, or -1 if none stands there.
   std::int64_t over(std::int32_t edge, bool left) const;
-  // Those for which goes(apex) holds stand no longer.
+  // Removes the apexes for which goes(apex) is true: they stand no longer.
   template <class Goes>
   void drop(const Goes& goes) {
     for (BoundaryApex& apex : apexes_) apex.stands = apex.stands && !goes(apex);
@@ -48,8 +51,8 @@ class BoundaryApexes {
   const SizedTree<2>& map_;
   const IncidentSectors& sectors_;
   const std::function<double(std::int32_t)>& spacing_;
-  std::vector<std::int32_t> edges_;   // by increasing index
-  std::vector<BoundaryApex> apexes_;  // of each edge the one on its right, then that on its left
+  std::vector<std::int32_t> edges_;   // ascending
+  std::vector<BoundaryApex> apexes_;  // two for each edge: right side, then left side
 };
 
 }  // namespace pnpbs

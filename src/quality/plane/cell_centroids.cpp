@@ -11,7 +11,7 @@ namespace pnpbs {
 
 namespace {
 
-// A point of the plane, or of the unit sphere, and d there.
+// A point of the plane or of the unit sphere, with d at this point.
 template <std::size_t N>
 struct CellCorner {
   std::array<double, N> x;
@@ -31,7 +31,8 @@ std::array<double, N> way(const std::array<double, N>& from, const std::array<do
   return combined(1, to, -1, from);
 }
 
-// A point of a flat triangle with its corners there, as one of the plane or the sphere.
+// Maps a point of a flat triangle to the surface: the identity in the plane, the central projection
+// on the sphere.
 Point<2> raised(const Point<2>& x) { return x; }
 Point<3> raised(const Point<3>& x) { return unit_vector(x); }
 
@@ -40,9 +41,10 @@ CellCorner<N> middle(const CellCorner<N>& a, const CellCorner<N>& b) {
   return {raised(combined(0.5, a.x, 0.5, b.x)), 0.5 * (a.d + b.d)};
 }
 
-// The circumcentre of a flat triangle has the barycentric coordinates a^2 (b^2 + c^2 - a^2), a
-// being the side opposite. Taken along its ray it is the one on the sphere. d is linear there, too,
-// but not far beyond an obtuse triangle, where it might be negative.
+// Returns the circumcentre of a triangle. The barycentric coordinates of a flat triangle's
+// circumcentre are a^2 (b^2 + c^2 - a^2), where a is the opposite side; the central projection of
+// this point is the one on the sphere. d is extrapolated linearly and clamped, because far outside
+// an obtuse triangle it could be negative.
 template <std::size_t N>
 CellCorner<N> circumcentre(const CellCorner<N>& o, const CellCorner<N>& a, const CellCorner<N>& b) {
   const auto oa = way(o.x, a.x), ob = way(o.x, b.x), ab = way(a.x, b.x);
@@ -55,7 +57,7 @@ CellCorner<N> circumcentre(const CellCorner<N>& o, const CellCorner<N>& a, const
   return {raised(combined(1, o.x, 1, from_o)), std::clamp(d, 0.5 * min, 2 * max)};
 }
 
-// The point of the edge from a to b that is as far from o as from a.
+// Returns the point of the edge from a to b that is equally far from o and a.
 template <std::size_t N>
 CellCorner<N> crossing(const CellCorner<N>& o, const CellCorner<N>& a, const CellCorner<N>& b) {
   const auto ao = way(a.x, o.x), ab = way(a.x, b.x);
@@ -63,8 +65,9 @@ CellCorner<N> crossing(const CellCorner<N>& o, const CellCorner<N>& a, const Cel
   return {raised(combined(1, a.x, share, ab)), a.d + share * (b.d - a.d)};
 }
 
-// Twice the area of a flat triangle as it counts at a point of it that is to be taken along its ray
-// to the sphere, without the factor of that point; in the plane that area.
+// Returns twice the area of a flat triangle with edge vectors a and b from o. On a sphere this is
+// the constant factor of the projected area element; raised_with_area() returns the factor that
+// depends on the point.
 double twice_area(const Point<2>&, const Point<2>& a, const Point<2>& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
@@ -72,7 +75,7 @@ double twice_area(const Point<3>& o, const Point<3>& a, const Point<3>& b) {
   return dot(o, cross(a, b));
 }
 
-// Such a point once it is taken there, and that factor.
+// A projected point and the point's factor of the projected area element.
 template <std::size_t N>
 struct Raised {
   std::array<double, N> x;
@@ -84,15 +87,15 @@ Raised<3> raised_with_area(const Point<3>& x) {
   return {{scale * x[0], scale * x[1], scale * x[2]}, scale * scale * scale};
 }
 
-// Mass and first moment about the node of the parts of its cell.
+// The mass and the first moment about the node of its cell, summed over triangles.
 template <std::size_t N>
 class CellMoments {
  public:
   explicit CellMoments(const CellCorner<N>& node) : node_(node) {}
 
-  // The triangle of the node and these two, negative if they turn right: by the middles of its
-  // edges, which is exact for polynomials of degree 2 (A. Stroud, Approximate calculation of
-  // multiple integrals, 1971, formula T2: 2-1).
+  // Adds the triangle of the node, a and b, with negative mass if it is oriented clockwise. The
+  // quadrature uses the midpoints of the edges and is exact for polynomials of degree 2 (A. Stroud,
+  // Approximate calculation of multiple integrals, 1971, formula T2: 2-1).
   void add(const CellCorner<N>& a, const CellCorner<N>& b) {
     const double part = twice_area(node_.x, way(node_.x, a.x), way(node_.x, b.x));
     add_point(part, node_, a);
@@ -118,12 +121,13 @@ class CellMoments {
 
 template <std::size_t N>
 struct CellNeighbour {
-  CellCorner<N> corner, halfway;  // that of the edge from the node
+  CellCorner<N> corner, halfway;  // `halfway` is the middle of the edge from the node
   bool moves;
 };
 
-// Adds what of a cell belongs to a triangle with its node. Where the triangle is obtuse that
-// reaches beyond it or is less than nothing, and what others add makes up for it.
+// Adds the part of a cell that belongs to one triangle of its node. For an obtuse triangle this
+// part extends beyond the triangle or is negative; the parts of the adjacent triangles compensate
+// for it.
 template <std::size_t N>
 void add_part(const CellCorner<N>& o, const CellNeighbour<N>& from, const CellNeighbour<N>& to,
               CellMoments<N>& cell) {
@@ -140,7 +144,8 @@ void add_part(const CellCorner<N>& o, const CellNeighbour<N>& from, const CellNe
   cell.add(centre, to.halfway);
 }
 
-// Of a closed star. corner_of(j) is node j as a corner.
+// Returns the centroid of the cell of node i, whose star must be closed. corner_of(j) returns node
+// j as a CellCorner.
 template <std::size_t N, class CornerOf>
 Point<N> centroid(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
                   const CornerOf& corner_of) {
@@ -166,7 +171,7 @@ Point<N> centroid(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_
 
 Point<2> CellCentroids::of(std::int64_t i) const {
   if (!embedding_.is_sphere()) {
-    const Point<2> origin = nodes_.position(i);  // so that little cancels
+    const Point<2> origin = nodes_.position(i);  // limits cancellation
     const Point<2> from_there = centroid<2>(nodes_, stars_, i, [&](std::int64_t j) {
       return CellCorner<2>{way(origin, nodes_.position(j)), nodes_.d(j)};
     });

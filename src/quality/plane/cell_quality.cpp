@@ -15,20 +15,21 @@ namespace pnpbs {
 
 namespace {
 
-// What is worse: the larger value, or the smaller one?
+// The direction in which a figure gets worse.
 enum class Worse { larger, smaller };
 
+// Number, sum and worst value of a figure on this rank.
 struct FigureSums {
   std::int64_t number = 0;
   FixedPointSum sum;
-  double worst = -std::numeric_limits<double>::infinity();  // or less of it, if smaller is worse
+  double worst = -std::numeric_limits<double>::infinity();  // negated if smaller values are worse
 
-  // Triangles that are nearly flat have circumcentres anywhere: one of them must not hide all
-  // others in a mean.
+  // Adds a bounded value. The circumcentre of a nearly flat triangle may be anywhere, and a single
+  // one must not dominate the mean.
   void add(double value, Worse worse) {
     constexpr double kMost = 33;
     const double bounded = worse == Worse::larger ? (value < kMost ? value : kMost)
-                                                  : (value > 0 ? value : 0);  // also if it is NaN
+                                                  : (value > 0 ? value : 0);  // 0 for NaN
     ++number;
     sum.add(bounded);
     worst = std::max(worst, worse == Worse::larger ? bounded : -bounded);
@@ -45,6 +46,7 @@ struct FigureSums {
   }
 };
 
+// Sums of the figures of a CellShape.
 struct ShapeSums {
   enum Figure : std::size_t { edge_ratio, area_ratio, dual_offset, kFigures };
   static constexpr std::array<Worse, kFigures> kWorse{Worse::smaller, Worse::smaller,
@@ -61,6 +63,7 @@ struct ShapeSums {
   }
 };
 
+// All sums that a rank contributes to a CellQuality.
 struct CellSums {
   std::int64_t cells = 0, uncrossed = 0;
   FixedPointSum offset;
@@ -77,7 +80,7 @@ struct CellSums {
   }
 };
 
-// With room for the cell of a node, which nobody adds up.
+// Sums of one thread, with scratch storage for a cell.
 template <int N>
 struct CellWork {
   CellSums sums;
@@ -86,7 +89,8 @@ struct CellWork {
   void add(const CellWork& other) { sums.add(other.sums); }
 };
 
-// What is known on this rank, step by step.
+// The measurement of this rank's cells. It has two passes, because the second requires the areas at
+// ghosts.
 template <int N>
 class CellMeasurement {
  public:
@@ -99,7 +103,7 @@ class CellMeasurement {
         centroids_(measured.nodes, stars, measured.embedding),
         areas_(make_view<double>("pnpbs::cell_areas", measured.nodes.count)) {}
 
-  // All but the areas beside each other.
+  // Computes all sums but those of area ratios, and the areas of the cells.
   CellSums sums_of_cells() {
     return sums_over("pnpbs::measure_cells", nodes_.count, CellWork<N>(),
                      [&](std::int64_t i, CellWork<N>& work) {
@@ -108,9 +112,9 @@ class CellMeasurement {
                      })
         .sums;
   }
-  // Of the owned nodes; 0 without a cell.
+  // Returns the area of each owned node's cell; 0 for nodes without a measured cell.
   const View<double>& areas() const { return areas_; }
-  // Once those of ghosts are filled.
+  // Computes the sums of area ratios. The areas at ghosts must be filled before.
   CellSums sums_of_areas() const {
     return sums_over("pnpbs::measure_cell_areas", nodes_.count, CellSums(),
                      [&](std::int64_t i, CellSums& sums) {
@@ -146,7 +150,7 @@ class CellMeasurement {
     });
   }
 
-  // An edge counts at its end with the lesser id.
+  // Returns whether edge (i, j) is counted at node i: at its end with the smaller id.
   bool counts_here(std::int64_t i, std::int64_t j) const { return nodes_.id(i) < nodes_.id(j); }
   int band_of_edge(std::int64_t i, std::int64_t j) const {
     return bands_.count() == 1 ? 0 : bands_.band_of(0.5 * (measured_.d(i) + measured_.d(j)));
@@ -160,7 +164,7 @@ class CellMeasurement {
   const View<double> areas_;
 };
 
-// Of this rank. Collective.
+// Returns the sums of this rank. Collective: areas at ghosts are exchanged.
 template <int N>
 CellSums local_sums(const Communicator& comm, const MeasuredNodes<2>& measured,
                     const DelaunayStars& stars, const SpacingBands& bands,
@@ -176,7 +180,7 @@ CellSums local_sums(const Communicator& comm, const MeasuredNodes<2>& measured,
   return sums;
 }
 
-// Those of all ranks. Collective.
+// Replaces the sums of this rank by those of all ranks. Collective.
 void add_ranks(const Communicator& comm, CellSums& sums) {
   std::vector<std::int64_t> numbers{sums.cells, sums.uncrossed};
   std::vector<FixedPointSum> values{sums.offset};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sweep that takes every inner node to the centroid of its Voronoi cell (S. Lloyd, IEEE Trans.
-// Inf. Theory 28, 1982, 129-137), as far as the guard of the finishing sweeps lets it.
+// One sweep of Lloyd's iteration: every inner node moves to the centroid of its Voronoi cell (S.
+// Lloyd, IEEE Trans. Inf. Theory 28, 1982, 129-137), unless the guard of the finishing sweeps
+// rejects the move.
 #pragma once
 
 #include "quality/plane/cell_centroids.hpp"
@@ -8,7 +9,7 @@
 
 namespace pnpbs {
 
-// Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.
+// Runs one sweep. `proposed` and `allowed` are scratch arrays with one entry per node.
 void centroidal_sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
                       const SizedTree<2>& map, const Embedding<2>& embedding, const SweepRule& rule,
                       Field<2>& proposed, View<char>& allowed);

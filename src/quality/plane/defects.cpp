@@ -15,7 +15,7 @@ namespace pnpbs {
 
 namespace {
 
-// What the defects are found from.
+// The input of the search for defects.
 struct DefectInput {
   const Nodes<2>& nodes;
   const DelaunayStars& stars;
@@ -23,14 +23,14 @@ struct DefectInput {
   const std::function<bool(const Point<2>&, double)>& fits;
 };
 
-// A defect, known by one of its nodes, and its best repair.
+// A defect, identified by one of its nodes, and its best repair.
 struct Defect {
   std::int32_t node;
-  std::int64_t id;         // of the node
-  double severity;         // loss of the triangles around it
-  double gain = 0;         // in loss of the patch; 0: none pays
-  std::int32_t goes = -1;  // -1: one comes
-  Point<2> place{};        // where
+  std::int64_t id;         // of that node
+  double severity;         // sum of (1 - quality)^2 of the triangles around the node
+  double gain = 0;         // reduction of that sum in the patch; 0: no repair pays
+  std::int32_t goes = -1;  // node to delete; -1: insert one
+  Point<2> place{};        // position of the node to insert
 
   bool is_worse_than(const Defect& other) const {
     return severity > other.severity || (severity == other.severity && id > other.id);
@@ -46,8 +46,8 @@ bool is_inner(const DefectInput& in, std::int64_t i) {
   return in.nodes.moves(i) && in.stars.closed(i) && in.stars.needs(i) == 0;
 }
 
-// Calls visit(j) for the neighbours of an inner node with five or seven that have as many, from the
-// one with the smaller id.
+// Calls visit(j) for the inner neighbours of node i that have as many neighbours as i, if that is
+// five or seven. Each pair is visited only from its node with the smaller id.
 template <class Visit>
 void for_alike(const DefectInput& in, std::int64_t i, const Visit& visit) {
   const std::int32_t n = in.stars.size(i);
@@ -57,8 +57,8 @@ void for_alike(const DefectInput& in, std::int64_t i, const Visit& visit) {
   });
 }
 
-// Calls visit(j, k) for the bad triangles (i, j, k) around an inner node, from the inner one with
-// the smallest id.
+// Calls visit(j, k) for the bad triangles (i, j, k) around inner node i. Each triangle is visited
+// only from its inner node with the smallest id.
 template <class Visit>
 void for_bad_triangles(const DefectInput& in, std::int64_t i, const Visit& visit) {
   const Point<2> x = in.nodes.position(i);
@@ -83,6 +83,8 @@ bool is_defect(const DefectInput& in, std::int64_t i) {
   return defect;
 }
 
+// Returns the sum of (1 - quality)^2 of the triangles around node i. The terms are sorted so that
+// the sum has the same bits on all ranks.
 double severity_of(const DefectInput& in, std::int64_t i) {
   const Point<2> x = in.nodes.position(i);
   std::vector<double> terms;
@@ -95,7 +97,7 @@ double severity_of(const DefectInput& in, std::int64_t i) {
   return std::accumulate(terms.begin(), terms.end(), 0.0);
 }
 
-// In the order of memory.
+// Returns all defects in memory order.
 std::vector<Defect> find_defects(const DefectInput& in) {
   const View<char> defect = make_view<char>("pnpbs::defects::found", in.nodes.count);
   for_each("pnpbs::defects::find", in.nodes.count,
@@ -106,6 +108,7 @@ std::vector<Defect> find_defects(const DefectInput& in) {
   return defects;
 }
 
+// Returns the defect at node i, or nullptr.
 const Defect* defect_at(const std::vector<Defect>& defects, std::int64_t i) {
   const auto found =
       std::lower_bound(defects.begin(), defects.end(), i,
@@ -113,7 +116,7 @@ const Defect* defect_at(const std::vector<Defect>& defects, std::int64_t i) {
   return found != defects.end() && found->node == i ? &*found : nullptr;
 }
 
-// Is none of the defects within so many rings ahead of this one?
+// Returns whether ahead(other, defect) is false for all other defects within `rings` rings.
 template <class Ahead>
 bool leads(const DefectInput& in, const std::vector<Defect>& defects, const Defect& defect,
            int rings, const Ahead& ahead) {
@@ -125,7 +128,8 @@ bool leads(const DefectInput& in, const std::vector<Defect>& defects, const Defe
 
 // ------------------------------------------------------------------ trying repairs -------------
 
-// All that may help a defect, in an order that is the same on all ranks: the first of equals wins.
+// The search for the best repair of one defect. Repairs are tried in an order that is the same on
+// all ranks, and the first of equal ones wins.
 class Trial {
  public:
   Trial(const DefectInput& in, Defect& defect) : in_(in), defect_(defect) {}
@@ -173,7 +177,7 @@ class Trial {
     if (is_inner(in_, i)) surplus_.emplace(in_.nodes.id(i), i);
   }
 
-  // Those with five neighbours.
+  // Adds the neighbours of node i that have five neighbours.
   void neighbours_may_be_surplus(std::int64_t i) {
     in_.stars.for_neighbours(i, [&](std::int64_t j) {
       if (in_.stars.size(j) == 5) may_be_surplus(j);
@@ -193,7 +197,7 @@ class Trial {
     defect_.goes = static_cast<std::int32_t>(i);
   }
 
-  // Where the others are now; relaxed, they make room.
+  // Tests the position against the unrelaxed nodes of the patch, which are the nodes of the level.
   bool has_room(const Point<2>& place) const {
     const double d = in_.nodes.d(defect_.node);
     return patch_.mesh().gap_at(place) >= method::kDefectMinGap * d && in_.fits(place, d);
@@ -209,7 +213,8 @@ class Trial {
     defect_.place = mesh.position(place);
   }
 
-  // 0 if it does not pay, or if some triangle is worse than all are without the repair.
+  // Relaxes the mesh and returns its gain. Returns 0 if the gain is too small, or if a triangle is
+  // worse than the worst one without the repair.
   double gain_of(LocalMesh& mesh) const {
     mesh.relax();
     const MeshQuality repaired = mesh.quality();
@@ -221,8 +226,8 @@ class Trial {
   Defect& defect_;
   StarPatch patch_;
   MeshQuality unrepaired_{};
-  std::map<std::int64_t, std::int64_t> surplus_;  // nodes that may be one too many, by id
-  std::set<std::int32_t> room_;                   // triangles in which one may be missing
+  std::map<std::int64_t, std::int64_t> surplus_;  // nodes whose deletion is tried, by id
+  std::set<std::int32_t> room_;                   // triangles in which an insertion is tried
 };
 
 }  // namespace
@@ -232,8 +237,8 @@ PopulationChange<2> choose_defect_repairs(
     const std::function<bool(const Point<2>&, double)>& fits) {
   const DefectInput in{nodes, stars, bad_below, fits};
   std::vector<Defect> defects = find_defects(in);
-  // Of a cluster only the worst is tried: what helps one helps the others, and far from rest, where
-  // nearly every node is a defect, that is all it may cost.
+  // Only the worst defect of a cluster is tried, because a repair of one helps the others. This
+  // also limits the cost far from rest, where nearly every node is a defect.
   for_each("pnpbs::defects::try", static_cast<std::int64_t>(defects.size()), [&](std::int64_t k) {
     Defect& defect = defects[static_cast<std::size_t>(k)];
     if (leads(in, defects, defect, method::kClusterRings, &Defect::is_worse_than))

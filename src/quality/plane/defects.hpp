@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repair of defects that no shift of nodes heals: nodes with four neighbours or fewer, or with
-// eight or more, neighbours that both have five or both have seven, and bad triangles. Whether a
-// node is one too many there, or one is missing, is tried on a copy of the nodes around.
+// Repair of defects that moving nodes cannot heal: nodes with at most four or at least eight
+// neighbours, pairs of neighbours that both have five or both have seven, and bad triangles.
+// Deleting or inserting a node is tried on a copy of the surrounding nodes.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,22 @@
 
 namespace pnpbs {
 
+// Parameters of the repair.
 struct DefectRule {
   std::int64_t rounds;
-  double bad_below = method::kDefectBelow;  // triangle quality, 2 r_in / R
+  double bad_below = method::kDefectBelow;  // bound of bad triangles [quality, 2 r_in / R]
 };
 
-// What becomes of a node hangs on the stars so many rings around it: it may go for a defect two
-// rings away, which others bar within the contest, and those are judged by their patches.
+// Depth of the stars on which the fate of a node depends. [rings] A node may be deleted for a
+// defect two rings away. Other defects within the contest's radius may outbid that defect, and
+// these are judged by their patches.
 inline constexpr int kDefectRings =
     method::kSurplusRings + method::kDefectContestRings + method::kPatchRings;
 
-// Which nodes go and which come; triangles are bad below that quality. Who acts is a contest as for
-// the population: of the defects within five rings the one whose repair gains most. fits(x, d): is
-// a new bubble allowed at x by the domain?
+// Returns the nodes to delete and to insert. Triangles with a quality below `bad_below` are
+// defects. A contest as in the population control selects the repairs: among the defects within
+// five rings only the one with the largest gain is repaired. fits(x, d) returns whether the domain
+// allows a new bubble at x.
 PopulationChange<2> choose_defect_repairs(const Nodes<2>& nodes, const DelaunayStars& stars,
                                           double bad_below,
                                           const std::function<bool(const Point<2>&, double)>& fits);

@@ -14,7 +14,8 @@ namespace pnpbs {
 
 namespace {
 
-// Boundary nodes by their number, as far as this rank has them.
+// Returns the local index of each boundary node, or -1 for boundary nodes that this rank does not
+// have.
 std::vector<std::int32_t> places_of_boundary_nodes(const Nodes<2>& nodes, std::size_t count) {
   std::vector<std::int32_t> place(count, -1);
   for (std::int32_t i = 0; i < nodes.count; ++i)
@@ -22,6 +23,7 @@ std::vector<std::int32_t> places_of_boundary_nodes(const Nodes<2>& nodes, std::s
   return place;
 }
 
+// Returns the edges at all boundary nodes that this rank has. An edge may be repeated.
 std::vector<std::int32_t> edges_at(const std::vector<std::int32_t>& places,
                                    const IncidentSectors& sectors) {
   std::vector<std::int32_t> edges;
@@ -33,6 +35,7 @@ std::vector<std::int32_t> edges_at(const std::vector<std::int32_t>& places,
   return edges;
 }
 
+// Relates every inner node to the apexes near it and derives the changes.
 class FirstRowChoice {
  public:
   FirstRowChoice(const Nodes<2>& nodes, const AdjacencyList<2>& lists, const SizedTree<2>& map,
@@ -72,17 +75,18 @@ class FirstRowChoice {
   }
 
  private:
-  // Of an inner node to the row that is to be.
+  // Relation of an inner node to the first row.
   struct Relation {
-    std::int64_t apex = -1;  // the nearest one, if it is near
-    double gap = 0;          // to that
+    std::int64_t apex = -1;  // index of the nearest apex within range, or -1
+    double gap = 0;          // distance to that apex
+    // whether the closest edge has an apex and is near
     bool beside_covered_edge = false;
   };
 
   const Relation& relation(std::int64_t i) const { return relations_[static_cast<std::size_t>(i)]; }
 
-  // Where d grows inwards faster than nodes can follow, the row would have far too many nodes;
-  // where it falls, too few.
+  // Returns whether d grows inwards faster than nodes can follow, or falls too fast: the row would
+  // have far too many or too few nodes. Also true if the rank does not have the edge's first node.
   bool d_is_steep_beside(const BoundaryApex& apex) const {
     const std::int32_t i = first_node_of(apex);
     bool steep = i < 0;
@@ -96,7 +100,7 @@ class FirstRowChoice {
     return steep;
   }
 
-  // Of its edge; -1: unknown here.
+  // Returns the first node of the apex's edge, or -1 if this rank does not have it.
   std::int32_t first_node_of(const BoundaryApex& apex) const {
     return boundary_places_[static_cast<std::size_t>(map_.facet(apex.edge).begin)];
   }
@@ -111,7 +115,7 @@ class FirstRowChoice {
       if (apex >= 0) relate_to(apex, x, found);
       const double way = distance_to_segment(a, b, x);
       const bool covered = apex >= 0 && way < method::kFirstRowDepth * at(apex).edge_length;
-      // Of two edges that are as near, at the node between them, either may have an apex.
+      // At a boundary node both of its edges are equally near, and one with an apex counts.
       if (way < nearest_edge || (way == nearest_edge && covered))
         found.beside_covered_edge = covered;
       nearest_edge = std::min(nearest_edge, way);
@@ -119,7 +123,8 @@ class FirstRowChoice {
     return found;
   }
 
-  // Of apexes that are equally near, to that over the first edge.
+  // Stores the apex if it is the nearest of those within range. Ties go to the apex with the
+  // smaller index.
   void relate_to(std::int64_t apex, const Point<2>& x, Relation& found) const {
     const double gap = distance<2>(at(apex).place, x);
     if (gap >= method::kApexTakes * at(apex).edge_length) return;
@@ -132,7 +137,8 @@ class FirstRowChoice {
     return apexes_.all()[static_cast<std::size_t>(apex)];
   }
 
-  // Calls visit(edge) for those at boundary nodes that node i sees; one can come twice.
+  // Calls visit(edge) for the edges at the boundary nodes in the list of node i. An edge may be
+  // visited twice.
   template <class Visit>
   void for_edges_near(std::int64_t i, const Visit& visit) const {
     lists_.for_neighbours(i, [&](std::int64_t j) {
@@ -147,7 +153,7 @@ class FirstRowChoice {
     return (b[0] - a[0]) * (x[1] - a[1]) > (b[1] - a[1]) * (x[0] - a[0]);
   }
 
-  // To each apex, among the nodes to which it is the nearest; -1: none.
+  // Returns for each apex the node nearest to it among the nodes whose nearest apex it is, or -1.
   std::vector<std::int32_t> nearest_nodes() const {
     std::vector<std::int32_t> nearest(apexes_.all().size(), -1);
     const auto is_nearer = [&](std::int64_t i, std::int64_t j) {
@@ -162,7 +168,8 @@ class FirstRowChoice {
     return nearest;
   }
 
-  // From the edge's first node, if it is ours; not where there are no bubbles at all.
+  // Inserts a node at the apex with the first node of the edge as its parent. Does nothing if that
+  // node is not owned, or if it has no inner nodes in its list, as in a level without bubbles.
   void give_birth_at(const BoundaryApex& apex, PopulationChange<2>& change) const {
     const std::int32_t parent = first_node_of(apex);
     if (!nodes_.owned(parent) || !sees_inner_nodes(parent)) return;
@@ -182,7 +189,7 @@ class FirstRowChoice {
   const IncidentSectors& sectors_;
   std::vector<std::int32_t> boundary_places_;
   BoundaryApexes apexes_;
-  std::vector<Relation> relations_;  // by node
+  std::vector<Relation> relations_;  // one for each node
 };
 
 }  // namespace

@@ -72,7 +72,8 @@ std::vector<LocalMesh::Corners> LocalMesh::triangles() const {
   return all;
 }
 
-// Sides wait in a chain at their corner with the lower place for the triangle across.
+// Each unmatched side is stored in a linked list at its corner with the smaller index until the
+// adjacent triangle is found.
 void LocalMesh::link_triangles() {
   constexpr std::int32_t kNone = -1;
   std::vector<std::int32_t> first(x_.size(), kNone), next(3 * triangles_.size(), kNone);
@@ -128,7 +129,8 @@ std::int32_t LocalMesh::insert(std::int32_t triangle) {
   return place;
 }
 
-// The others around it, counter-clockwise; empty if they do not close a ring.
+// Returns the neighbours of a node in counter-clockwise order, or an empty list if they do not
+// close a ring.
 std::vector<std::int32_t> LocalMesh::ring_around(std::int32_t place) const {
   std::vector<std::array<std::int32_t, 2>> edges;
   for (const Triangle& t : triangles_)
@@ -155,6 +157,7 @@ bool LocalMesh::remove(std::int32_t place) {
   return true;
 }
 
+// Returns whether the node lies in the closed triangle `ear` without being one of its corners.
 bool LocalMesh::in_ear(const Corners& ear, std::int32_t place) const {
   const Point<2>& x = x_[at(place)];
   return !(Triangle{ear, {}}.has(place)) && orientation(x_[at(ear[0])], x_[at(ear[1])], x) >= 0 &&
@@ -162,7 +165,7 @@ bool LocalMesh::in_ear(const Corners& ear, std::int32_t place) const {
          orientation(x_[at(ear[2])], x_[at(ear[0])], x) >= 0;
 }
 
-// Cuts off the best ear of what is left, over and over.
+// Triangulates a hole by repeatedly cutting off the ear of the best quality.
 bool LocalMesh::fill(std::vector<std::int32_t> ring) {
   while (ring.size() >= 3) {
     const std::size_t n = ring.size();
@@ -237,12 +240,13 @@ void LocalMesh::make_delaunay() {
   }
 }
 
-// Flips the edge of triangle t = (a, b, c) opposite to a if the triangle across, u = (d, c, b), has
-// d within the circle: they become (a, b, d) and (a, d, c). An edge of the boundary stays.
+// Flips the edge of triangle t = (a, b, c) opposite to a if the adjacent triangle u = (d, c, b) has
+// d inside the circumcircle of t. The triangles become (a, b, d) and (a, d, c). Edges between two
+// fixed nodes are never flipped.
 bool LocalMesh::flip(std::int32_t t, int side) {
   Triangle& own = triangles_[at(t)];
   const std::int32_t u = own.across[at(side)];
-  if (u < t) return false;  // none, or its turn
+  if (u < t) return false;  // no triangle, or the pair is treated from u
   Triangle& other = triangles_[at(u)];
   const int back = other.side_towards(t);
   const std::size_t at_a = at(side), at_b = at((side + 1) % 3), at_c = at((side + 2) % 3);

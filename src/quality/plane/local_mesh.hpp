@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A few dozen nodes and their triangles, to try on what a repair would bring: a node comes or goes,
-// those around relax, and flips of edges keep the triangles Delaunay (C. Lawson, Mathematical
-// Software III, 1977, 161-194). Nodes are known by their places in it.
+// A mesh of a few dozen nodes on which the effect of a repair is tried. A node is inserted or
+// removed, the surrounding nodes relax, and edge flips keep the triangles Delaunay (C. Lawson,
+// Mathematical Software III, 1977, 161-194). Nodes and triangles are identified by their indices in
+// this mesh.
 #pragma once
 
 #include <array>
@@ -12,47 +13,50 @@
 
 namespace pnpbs {
 
-// How good its triangles are, by 2 r_in / R.
+// Quality of the triangles of a mesh, by q = 2 r_in / R.
 struct MeshQuality {
-  double loss;  // what they lack of 1: the sum of the squares
+  double loss;  // sum of (1 - q)^2
   double min;
 };
 
+// A small triangulation that can be changed and relaxed.
 class LocalMesh {
  public:
   using Corners = std::array<std::int32_t, 3>;
 
   void clear();
   void add_node(const Point<2>& x, bool moves);
-  void add_triangle(const Corners& corners);  // counter-clockwise
-  // Once all are there.
+  void add_triangle(const Corners& corners);  // `corners` must be counter-clockwise
+  // Connects adjacent triangles. The caller must call this after adding the last triangle.
   void link_triangles();
 
   const Point<2>& position(std::int32_t place) const { return x_[static_cast<std::size_t>(place)]; }
   std::vector<Corners> triangles() const;
 
-  // How far the nearest node is from a point.
+  // Returns the distance from x to the nearest node.
   double gap_at(const Point<2>& x) const;
 
-  // The largest triangle with this corner.
+  // Returns the largest triangle with this corner, or -1.
   std::int32_t largest_triangle_at(std::int32_t place) const;
-  // The larger of the two with this edge.
+  // Returns the larger of the triangles with this edge, or -1.
   std::int32_t largest_triangle_at(std::int32_t place, std::int32_t other) const;
 
-  // A new node in the middle of a triangle. Returns its place.
+  // Inserts a node at the centroid of a triangle and returns the node's index.
   std::int32_t insert(std::int32_t triangle);
-  // False if the hole cannot be filled with triangles.
+  // Removes a node and triangulates the hole. Returns false, with an unusable mesh, if the hole
+  // cannot be triangulated.
   bool remove(std::int32_t place);
 
-  // The nodes that move go to the mean of their neighbours, step by step.
+  // Moves the nodes step by step towards the mean of their neighbours, with edge flips in between.
   void relax();
 
   MeshQuality quality() const;
 
  private:
+  // A triangle with its neighbours.
   struct Triangle {
     Corners corner;
-    Corners across;  // the triangles at the edges opposite to the corners, -1: none
+    Corners across;  // the adjacent triangles, opposite to each corner; -1: none
 
     bool has(std::int32_t place) const;
     int side_towards(std::int32_t triangle) const;

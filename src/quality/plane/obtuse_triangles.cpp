@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kRadians = 3.14159265358979323846 / 180;
 
-// The cosine of the largest angle; or, if that is less, the sine of the smallest one over that of
-// the angle that is as bad as a right one, less 1. From the squares of the edges.
+// Returns the cosine of the largest angle of a triangle with these squared side lengths. Returns a
+// smaller value if the smallest angle is worse: sin(smallest) / sin(kObtuseRepairMinAngle) - 1, so
+// that an angle of kObtuseRepairMinAngle is as bad as a right angle.
 double value_of(double aa, double bb, double cc) {
   const auto cosine = [](double opposite, double b, double c) {
     return (b + c - opposite) / (2 * std::sqrt(b * c));
@@ -33,8 +34,8 @@ double value_of(const Point<N>& a, const Point<N>& b, const Point<N>& c) {
 
 TriangleMeasure measure_of_obtuse_triangles(const Embedding<2>& embedding) {
   constexpr double kTurnedOver = -2;
-  // Above what triangles have with such an angle: isosceles ones have the largest quality. And by a
-  // margin, since angles of wide triangles are a little other in a chart.
+  // An upper bound of the quality of bad triangles, which is largest for isosceles ones. The margin
+  // accounts for the distortion of angles of large triangles in a chart.
   constexpr double kSufficientQuality = 0.9;
   const auto value = [embedding](const Point<2>& a, const Point<2>& b, const Point<2>& c) {
     const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

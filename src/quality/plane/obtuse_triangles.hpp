@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Obtuse triangles: their circumcentres, corners of Voronoi cells, lie beyond their longest edges,
-// where finite volumes cannot use them.
+// The criterion for obtuse triangles. Their circumcentres, which are vertices of Voronoi cells, lie
+// beyond their longest edges, where finite volumes cannot use them.
 #pragma once
 
 #include "quality/plane/bad_triangles.hpp"
@@ -8,7 +8,8 @@
 
 namespace pnpbs {
 
-// Measures triangles for their repair: on a sphere by the angles in space.
+// Returns the criterion by which BadTriangleRepair finds and improves obtuse triangles. On a sphere
+// it uses the angles in space.
 TriangleMeasure measure_of_obtuse_triangles(const Embedding<2>& embedding);
 
 }  // namespace pnpbs

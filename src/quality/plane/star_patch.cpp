@@ -33,7 +33,8 @@ std::int32_t StarPatch::place_of(std::int64_t id) const {
              : -1;
 }
 
-// Those with a corner inside, each from its corner inside with the least id.
+// Adds the triangles that have a corner inside. Each is added from its inside corner with the
+// smallest id.
 void StarPatch::add_triangles(const Nodes<2>& nodes, const DelaunayStars& stars) {
   std::vector<LocalMesh::Corners> triangles;
   for (std::int32_t a = 0; a < static_cast<std::int32_t>(members_.size()); ++a) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rings of nodes around one, cut out of the stars. The same bits on every rank that knows them:
-// places follow the ids.
+// A copy of the rings of nodes around one node with their triangles. Indices in the patch follow
+// the ids of the nodes, so the patch has the same bits on every rank.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,27 @@
 
 namespace pnpbs {
 
+// The local mesh around one node, and the ids of its nodes.
 class StarPatch {
  public:
-  // False if one of the stars is not there.
+  // Copies method::kPatchRings rings around `centre`. Returns false if one of the required stars is
+  // not known.
   bool cut_out(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t centre);
 
   const LocalMesh& mesh() const { return mesh_; }
+  // Returns the index in mesh() of the node with this id, or -1.
   std::int32_t place_of(std::int64_t id) const;
 
  private:
+  // A node of the patch, by its id and its index in the level.
   struct Member {
     std::int64_t id, node;
-    bool inside;  // not of the last ring
+    bool inside;  // false: in the last ring
   };
 
   void add_triangles(const Nodes<2>& nodes, const DelaunayStars& stars);
 
-  std::vector<Member> members_;  // by id
+  std::vector<Member> members_;  // sorted by id
   LocalMesh mesh_;
 };
 

@@ -12,8 +12,8 @@ namespace pnpbs {
 
 namespace {
 
-// The nodes around a node, counter-clockwise from the one with the least id: so that every rank
-// computes the same bits.
+// The neighbours of a node, counter-clockwise from the one with the smallest id. This order makes
+// every rank compute the same bits.
 struct Ring {
   std::array<std::int64_t, method::kFewNeighbours> node{};
   std::int32_t size = 0;
@@ -46,10 +46,11 @@ double min_quality_around(const Nodes<2>& nodes, std::int64_t i, const Ring& rin
   return min;
 }
 
-// What a hole becomes: one triangle, or two with an edge from ring.node[edge] to the one opposite.
+// The triangulation of the hole that a removed node leaves: one triangle, or two with a diagonal
+// from ring.node[edge] to the opposite node.
 struct Filling {
   double min_quality;
-  std::int32_t edge;  // -1: none
+  std::int32_t edge;  // -1: no diagonal
 };
 
 Filling best_filling(const Nodes<2>& nodes, const Ring& ring) {
@@ -61,7 +62,7 @@ Filling best_filling(const Nodes<2>& nodes, const Ring& ring) {
   return odd.min_quality > even.min_quality ? odd : even;
 }
 
-// How the hole would be filled; none if the node should stay.
+// Returns the best triangulation of the hole without node i, or nothing if the node should stay.
 std::optional<Filling> better_without(const Nodes<2>& nodes, const DelaunayStars& stars,
                                       std::int64_t i) {
   const Ring ring = ring_around(nodes, stars, i);
@@ -73,6 +74,7 @@ std::optional<Filling> better_without(const Nodes<2>& nodes, const DelaunayStars
   return filling;
 }
 
+// Removes node i from the stars of its neighbours and adds the diagonal of the filling.
 void take_out(const Nodes<2>& nodes, DelaunayStars& stars, std::int64_t i, const Filling& filling) {
   const Ring ring = ring_around(nodes, stars, i);
   for (std::int32_t k = 0; k < ring.size; ++k) {

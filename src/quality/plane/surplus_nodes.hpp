@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repair of the first kind of defect: a node that only three or four others surround is mostly one
-// too many. Without it they fill its place with better triangles.
+// Removal of surplus nodes: inner nodes with only three or four neighbours. Without such a node its
+// neighbours fill the hole with better triangles.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace pnpbs {
 
-// Takes such nodes out of the stars where that raises the least quality there, and returns them in
-// the order of memory; they themselves stay for the caller to delete. Two of them that are
-// neighbours stay both: then whether a node goes hangs on the stars of its neighbours alone.
+// Removes surplus nodes from the stars where this raises the smallest quality, and returns them in
+// memory order. The caller must delete them from the nodes. Two adjacent candidates both stay, so
+// that the decision for a node depends on the stars of its neighbours alone.
 std::vector<std::int32_t> take_out_surplus_nodes(const Nodes<2>& nodes, DelaunayStars& stars);
 
 }  // namespace pnpbs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Voronoi cell of a node as finite volumes on C-grids take it: the polygon of the circumcentres
-// of its triangles, wherever these lie, so that a boundary does not cut it. On a sphere all lengths
-// and areas are along the sphere of radius 1, and so are those of grids of MPAS.
+// The Voronoi cell of a node as finite volumes on C-grids use it: the polygon of the circumcentres
+// of the node's triangles, not clipped at the boundary. On a sphere all lengths and areas are those
+// on a sphere of radius 1, as in MPAS grids.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace pnpbs {
 
-// What has the same name for points of the plane and for unit vectors.
+// Overloads with the same names for points of the plane and for unit vectors.
 inline double length_over(const Point<2>&, double chord) { return chord; }
 inline double length_over(const Point<3>&, double chord) { return arc_over(chord); }
 inline Point<2> arc_middle(const Point<2>& a, const Point<2>& b) { return middle_of<2>(a, b); }
@@ -28,7 +28,7 @@ inline Point<2> circumcentre(const Point<2>& a, const Point<2>& b, const Point<2
   return {a[0] + (v[1] * uu - u[1] * vv) / twice, a[1] + (u[0] * vv - v[0] * uu) / twice};
 }
 
-// The sum of the areas of triangles, negative where one turns clockwise.
+// A sum of triangle areas. Clockwise triangles count as negative.
 template <int N>
 class TriangleAreas;
 
@@ -44,15 +44,16 @@ class TriangleAreas<2> {
   double twice_ = 0;
 };
 
-// Each is twice the argument of a complex number, that of their product is the sum, up to 2 pi: one
-// arc tangent is enough.
+// On a sphere each area is twice the argument of a complex number. The argument of the product of
+// these numbers is half of the sum of the areas, so one arc tangent suffices.
 template <>
 class TriangleAreas<3> {
  public:
   void add(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
     const auto [real, imaginary] = half_area_direction(a, b, c);
     const double real_before = real_;
-    real_ = 0.25 * (real * real_before - imaginary * imaginary_);  // of small ones remains 1
+    // the product of small areas remains close to 1
+    real_ = 0.25 * (real * real_before - imaginary * imaginary_);
     imaginary_ = 0.25 * (real * imaginary_ + imaginary * real_before);
   }
   double sum() const { return 2 * std::atan2(imaginary_, real_); }
@@ -61,7 +62,8 @@ class TriangleAreas<3> {
   double real_ = 1, imaginary_ = 0;
 };
 
-// The shortest edge of a cell over its longest: `cellQuality` of the mesh converter of MPAS-Tools.
+// The shortest edge of a cell divided by its longest: `cellQuality` of the mesh converter of
+// MPAS-Tools.
 template <int N>
 class ShortestOverLongest {
  public:
@@ -76,14 +78,16 @@ class ShortestOverLongest {
   }
 
  private:
-  double shortest_ = std::numeric_limits<double>::infinity(), longest_ = 0;  // squares of chords
+  // Squared chord lengths.
+  double shortest_ = std::numeric_limits<double>::infinity(), longest_ = 0;
 };
 
-// One node's at a time. N: 2 in the plane, 3 on a sphere.
+// The Voronoi cell of one node at a time, with storage that is reused. N is 2 in the plane and 3 on
+// a sphere.
 template <int N>
 class VoronoiRing {
  public:
-  // Of node i, whose star may be open.
+  // Collects the neighbours of node i, whose star may be open.
   void gather(const MeasuredNodes<2>& measured, const DelaunayStars& stars, std::int64_t i) {
     node_ = i;
     centre_ = place_of(measured, i);
@@ -92,7 +96,7 @@ class VoronoiRing {
       neighbours_.push_back({j, triangle, place_of(measured, j), {}});
     });
   }
-  // Only of a closed star.
+  // Computes the vertices of the cell. The star must be closed.
   void find_vertices() {
     for (std::size_t k = 0; k < neighbours_.size(); ++k)
       neighbours_[k].vertex = circumcentre(centre_, neighbours_[k].x, neighbours_[next(k)].x);
@@ -101,8 +105,9 @@ class VoronoiRing {
   std::size_t size() const { return neighbours_.size(); }
   std::int64_t neighbour(std::size_t k) const { return neighbours_[k].node; }
 
-  // Of the edge to a neighbour: it is one between two triangles, but the Voronoi edge begins and
-  // ends on the same side of it, as one of these is obtuse opposite to it.
+  // Returns whether the edge to neighbour k lies between two triangles but is not crossed by its
+  // Voronoi edge. This is the case if one of these triangles has an obtuse angle opposite to the
+  // edge.
   bool is_uncrossed(std::size_t k) const {
     const Neighbour &right = neighbours_[before(k)], &left = neighbours_[next(k)];
     if (!right.triangle || !neighbours_[k].triangle) return false;
@@ -110,7 +115,8 @@ class VoronoiRing {
            is_obtuse_at(left.x, centre_, neighbours_[k].x);
   }
 
-  // --- once the vertices are found ---
+  // --- The following functions require find_vertices(). ---
+  // Returns the shortest edge of the cell divided by its longest.
   double edge_ratio() const {
     ShortestOverLongest<N> ratio;
     for (std::size_t k = 0; k < size(); ++k) ratio.add(begin_of_edge(k), neighbours_[k].vertex);
@@ -122,8 +128,8 @@ class VoronoiRing {
       areas.add(centre_, begin_of_edge(k), neighbours_[k].vertex);
     return areas.sum();
   }
-  // Of the middle of the Voronoi edge from that of the edge to a neighbour, where their lines
-  // cross, over the length of the latter.
+  // Returns the distance between the middle of the Voronoi edge and the middle of the edge to
+  // neighbour k, divided by the length of the latter.
   double dual_offset(std::size_t k) const {
     const Point<N> dual = arc_middle(begin_of_edge(k), neighbours_[k].vertex);
     return length_between(dual, arc_middle(centre_, neighbours_[k].x)) /
@@ -131,11 +137,12 @@ class VoronoiRing {
   }
 
  private:
+  // A neighbour of the node, with the vertex of the cell after it.
   struct Neighbour {
     std::int64_t node;
-    bool triangle;  // is there one of the node, this neighbour and the next one?
+    bool triangle;  // whether the node, this neighbour and the next one form a triangle
     Point<N> x;
-    Point<N> vertex;  // of that triangle
+    Point<N> vertex;  // circumcentre of that triangle
   };
 
   std::size_t next(std::size_t k) const { return k + 1 < size() ? k + 1 : 0; }
@@ -146,7 +153,8 @@ class VoronoiRing {
     return length_over(a, distance<N>(a, b));
   }
 
-  // In the plane from the node, so that little cancels.
+  // Returns the position of node j: relative to the node in the plane, to limit cancellation, and
+  // as a unit vector on a sphere.
   Point<N> place_of(const MeasuredNodes<2>& measured, std::int64_t j) const {
     Point<N> x;
     measured.put(j, x);

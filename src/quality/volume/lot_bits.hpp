@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the trials of a repair draw at random: all of it follows from the bits of a lot, so that
-// every rank and thread draws the same.
+// Pseudo-random numbers for the trials of a repair. All of them are derived from the bits of a lot,
+// so every rank and every thread draws the same.
 #pragma once
 
 #include <bit>
@@ -12,11 +12,12 @@
 
 namespace pnpbs {
 
+// Returns a number in [0, 1).
 inline double unit_interval(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-// A direction that follows from the bits alone.
+// Returns a unit vector that is uniformly distributed over all directions.
 inline Point<3> direction_from(std::uint64_t bits) {
   while (true) {
     Point<3> v;
@@ -33,6 +34,7 @@ inline Point<3> direction_from(std::uint64_t bits) {
 
 inline std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
+// Returns the bits of one trial of an attempt with this lot.
 inline std::uint64_t bits_of_trial(std::uint64_t lot, int trial) {
   return mixed(lot + 1 + static_cast<std::uint64_t>(trial));
 }

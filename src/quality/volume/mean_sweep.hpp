@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finishing sweep in space: every node that moves goes part of the way to the mean of its
-// neighbours in the Delaunay triangulation. All move from the old positions (Jacobi). It makes
-// tetrahedra better on the whole, and leaves slivers to their repair.
+// A finishing sweep in space: every moving node moves part of the way to the mean of its Delaunay
+// neighbours. All nodes move from their old positions (Jacobi). The sweep improves tetrahedra on
+// average and does not remove slivers.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,10 @@
 
 namespace pnpbs {
 
-// Moves the owned nodes with a closed star that allowed(i, x) lets go to x; `proposed` is scratch.
-// The neighbours come in an order that depends on ids only. Returns those for which a mean was
-// found.
+// Moves the owned nodes with a closed star by `share` of the way to the mean. A node stays where it
+// is if allowed(i, x) is false for the new position x. `stars` must visit neighbours in an order
+// that depends on ids only. `proposed` is a scratch array with one entry per node. Returns the
+// number of nodes for which a mean was computed.
 template <class Stars, class Allowed>
 NodesWorkedFor sweep_to_means(Nodes<3>& nodes, const Stars& stars, double share, Field<3>& proposed,
                               const Allowed& allowed) {

@@ -10,7 +10,7 @@ namespace pnpbs {
 
 namespace {
 
-// The faces opposite to the corners, turned so that the corner is on their positive side.
+// The faces opposite to the corners, oriented so that the corner is on their positive side.
 constexpr std::size_t kFaces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 
 StarChanges::Corners face_of(const TetrahedronNodes& t, std::size_t corner) {
@@ -21,7 +21,7 @@ StarChanges::Corners face_of(const TetrahedronNodes& t, std::size_t corner) {
 
 NodeMove::NodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node)
     : nodes_(nodes), stars_(stars), change_{node, nodes.position(node), {}, {}} {
-  constexpr double kFarthest = 2;  // spacings; where nodes are at rest, no edge is that long
+  constexpr double kFarthest = 2;  // [d] no edge between nodes at rest is longer
   const auto add = [&](std::int64_t j) { near_.push_back(static_cast<std::int32_t>(j)); };
   stars.for_neighbours(node, add);
   ring_ = near_;
@@ -36,12 +36,13 @@ NodeMove::NodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t
   });
 }
 
-// The tetrahedra that the candidates make with node i. Are they all around it?
+// Computes the tetrahedra that node i forms with the candidates. Returns whether they close around
+// the node.
 bool NodeMove::wrap_star(VolumeStar& star, std::int32_t i, std::span<const std::int32_t> candidates,
                          std::vector<TetrahedronNodes>& tetrahedra) const {
   star.start(node_at(i));
   for (const std::int32_t j : candidates) star.add(node_at(j));
-  star.wrap(std::numeric_limits<double>::infinity());  // no other node is meant to matter
+  star.wrap(std::numeric_limits<double>::infinity());  // the candidates are all that matter
   star.finish();
   const auto node = [&](std::int32_t place) {
     const std::int32_t k = star.neighbours()[static_cast<std::size_t>(place)];
@@ -60,7 +61,7 @@ bool NodeMove::go_to(const Point<3>& x) {
   return wrap_star(star, change_.node, near_, change_.made);
 }
 
-// The corner behind a face of a tetrahedron, or -1: none is there.
+// Returns the apex of the tetrahedron on the other side of a face, or -1 if there is none.
 std::int32_t NodeMove::beyond(const TetrahedronNodes& t, std::size_t corner) const {
   const Corners face = face_of(t, corner);
   std::int32_t apex = -1;
@@ -72,6 +73,7 @@ std::int32_t NodeMove::beyond(const TetrahedronNodes& t, std::size_t corner) con
   return apex;
 }
 
+// Returns whether the moved node lies in the circumsphere of t.
 bool NodeMove::in_sphere_now(const TetrahedronNodes& t) const {
   const VolumeNode p = node_at(change_.node);
   std::array<VolumeNode, 4> c;
@@ -93,7 +95,7 @@ void NodeMove::find_gone() {
   stars_.for_simplices(change_.node, [&](const Corners& corners) {
     add({change_.node, corners[0], corners[1], corners[2]});
   });
-  // Behind the other faces of the star's tetrahedra are others of these.
+  // The other three faces of a tetrahedron of the star lead to tetrahedra of the same star.
   const std::size_t star = change_.gone.size();
   for (std::size_t next = 0; next < change_.gone.size(); ++next)
     for (std::size_t corner = 0; corner < (next < star ? 1 : 4); ++corner) {
@@ -106,7 +108,8 @@ void NodeMove::find_gone() {
     }
 }
 
-// A face with a tetrahedron on either side, or one gone and one made on the same, is closed.
+// Adds an open face, or closes it if its reverse is open: then a tetrahedron lies on either side,
+// or a removed one and a new one lie on the same side.
 void NodeMove::add_face(const Corners& corners) {
   const Corners face = StarChanges::least_first(corners), back{face[0], face[2], face[1]};
   const auto found = find_same(open_, back);
@@ -118,7 +121,8 @@ void NodeMove::add_face(const Corners& corners) {
   }
 }
 
-// Of a tetrahedron made, the others are missing outside, of one gone, inside.
+// Adds the faces of a tetrahedron: outside of a new one neighbours are missing, inside of a removed
+// one.
 void NodeMove::add_faces(const TetrahedronNodes& t, bool made) {
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const Corners face = face_of(t, corner);
@@ -131,13 +135,14 @@ bool NodeMove::complete() {
   open_.clear();
   for (const TetrahedronNodes& t : change_.gone) add_faces(t, false);
   for (const TetrahedronNodes& t : change_.made) add_faces(t, true);
-  constexpr int kMaxFilled = 100;  // a few are usual
+  constexpr int kMaxFilled = 100;  // usually a few suffice
   for (int filled = 0; !open_.empty(); ++filled)
     if (filled == kMaxFilled || !fill(open_.back())) return false;
   return true;
 }
 
-// Such tetrahedra have old neighbours of the node for all their corners.
+// Adds the missing tetrahedron at a face. All its corners are old neighbours of the node. Returns
+// false if there is none.
 bool NodeMove::fill(const Corners& corners) {
   static thread_local VolumeStar star;
   std::vector<std::int32_t> candidates = ring_;

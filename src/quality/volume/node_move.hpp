@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds how the Delaunay triangulation changes if one node goes a little way. The node's new star
-// comes from the nodes around. Gone are the tetrahedra of its old star, and those next to them in
-// whose spheres the node is now. What is left between these and the new star is filled up with
-// tetrahedra of the stars of its neighbours, face by face, until all faces match. Then every face
-// is locally Delaunay, old ones and new, and with that the triangulation.
+// Change of the Delaunay triangulation when one inner node moves a short way. The node's new star
+// is computed from the nodes around it. The removed tetrahedra are those of its old star, and
+// adjacent ones whose circumspheres contain the new position. The gap between these and the new
+// star is filled with tetrahedra from the stars of the node's neighbours, face by face, until all
+// faces match. Then every face is locally Delaunay, and therefore the whole triangulation is.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,19 @@
 
 namespace pnpbs {
 
+// The moves of one node that are tried one after another. `nodes` and `stars` must outlive this
+// object.
 class NodeMove {
  public:
   NodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node);
 
-  // Its star at x. False if that does not close.
+  // Computes the node's star at x. Returns false if the star is not closed.
   bool go_to(const Point<3>& x);
-  // The star's tetrahedra, and later all.
+  // Returns the change: after go_to() the tetrahedra of the new star only, after complete() all
+  // tetrahedra made and removed.
   const StarChange& change() const { return change_; }
-  // The other ones made, and those gone. False if they do not fit together, because the node would
-  // come to be the neighbour of others than were tried.
+  // Computes the remaining tetrahedra. Returns false if they do not match, because the node would
+  // become a neighbour of nodes that were not considered.
   bool complete();
 
  private:
@@ -44,10 +47,11 @@ class NodeMove {
 
   const Nodes<3>& nodes_;
   const StarChanges& stars_;
-  std::vector<std::int32_t> ring_, near_;  // neighbours now, and all that may come to be
+  std::vector<std::int32_t> ring_, near_;  // current neighbours, and all candidates for neighbours
   StarChange change_;
+  // The removed tetrahedra with corners sorted by id.
   std::vector<TetrahedronNodes> gone_by_id_;
-  // Faces with a tetrahedron missing on the side where their corners turn counter-clockwise.
+  // Faces without a tetrahedron on the side from which their corners turn counter-clockwise.
   std::vector<Corners> open_;
 };
 

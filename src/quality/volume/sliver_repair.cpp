@@ -47,14 +47,14 @@ bool SliverRepair::is_sliver(const TetrahedronNodes& tetrahedron) const {
   return small_.any(corners_of(tetrahedron));
 }
 
-// Those around node i that have it for the first by id of all corners that count, and an owned node
-// for a corner: only such a corner's owner draws for a sliver.
+// Adds the slivers around node i in which i has the smallest id of all corners that count. Skips
+// slivers without an owned corner, because only the owner of a corner draws for a sliver.
 template <class Counts>
 void SliverRepair::add_slivers_at(std::int64_t i, const Counts& counts,
                                   std::vector<TetrahedronNodes>& found) const {
   stars_.for_simplices_first_at(i, counts, [&](const TetrahedronNodes& t) {
     if (!stars_.any_movable(t)) return;
-    if (small_.surely_none(corners_of(t))) return;  // most have none
+    if (small_.surely_none(corners_of(t))) return;  // most tetrahedra have no small angle
     if (std::none_of(t.begin(), t.end(), [&](std::int32_t j) { return owned(j); })) return;
     const TetrahedronNodes ordered = stars_.by_id(t);
     if (is_sliver(ordered)) found.push_back(ordered);
@@ -74,8 +74,8 @@ void SliverRepair::find_slivers() {
   for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
 }
 
-// Nodes have gone, too far from each other to change the same stars (see winners): the stars
-// follow, and the slivers in these.
+// Applies the changes to nodes and stars, and updates the slivers in the stars that changed. The
+// moved nodes are too far apart to change the same stars (see winners()).
 void SliverRepair::accept(const std::vector<StarChange>& changes) {
   const std::vector<std::vector<std::int32_t>> affected = stars_.accept(changes);
   for (const StarChange& change : changes) {
@@ -115,6 +115,8 @@ std::int64_t SliverRepair::slivers(double below) const {
 
 // ------------------------------------------------------------------ whose turn it is -----------
 
+// Selects a corner of the sliver by its lot. Nodes on surfaces are candidates if no other corner
+// can move, or in the later half of the rounds.
 std::int32_t SliverRepair::corner_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
                                           std::int64_t number) const {
   std::vector<std::int32_t> choice;
@@ -126,7 +128,8 @@ std::int32_t SliverRepair::corner_to_move(const TetrahedronNodes& sliver, std::u
   return choice[mixed(lot) % choice.size()];
 }
 
-// Now and then a neighbour of the corner, in case that none of the corners can help.
+// Selects a neighbour instead of the corner in one of kSliverTurnsOfCorners + 1 cases, because
+// moving any of the corners may not help.
 std::int32_t SliverRepair::node_to_move(std::int32_t corner, std::uint64_t lot) const {
   constexpr std::uint64_t kCornersOf = method::kSliverTurnsOfCorners;
   if (mixed(lot + 1) % (kCornersOf + 1) < kCornersOf) return corner;
@@ -141,7 +144,8 @@ std::int32_t SliverRepair::node_to_move(std::int32_t corner, std::uint64_t lot) 
                            [&](std::int32_t i, std::int32_t j) { return hash(i) < hash(j); });
 }
 
-// By lots, not by how bad slivers are: one that cannot be mended would bar others for ever.
+// Lots decide rather than angles: otherwise a sliver that cannot be repaired would block its
+// neighbourhood in every round.
 void SliverRepair::draw(std::int64_t number, double below) {
   const SmallAngles small(below);
   attempts_.clear();
@@ -157,7 +161,8 @@ void SliverRepair::draw(std::int64_t number, double below) {
   }
 }
 
-// The contest: of two that are so near that they might change the same stars, the higher lot.
+// Returns which attempts win the contest: of two so close that they might change the same stars,
+// the one with the higher lot.
 std::vector<char> SliverRepair::winners() const {
   std::vector<Box<3>> boxes;
   const auto reach = [&](std::int32_t i) { return method::kSliverReach * nodes_.d(i); };
@@ -180,7 +185,7 @@ std::vector<char> SliverRepair::winners() const {
             return;
           if (std::tie(other.lot, other.ids) < std::tie(own.lot, own.ids)) return;
           wins_here = false;
-          square = -1;  // that is enough
+          square = -1;  // ends the search
         });
     wins[static_cast<std::size_t>(a)] = wins_here;
   });
@@ -189,13 +194,15 @@ std::vector<char> SliverRepair::winners() const {
 
 // ------------------------------------------------------------------ what helps -----------------
 
+// Returns the distance of a trial position.
 double SliverRepair::way_to_try(const Attempt& attempt, std::uint64_t bits) const {
   return nodes_.d(attempt.node) *
          (method::kSliverShortestWay +
           (method::kSliverLongestWay - method::kSliverShortestWay) * unit_interval(bits));
 }
 
-// Along the normal of the face opposite to the node, to and fro, then others.
+// Returns the direction of a trial: both directions along the normal of the face opposite to the
+// node first, then pseudo-random ones.
 Point<3> SliverRepair::direction_to_try(const Attempt& attempt, int trial,
                                         std::uint64_t bits) const {
   Point<3> direction = direction_from(bits);
@@ -211,7 +218,8 @@ Point<3> SliverRepair::direction_to_try(const Attempt& attempt, int trial,
   return direction;
 }
 
-// The sum comes out the same whatever the order in which they are given. Most have no part in it.
+// Returns the sum of the penalties of the tetrahedra with `node` at `at`. The sum has the same bits
+// for any order of the tetrahedra. Most tetrahedra contribute nothing and are skipped early.
 double SliverRepair::penalty(std::span<const TetrahedronNodes> tetrahedra, std::int32_t node,
                              const Point<3>& at) const {
   std::vector<std::pair<TetrahedronNodes, double>> penalised;
@@ -236,7 +244,7 @@ double SliverRepair::penalty(std::span<const TetrahedronNodes> tetrahedra, std::
   return sum;
 }
 
-// Of all tetrahedra that a move of node i usually changes.
+// Returns the penalty of all tetrahedra that a move of node i usually changes.
 double SliverRepair::penalty_around(std::int32_t i) const {
   SmallNodeSet centres;
   centres.add(i);
@@ -263,7 +271,7 @@ bool SliverRepair::within_reach(std::int32_t i,
                      [&](const TetrahedronNodes& t) { return within_reach(i, t); });
 }
 
-// Wherever the node goes, all tetrahedra around it are gone then.
+// Returns whether the tetrahedra around node i lie within its reach. A move always removes these.
 bool SliverRepair::star_within_reach(std::int32_t i) const {
   bool within = true;
   stars_.for_simplices(i, [&](const StarChanges::Corners& c) {
@@ -272,10 +280,11 @@ bool SliverRepair::star_within_reach(std::int32_t i) const {
   return within;
 }
 
-// Of what is made no more than a part is known yet, and all that may be gone: less is never made,
-// and more never gone. So most are told to be of no use before all their stars are made.
+// Returns whether an incomplete change may help. It has a subset of the new tetrahedra and a
+// superset of the removed ones, so the complete change cannot be better. This rejects most trials
+// before all stars are computed.
 bool SliverRepair::may_help(const StarChange& change) const {
-  constexpr double kRounding = 1 + 1e-9;  // of sums of other terms
+  constexpr double kRounding = 1 + 1e-9;  // the sums have different terms
   return penalty(change.made, change.node, change.x) <
          kRounding * penalty(change.gone, change.node, nodes_.position(change.node));
 }
@@ -300,7 +309,7 @@ void SliverRepair::try_moves(Attempt& attempt) const {
     for (std::size_t k = 0; k < 3; ++k) x[k] += way * direction[k];
     if (too_far(i, x) || !allowed_(i, x) || !move.go_to(x)) continue;
     const StarChange& change = move.change();
-    if (penalty(change.made, i, x) >= around) continue;  // most: nothing else need be looked at
+    if (penalty(change.made, i, x) >= around) continue;  // rejects most trials cheaply
     if (!move.complete() || !helps(change)) continue;
     attempt.success.push_back(change);
     return;
@@ -311,8 +320,9 @@ bool SliverRepair::too_far(std::int32_t i, const Point<3>& x) const {
   return distance<3>(before_[static_cast<std::size_t>(i)], x) > method::kSliverDrift * nodes_.d(i);
 }
 
-// Would it come nearer to another node of its sheet than suits the surface's triangles? (Nodes on
-// the far side of a wall or a gap are as near as these are.)
+// Returns whether x is too close to a boundary node in the star of node i, and closer than the
+// current position. The second condition permits moves where nodes on opposite sides of a thin wall
+// are close already.
 bool SliverRepair::crowded(std::int32_t i, const Point<3>& x) const {
   bool crowded = false;
   stars_.for_neighbours(i, [&](std::int64_t j) {
@@ -324,7 +334,7 @@ bool SliverRepair::crowded(std::int32_t i, const Point<3>& x) const {
   return crowded;
 }
 
-// Finds the nodes of the boundary, once the first of them is to move.
+// Finds the boundary nodes before the first of them moves.
 void SliverRepair::find_boundary_nodes() {
   if (!boundary_nodes_.empty()) return;
   std::vector<Box<3>> boxes;
@@ -337,8 +347,8 @@ void SliverRepair::find_boundary_nodes() {
   boundary_boxes_ = BoxTree<3>(std::move(boxes));
 }
 
-// Returns the nodes of the boundary around node i, whether edges lead there or not: across a gap
-// none do.
+// Returns the boundary nodes around node i, whether or not edges connect them: no edge crosses a
+// gap.
 std::vector<std::int32_t> SliverRepair::boundary_nodes_around(std::int32_t i) const {
   const Point<3> x = nodes_.position(i);
   const double reach = method::kSliverSight * nodes_.d(i);
@@ -373,9 +383,9 @@ bool SliverRepair::try_place(SurfaceNodeMove& move, const AlongSurfaces::Place& 
   return true;
 }
 
-// Puts the nodes that have moved along surfaces onto these, where a walk ends beside them, and
-// keeps the moves that still help there. The function of a level set is evaluated for all of them
-// at once and on this thread, as the user's function need not be safe on several.
+// Projects the nodes that moved along a surface onto it if their new positions lie beside it, and
+// keeps the moves that still help. Evaluates a level set for all of them at once on this thread,
+// because the user's function need not be thread-safe.
 void SliverRepair::settle_moves() {
   std::vector<std::size_t> moved;
   std::vector<AlongSurfaces::Place> places;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repair of slivers: tetrahedra with a small dihedral angle, which Delaunay triangulations have in
-// space however even the distances are. One of the nodes goes a little way, the stars around are
-// made anew, and it stays there if small angles become fewer or less small.
+// Repair of slivers: tetrahedra with a small dihedral angle. Delaunay triangulations in space
+// contain slivers however uniform the distances are. The repair moves one node a short way,
+// recomputes the stars around it, and keeps the move if the number or the size of the small angles
+// improves.
 #pragma once
 
 #include <array>
@@ -22,96 +23,107 @@
 
 namespace pnpbs {
 
+// Parameters of the repair.
 struct SliverRule {
-  double repair_below;  // degrees
+  double repair_below;  // bound of the dihedral angle of slivers [degrees]
   std::int64_t rounds = method::kSliverRounds;
 
-  // The angles that must not become worse on the way.
+  // Returns the bound below which angles must not get worse. [degrees]
   double penalty_below() const { return repair_below + method::kPenaltyAbove; }
 };
 
-// A tetrahedron that a node's move has made, or done away with, as other ranks are told of it.
+// A tetrahedron that the move of a node created or removed, as sent to other ranks.
 struct ChangedTetrahedron {
-  std::int64_t node;  // id; it is at x now
+  std::int64_t node;  // id of the node to move
   Point<3> x;
-  std::array<std::int64_t, 4> corners;  // ids, of positive orientation
-  std::int32_t on;                      // the facet that the node is on now, or -1
-  std::int32_t made;                    // 0: it is gone
+  std::array<std::int64_t, 4> corners;  // ids, positively oriented
+  std::int32_t on;                      // new facet of the moved node, or -1
+  std::int32_t made;                    // 1: created, 0: removed
 };
 
-// The node that is to move for a sliver in a round, as other ranks are told of it.
+// The node that is to move for a sliver in a round, as sent to other ranks.
 struct SliverDraw {
   std::uint64_t lot;
-  std::array<std::int64_t, 4> sliver;  // ids, ascending
+  std::array<std::int64_t, 4> sliver;  // ids of its corners, ascending
   std::int64_t node;                   // id
 };
 
-// How nodes on surfaces go along these.
+// Functions by which nodes move along surfaces.
 struct AlongSurfaces {
+  // A point on a facet of the surface.
   struct Place {
     Point<3> x;
     std::int32_t facet;
   };
-  // Where node i comes to in that direction, as far as that length; where it is if it may not.
+  // Returns the point that node i reaches in this direction after at most this length, or its
+  // current point if it may not move.
   std::function<Place(std::int64_t i, const Point<3>& direction, double length)> walk;
   SurfaceNodeMove::InDomain in_domain;
-  // Moves places that lie near their surface only onto it, those of this rank at once and outside
-  // of parallel regions. A place that cannot be moved there gets the facet -1. Null if all walks
-  // end on the surface.
+  // Projects points that are only near their surface onto it. The facet of a point becomes -1 if it
+  // cannot be projected. Called once per round for all points of this rank, outside of parallel
+  // regions. Null if walk() returns points on the surface.
   std::function<void(std::vector<Place>& places)> settle;
-  // Do these nodes of the boundary lie on one sheet of a surface?
+  // Returns whether these boundary nodes lie on one sheet of a surface.
   std::function<bool(std::int64_t i, std::int64_t j)> on_one_sheet;
 };
 
+// The repair of slivers, in rounds: draw(), on several ranks take(), move(), and on several ranks
+// follow().
 class SliverRepair {
  public:
-  // May node i be at x?
+  // Returns whether node i may be at x.
   using Allowed = std::function<bool(std::int64_t i, const Point<3>& x)>;
 
-  // The stars are those of the nodes' positions, and remain while this lives: of the owned nodes,
-  // and of ghosts within method::kSliverRings of them. Nodes on surfaces move where it is said how:
-  // where no other node of a sliver can, and late.
+  // Finds the slivers. `stars` must be valid for the current positions of the owned nodes and of
+  // ghosts within method::kSliverRings of these. `nodes` and `stars` must outlive this object.
+  // Nodes on surfaces move only if `along_surfaces.walk` is set: for slivers whose other nodes
+  // cannot move, and for all slivers in the later half of the rounds.
   SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed,
                AlongSurfaces along_surfaces = {});
 
-  // A round. Of each sliver with an angle below so many degrees one corner is drawn, and its owner,
-  // who knows all around it, draws the node that is to move.
+  // Starts a round for the slivers with an angle below `below` degrees. A pseudo-random corner of
+  // each sliver is selected, and the owner of this corner selects the node that is to move, because
+  // it knows all nodes around the corner.
   void draw(std::int64_t number, double below = 90);
-  // What ranks tell those that have the corner as a ghost, and what these do with it.
+  // Returns the owned corners with draws; draws_of() returns the draws of one. The caller must send
+  // them to the ranks that have the corner as a ghost, and pass the received ones to take().
   std::vector<std::int32_t> drawn_corners() const;
   std::vector<SliverDraw> draws_of(std::int32_t corner) const;
   void take(const std::vector<SliverDraw>& draws);
-  // Moves owned nodes by all draws around, and returns how many.
+  // Tries to move the owned nodes that win the contest against all draws around them. Returns the
+  // number of nodes moved.
   std::int64_t move();
-  // Ranks tell those that have these nodes as ghosts what has changed with them: so the stars of
-  // all stay what they are to their owners, however many rounds there are.
-  std::vector<std::int32_t> moved_nodes() const;  // in the last round
+  // Returns the owned nodes moved in the last round; changes_of() returns what the move of one
+  // changed. The caller must send the changes to the ranks that have the node as a ghost, and pass
+  // the received ones to follow(). Then the stars of ghosts agree with those of their owners in any
+  // number of rounds.
+  std::vector<std::int32_t> moved_nodes() const;
   std::vector<ChangedTetrahedron> changes_of(std::int32_t moved_node) const;
   void follow(const std::vector<ChangedTetrahedron>& news);
 
-  // The stars of the owned nodes where all are now, in place of those made before.
+  // Replaces the original stars of the owned nodes by those of their new positions.
   void write_stars(VolumeStars& stars) const { stars_.write_to(stars); }
 
-  // Those left, with an owned node that can move.
+  // Returns the number of remaining slivers that have an owned node that can move.
   std::int64_t slivers(double below = 90) const;
-  // Of this rank's attempts in the last round: those that found no better place. One along a
-  // surface counts as often as it takes the time of another.
+  // Returns the number of failed attempts of this rank in the last round. An attempt on a surface
+  // counts kWorkOfSurfaceMove times.
   std::int64_t in_vain() const { return in_vain_; }
-  // So far: stars in which slivers were looked for, at first and after each change.
+  // Returns the total number of stars that this rank has searched for slivers.
   NodesWorkedFor stars_looked_at() const { return stars_looked_at_; }
-  // Of this rank's attempts so far: uses of stars that are not known here. Where there are any, the
-  // result may depend on ranks.
+  // Returns how often attempts of this rank used stars that this rank does not know. If this is not
+  // 0, the result may depend on the number of ranks.
   std::int64_t unknown_uses() const { return stars_.unknown_uses() + unknown_draws_; }
 
  private:
-  // The node that is to move for a sliver, and its lot in this round.
+  // The node that is to move for a sliver, and the lot of the sliver in this round.
   struct Attempt {
     std::uint64_t lot;
-    std::array<std::int64_t, 4> ids;  // of the sliver's nodes
-    TetrahedronNodes sliver;          // by id; -1: another rank's, not known here
+    std::array<std::int64_t, 4> ids;  // ids of the sliver's corners
+    TetrahedronNodes sliver;          // indices sorted by id; -1: not known on this rank
     std::int32_t node;
-    std::int32_t corner;              // that was drawn, or -1: another rank's
-    std::vector<StarChange> success;  // one, or none
+    std::int32_t corner;              // the selected corner, or -1 in draws of other ranks
+    std::vector<StarChange> success;  // the change to carry out, if any
   };
 
   std::array<Point<3>, 4> corners_of(const TetrahedronNodes& tetrahedron) const;
@@ -155,16 +167,16 @@ class SliverRepair {
   Allowed allowed_;
   AlongSurfaces along_surfaces_;
   StarChanges stars_;
-  std::vector<Point<3>> before_;  // where the nodes were when the repair began
-  // Nodes of the boundary, and boxes that they stay in.
+  std::vector<Point<3>> before_;  // positions of the nodes when the repair began
+  // Boundary nodes, and boxes that they do not leave during the repair.
   std::vector<std::int32_t> boundary_nodes_;
   BoxTree<3> boundary_boxes_;
-  std::vector<char> is_affected_;          // while a change is accepted
-  std::vector<TetrahedronNodes> slivers_;  // in no order that matters
-  std::vector<Attempt> attempts_;          // of this round
-  std::vector<StarChange> changes_;        // of the last round
+  std::vector<char> is_affected_;          // used by accept()
+  std::vector<TetrahedronNodes> slivers_;  // in no particular order
+  std::vector<Attempt> attempts_;          // attempts of this round
+  std::vector<StarChange> changes_;        // changes of the last round
   std::int64_t unknown_draws_ = 0;
-  std::unordered_map<std::int64_t, std::int32_t> place_of_id_;  // where there are ghosts
+  std::unordered_map<std::int64_t, std::int32_t> place_of_id_;  // empty without ghosts
 };
 
 }  // namespace pnpbs

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ranks tell each other of the moves that repair slivers.
+// Messages between ranks about the moves that repair slivers.
 #include <algorithm>
 
 #include "quality/volume/sliver_repair.hpp"
 
 namespace pnpbs {
 
-// -1: it is not known here.
+// Returns the local index of the node with this id, or -1 if this rank does not have it.
 std::int32_t SliverRepair::place_of(std::int64_t id) const {
   const auto found = place_of_id_.find(id);
   return found == place_of_id_.end() ? -1 : found->second;
@@ -31,7 +31,7 @@ std::vector<SliverDraw> SliverRepair::draws_of(std::int32_t corner) const {
 void SliverRepair::take(const std::vector<SliverDraw>& draws) {
   for (const SliverDraw& draw : draws) {
     const std::int32_t node = place_of(draw.node);
-    if (node < 0) continue;  // too far to bar any here
+    if (node < 0) continue;  // too far from the owned nodes to matter
     TetrahedronNodes sliver;
     for (std::size_t k = 0; k < 4; ++k) sliver[k] = place_of(draw.sliver[k]);
     const bool known = std::ranges::find(sliver, -1) == sliver.end();
@@ -66,7 +66,8 @@ std::vector<std::int32_t> SliverRepair::moved_nodes() const {
   return moved;
 }
 
-// Of tetrahedra with corners that are not known here the stars need not be right.
+// Tetrahedra with corners unknown to this rank are skipped: the stars of these corners need not be
+// valid here.
 void SliverRepair::follow(const std::vector<ChangedTetrahedron>& news) {
   std::vector<StarChange> changes;
   for (const ChangedTetrahedron& record : news) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small dihedral angles of tetrahedra, of which most have none.
+// Tests for small dihedral angles of tetrahedra, optimised for the usual case without any.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 namespace pnpbs {
 
-// The faces of a tetrahedron: vectors normal to them, inwards or all outwards, twice as long as
-// their areas, in the order of the opposite corners. The same bits for the same order of the
-// corners, whatever their orientation.
+// Returns the normals of the faces of a tetrahedron, in the order of the opposite corners. They all
+// point inwards or all outwards, and their lengths are twice the areas. The same order of the
+// corners gives the same bits for either orientation.
 inline std::array<Point<3>, 4> face_normals(const std::array<Point<3>, 4>& x) {
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
   std::array<Point<3>, 4> normal{Point<3>{}, cross(w, v), cross(u, w), cross(v, u)};
@@ -22,8 +22,8 @@ inline std::array<Point<3>, 4> face_normals(const std::array<Point<3>, 4>& x) {
   return normal;
 }
 
-// A bound in degrees, of acute angles, that dihedral angles are held against: those between each
-// two of the faces, 0 where a face has no area.
+// A bound for the dihedral angles of tetrahedra. It must be an acute angle in degrees. An angle
+// counts as 0 at a face without area.
 class SmallAngles {
  public:
   explicit SmallAngles(double below)
@@ -31,22 +31,23 @@ class SmallAngles {
         cosine_(std::cos(below * kDegree)),
         surely_wide_((1 - kRounding) * cosine_ * cosine_) {}
 
+  // Returns whether any dihedral angle is below the bound.
   bool any(const std::array<Point<3>, 4>& x) const {
     bool found = false;
     for_small(x, [&](double) { found = true; });
     return found;
   }
 
-  // Surely none, in whatever order the corners come? Nearly as often as there is none; of thin
-  // tetrahedra that is not said.
+  // Returns whether certainly no angle is below the bound, for any order of the corners. May return
+  // false for a tetrahedron without a small angle, always so for thin ones.
   bool surely_none(const std::array<Point<3>, 4>& x) const {
-    // With faces of this part of the longest edge's square, rounding changes cosines by less than
-    // 1e-10.
+    // Rounding changes cosines by less than 1e-10 if all faces are larger than this share of the
+    // longest edge's square.
     constexpr double kThin = 1e-6, kMargin = 1e-6;
     const std::array<Point<3>, 4> normal = face_normals(x);
     std::array<double, 4> square;
     for (std::size_t f = 0; f < 4; ++f) square[f] = dot(normal[f], normal[f]);
-    double longest = 0;  // squared, of the edges at one corner: no edge is twice as long
+    double longest = 0;  // squared, over the edges at one corner; no other edge is twice as long
     for (std::size_t k = 1; k < 4; ++k) {
       const Point<3> edge = difference(x[k], x[0]);
       longest = std::max(longest, dot(edge, edge));
@@ -61,7 +62,7 @@ class SmallAngles {
     return none;
   }
 
-  // The sum of the squares of what angles lack.
+  // Returns the sum over all angles below the bound of (bound - angle)^2. [degrees^2]
   double penalty(const std::array<Point<3>, 4>& x) const {
     double sum = 0;
     for_small(x, [&](double cosine) {
@@ -74,10 +75,11 @@ class SmallAngles {
  private:
   static constexpr double kDegree = std::numbers::pi / 180;
   static constexpr double kRounding = 1e-12;
-  static constexpr double kTiny = 1e-280;  // below it squares of areas have lost digits
+  // below it, squares of areas have lost digits to underflow
+  static constexpr double kTiny = 1e-280;
 
-  // Calls visit(cosine) for each angle below the bound. Most are not, as the squares show without
-  // a root.
+  // Calls visit(cosine) for each angle below the bound. Comparing squares avoids a square root for
+  // most angles.
   template <class Visit>
   void for_small(const std::array<Point<3>, 4>& x, const Visit& visit) const {
     const std::array<Point<3>, 4> normal = face_normals(x);

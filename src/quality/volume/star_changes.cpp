@@ -14,7 +14,7 @@ bool has(const TetrahedronNodes& tetrahedron, std::int32_t i) {
   return std::find(tetrahedron.begin(), tetrahedron.end(), i) != tetrahedron.end();
 }
 
-// With an even permutation, so that the orientation stays.
+// Returns the other three corners, ordered such that (i, corners) has the orientation of t.
 StarChanges::Corners others(const TetrahedronNodes& t, std::int32_t i) {
   if (t[0] == i) return {t[1], t[2], t[3]};
   if (t[1] == i) return {t[0], t[3], t[2]};
@@ -22,7 +22,7 @@ StarChanges::Corners others(const TetrahedronNodes& t, std::int32_t i) {
   return {t[0], t[2], t[1]};
 }
 
-// Of its tetrahedra, each once.
+// Returns the corners of all tetrahedra of the change, without duplicates.
 std::vector<std::int32_t> corners_of(const StarChange& change) {
   std::vector<std::int32_t> corners;
   for (const auto* tetrahedra : {&change.gone, &change.made})
@@ -69,7 +69,8 @@ StarChanges::Star StarChanges::star_after(std::int32_t i, const StarChange& chan
   return star;
 }
 
-// As VolumeStars has it. By Euler's formula as many triangles are all around the node.
+// Writes a star in the format of VolumeStars. By Euler's formula, n neighbours with 2 n - 4
+// triangles close around the node.
 void StarChanges::write_in_order(const Star& star, std::vector<std::int32_t>& out) const {
   const std::size_t n = star.neighbours.size();
   out.push_back(VolumeStars::header(n, star.simplices.size() + 4 == 2 * n));
@@ -98,10 +99,10 @@ void StarChanges::write_in_order(const Star& star, std::vector<std::int32_t>& ou
   }
 }
 
-// Tetrahedra that are made are taken for ones of the domain, and what is outside is not looked at:
-// where a surface is rough beside d, a node that moves may change that. So open stars and those
-// that have changed are doubted; a closed one without a change has the same nodes as before, where
-// they were before.
+// The changes treat all new tetrahedra as elements of the domain and ignore the outside. Where a
+// surface is rough compared with d, a moved node may violate that, so open stars and changed stars
+// are marked as doubtful. An unchanged closed star has the same nodes at the same positions as
+// before and remains valid.
 void StarChanges::write_to(VolumeStars& stars) const {
   std::vector<char> changed(place_.size());
   for (std::size_t i = 0; i < place_.size(); ++i) changed[i] = place_[i] != kUnchanged;
@@ -124,7 +125,7 @@ void StarChanges::put(std::int32_t i, Star star) {
   }
 }
 
-// No star depends on more than one of the changes, so all are found at once.
+// The new stars are computed concurrently, because no star depends on more than one change.
 std::vector<std::vector<std::int32_t>> StarChanges::accept(std::span<const StarChange> changes) {
   std::vector<std::vector<std::int32_t>> affected(changes.size());
   std::vector<std::vector<Star>> after(changes.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stars of a volume's nodes while some of these go elsewhere, one at a time: the stars made before,
-// and over them those that have changed since then.
+// Stars of the nodes of a volume while single nodes move. Stars that have changed are stored on top
+// of the original ones.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,11 @@
 
 namespace pnpbs {
 
-// Its corners, by id where that is said, so that what is computed from them is the same everywhere.
+// Local indices of the corners of a tetrahedron. Where stated, they are sorted by id, so that
+// results computed from them have the same bits on every rank.
 using TetrahedronNodes = std::array<std::int32_t, 4>;
 
-// Without the call of memcmp that comparing arrays is.
+// Compares arrays without the call of memcmp that operator== compiles to.
 template <std::size_t N>
 bool same(const std::array<std::int32_t, N>& a, const std::array<std::int32_t, N>& b) {
   std::int32_t differing = 0;
@@ -36,25 +37,27 @@ bool contains(const std::vector<std::array<std::int32_t, N>>& list,
   return std::any_of(list.begin(), list.end(), [&](const auto& c) { return same(c, corners); });
 }
 
-// What becomes of the triangulation if a node goes to x.
+// The change of the triangulation when a node moves to x.
 struct StarChange {
   std::int32_t node;
   Point<3> x;
-  std::vector<TetrahedronNodes> gone, made;  // of positive orientation
-  std::int32_t on = -1;                      // of a node on a surface: its facet there
+  std::vector<TetrahedronNodes> gone, made;  // positively oriented
+  std::int32_t on = -1;                      // new facet of a node on a surface, or -1
 };
 
+// Original stars and the changes made to them. `nodes` and `stars` must outlive this object.
 class StarChanges {
  public:
   using Corners = std::array<std::int32_t, 3>;
 
+  // Starts without changes. Nodes on surfaces are movable as well if `on_surfaces_too` is true.
   StarChanges(const Nodes<3>& nodes, const VolumeStars& stars, bool on_surfaces_too = false)
       : nodes_(nodes),
         stars_(stars),
         on_surfaces_too_(on_surfaces_too),
         place_(static_cast<std::size_t>(nodes.count), kUnchanged) {}
 
-  // As those of VolumeStars, in some order.
+  // These two functions visit the same as those of VolumeStars, but in an unspecified order.
   template <class Visit>
   void for_neighbours(std::int64_t i, const Visit& visit) const {
     const std::int32_t place = place_[static_cast<std::size_t>(i)];
@@ -70,17 +73,17 @@ class StarChanges {
       visit(corners);
   }
 
-  // May it go elsewhere?
+  // Returns whether the repair may move node i.
   bool movable(std::int64_t i) const {
     return nodes_.moves(i) || (on_surfaces_too_ && nodes_.carrier(i) == Carrier::surface);
   }
-  // Only tetrahedra with such a node can be mended.
+  // Returns whether any corner is movable. Other tetrahedra cannot be repaired.
   bool any_movable(const TetrahedronNodes& tetrahedron) const {
     return std::any_of(tetrahedron.begin(), tetrahedron.end(),
                        [this](std::int32_t i) { return movable(i); });
   }
-  // Calls visit(tetrahedron) for those around node i that have it for the first by id of all
-  // corners that count: so each once, of those around all nodes that do.
+  // Calls visit(tetrahedron) for the tetrahedra around node i in which i has the smallest id of all
+  // corners j with counts(j). Over all counting nodes i, each tetrahedron is visited once.
   template <class Counts, class Visit>
   void for_simplices_first_at(std::int64_t i, const Counts& counts, const Visit& visit) const {
     const std::int64_t id = nodes_.id(i);
@@ -90,27 +93,30 @@ class StarChanges {
       visit(TetrahedronNodes{static_cast<std::int32_t>(i), corners[0], corners[1], corners[2]});
     });
   }
-  // The same triangle has the same corners in the same turn, whichever comes first.
+  // Rotates the corners so that the smallest index comes first. The orientation is kept.
   static Corners least_first(const Corners& c);
+  // Sorts the corners by id. The orientation is lost.
   TetrahedronNodes by_id(TetrahedronNodes corners) const;
+  // Compares two tetrahedra lexicographically by the ids of their corners.
   bool ids_less(const TetrahedronNodes& a, const TetrahedronNodes& b) const;
 
-  // The nodes have gone there. Of two such changes no tetrahedra have a corner in common. Returns,
-  // of each, the nodes whose stars have changed.
+  // Applies the changes. Tetrahedra of different changes must not share corners. Returns the nodes
+  // whose stars changed, for each change.
   std::vector<std::vector<std::int32_t>> accept(std::span<const StarChange> changes);
 
-  // Who decides by the star of node i counts it if that need not be right: it is neither an owned
-  // node's nor one that was found.
+  // Counts a use of the star of node i if this star may be wrong, because the node is a ghost
+  // without a computed star. The caller must call this before it decides by the star.
   void count_if_unknown(std::int64_t i) const {
     if (!nodes_.owned(i) && !stars_.found(i))
       std::atomic_ref<std::int64_t>(unknown_uses_).fetch_add(1, std::memory_order_relaxed);
   }
   std::int64_t unknown_uses() const { return unknown_uses_; }
 
-  // Puts the stars that have changed in place of those made before, which these are.
+  // Writes the changed stars to `stars`, which must be the original ones.
   void write_to(VolumeStars& stars) const;
 
  private:
+  // A changed star: neighbours of a node, and its tetrahedra by their other three corners.
   struct Star {
     std::vector<std::int32_t> neighbours;
     std::vector<Corners> simplices;
@@ -125,9 +131,9 @@ class StarChanges {
   const Nodes<3>& nodes_;
   const VolumeStars& stars_;
   bool on_surfaces_too_;
-  std::vector<std::int32_t> place_;  // of each node's star among those changed
+  std::vector<std::int32_t> place_;  // index in changed_ for each node, or kUnchanged
   std::vector<Star> changed_;
-  mutable std::int64_t unknown_uses_ = 0;  // a tally of those who ask, which decides nothing
+  mutable std::int64_t unknown_uses_ = 0;  // a counter that influences no decision
 };
 
 }  // namespace pnpbs

@@ -52,7 +52,7 @@ bool SurfaceNodeMove::is_element(const Found& tetrahedron, const std::array<std:
   return known->second;
 }
 
-// What node i makes with those near while the node that goes is at x.
+// Computes the star of node i from the nodes in near_, with the moving node at x.
 SurfaceNodeMove::Star SurfaceNodeMove::star_of(std::int32_t i, const Point<3>& x) {
   static thread_local VolumeStar star;
   Star result;
@@ -63,7 +63,7 @@ SurfaceNodeMove::Star SurfaceNodeMove::star_of(std::int32_t i, const Point<3>& x
     candidates.push_back(j);
     star.add(node_at(j, x));
   }
-  star.wrap(std::numeric_limits<double>::infinity());  // no other node is meant to matter
+  star.wrap(std::numeric_limits<double>::infinity());  // the candidates are all that matter
   star.finish([&](const VolumeStar::Corners& corners) {
     TetrahedronNodes t{i};
     std::array<std::int64_t, 4> nodes{i};
@@ -87,13 +87,13 @@ const SurfaceNodeMove::Star& SurfaceNodeMove::star_before(std::int32_t i) {
   return before_.emplace(i, star_of(i, nodes_.position(change_.node))).first->second;
 }
 
-// Is the star made from the nodes around the one that is there?
+// Returns whether the star computed for the old position equals the existing one.
 bool SurfaceNodeMove::is_as_before(std::int32_t i) {
   return star_before(i).tetrahedra == star_there(i);
 }
 
-// Of the centres, with the node where it goes. A tetrahedron must be in the stars of all its
-// corners among them.
+// Computes the elements in the stars of the centres after the move. Returns false if an element is
+// missing in the star of one of its corners.
 bool SurfaceNodeMove::find_stars_after(std::vector<Found>& found) {
   for (const std::int32_t i : centres_) {
     const Star star = star_of(i, change_.x);
@@ -112,6 +112,7 @@ bool SurfaceNodeMove::find_stars_after(std::vector<Found>& found) {
   return true;
 }
 
+// Returns the existing elements around node i.
 std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::star_there(std::int32_t i) const {
   std::vector<Found> there;
   stars_.for_simplices(i, [&](const StarChanges::Corners& c) {
@@ -141,7 +142,7 @@ void SurfaceNodeMove::go_to(const Point<3>& x, std::int32_t on) {
   centres_.insert(centres_.end(), after.neighbours.begin(), after.neighbours.end());
   centres_.push_back(change_.node);
   std::erase_if(centres_,
-                [&](std::int32_t i) {  // on the far side of a gap, far away within the body
+                [&](std::int32_t i) {  // across a gap a neighbour may be far away within the body
                   return !std::binary_search(two_rings_.begin(), two_rings_.end(), i);
                 });
   stars_.for_neighbours(change_.node,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds how the tetrahedra of the domain change if a node on a surface goes a little way along it.
-// There the triangulation ends, and what is cut off differs with the place of the node. So the
-// stars of the node and of all that are its neighbours before or after, across the outside as well,
-// are made anew for both places, and compared.
+// Change of the elements when a node on a surface moves along the surface. The triangulation ends
+// at the surface, and the part outside of the domain depends on the position of the node. The stars
+// of the node and of all its neighbours before or after the move, including those across the
+// outside, are therefore computed for both positions and compared.
 #pragma once
 
 #include <cstdint>
@@ -16,33 +16,38 @@
 
 namespace pnpbs {
 
+// The moves of one surface node that are tried one after another. All references must outlive this
+// object.
 class SurfaceNodeMove {
  public:
-  // Is an element of these nodes, which are at these corners, part of the domain?
+  // Returns whether a tetrahedron with these nodes at these corners is an element of the domain.
   using InDomain =
       std::function<bool(const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners)>;
 
-  // `others`: nodes of the boundary around the node, on the far side of a wall or a gap as well.
+  // `others` are the boundary nodes around the node, including those on the far side of a wall or a
+  // gap.
   SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node,
                   std::span<const std::int32_t> others, const InDomain& in_domain);
 
-  // To x on facet `on`: the tetrahedra of its own star there, which are some of those made, and
-  // all that there are around it, among which are those gone.
+  // Moves the node to x on facet `on`. Afterwards change() has a subset of the new tetrahedra,
+  // those of the node's own star, and a superset of the removed ones.
   void go_to(const Point<3>& x, std::int32_t on);
   const StarChange& change() const { return change_; }
-  // All those made, and none but those gone. False if the stars made from the nodes around are not
-  // those that are there, or do not agree with each other.
+  // Computes exactly the new and the removed tetrahedra. Returns false if the stars computed for
+  // the old position differ from the existing ones, or if the new stars contradict each other.
   bool complete();
 
  private:
+  // A tetrahedron with its corners sorted by id, and positively oriented.
   struct Found {
     TetrahedronNodes by_id, oriented;
     bool operator<(const Found& other) const { return by_id < other.by_id; }
     bool operator==(const Found& other) const { return by_id == other.by_id; }
   };
+  // A star of the triangulation, which may extend beyond the surface.
   struct Star {
-    std::vector<Found> tetrahedra;         // of the domain, in order
-    std::vector<std::int32_t> neighbours;  // on the far side of the surface, too
+    std::vector<Found> tetrahedra;         // elements, sorted by id
+    std::vector<std::int32_t> neighbours;  // including neighbours beyond the surface
   };
 
   VolumeNode node_at(std::int32_t i, const Point<3>& x) const {
@@ -61,12 +66,13 @@ class SurfaceNodeMove {
   const Nodes<3>& nodes_;
   const StarChanges& stars_;
   const InDomain& in_domain_;
-  // Nodes around the node, and itself: those in two rings have all their neighbours in three.
+  // The nodes within two and within three rings around the node, including itself. All neighbours
+  // of a node in the second ring are in the third. `near_` also has the other boundary nodes.
   std::vector<std::int32_t> two_rings_, near_;
-  std::vector<std::int32_t> centres_;  // of the stars that may change
-  std::vector<Found> there_;           // their tetrahedra
-  // What does not depend on where the node goes: the stars while it has not gone, and of tetrahedra
-  // without it, by id, whether they are elements.
+  std::vector<std::int32_t> centres_;  // nodes whose stars may change
+  std::vector<Found> there_;           // existing tetrahedra of these stars
+  // Results that do not depend on the new position: the stars before the move, and for tetrahedra
+  // without the node, by id, whether they are elements.
   std::map<std::int32_t, Star> before_;
   std::map<TetrahedronNodes, bool> elements_;
   StarChange change_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scattered points as a table: a header with the names of the columns, of which x, y and z are
-// coordinates, then a point in each line. Columns are parted by commas or, where the header has
-// none, by semicolons or tabs. ParaView's names for coordinates, Points:0 to Points:2, are taken,
-// too.
+// Reader of scattered points in a table. The header has the names of the columns, of which x, y and
+// z are coordinates. Each further line is a point. Columns are separated by commas or, where the
+// header has none, by semicolons or tabs. ParaView's names of coordinates, Points:0 to Points:2,
+// are accepted as well.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -16,6 +16,7 @@ namespace pnpbs {
 
 namespace {
 
+// Returns a cell without blanks and quotes around it.
 std::string_view bare(std::string_view cell) {
   constexpr std::string_view kBlanks = " \t\r";
   const auto trim = [&] {
@@ -30,6 +31,7 @@ std::string_view bare(std::string_view cell) {
   return cell;
 }
 
+// Splits the lines of a table into cells.
 class Table {
  public:
   Table(std::string_view text, const std::string& name)
@@ -59,7 +61,7 @@ class Table {
   char separator_ = '\0';
 };
 
-// Which coordinate a column is, or -1.
+// Returns the coordinate that a column contains, or -1.
 int coordinate_of(std::string_view name) {
   constexpr std::array<std::array<std::string_view, 3>, 3> kNames{
       {{"x", "X", "Points:0"}, {"y", "Y", "Points:1"}, {"z", "Z", "Points:2"}}};

@@ -10,8 +10,8 @@ namespace pnpbs {
 
 namespace {
 
-// zlib's uncompress(), the same since zlib 1.0 (zlib.net/manual.html): the length in and out is
-// that of the bytes to come; it returns 0 if all went well.
+// zlib's uncompress(), unchanged since zlib 1.0 (zlib.net/manual.html). The length is the capacity
+// on entry and the size of the decompressed data on return. The function returns 0 on success.
 using Uncompress = int (*)(unsigned char* bytes, unsigned long* length, const unsigned char* packed,
                            unsigned long packed_length);
 

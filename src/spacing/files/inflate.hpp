@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What zlib packed, unpacked, as most VTK files are packed. zlib is opened when it is needed:
+// Decompression of zlib data, as in most VTK files. zlib is opened at run time when it is needed;
 // nearly every system has it.
 #pragma once
 
@@ -10,12 +10,13 @@
 
 namespace pnpbs {
 
-// The bytes, which must be as many as told; nothing if they are not, or are damaged. Takes memory
-// for no more than that. Throws Error where there is no zlib.
+// Decompresses data that must have exactly `bytes` bytes. Returns nothing if the size differs or
+// the data are damaged. Allocates no more than `bytes` bytes. Throws Error if zlib cannot be
+// opened.
 std::optional<std::string> inflated(std::string_view packed, std::size_t bytes);
 
-// No fewer bytes hold so many: at best a bit stands for 258 bytes, and two are needed for each such
-// copy.
+// Returns whether `packed` bytes may decompress to `bytes` bytes. In the best case a copy of 258
+// bytes takes two bits.
 constexpr bool may_inflate_to(std::size_t packed, std::size_t bytes) {
   constexpr std::size_t kBestRatio = 1032;
   return bytes / kBestRatio <= packed;

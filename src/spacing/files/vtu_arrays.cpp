@@ -16,16 +16,16 @@
 
 namespace pnpbs {
 
-// Bytes in a row, raw or as base64 (RFC 4648) with blanks anywhere. Of the latter parts may be
-// padded each for itself.
+// A stream of bytes, stored raw or as base64 (RFC 4648) with blanks anywhere. Base64 data may
+// consist of parts with their own padding.
 class ByteSource {
  public:
-  // Keeps a reference to the bytes.
+  // `bytes` must outlive this object.
   ByteSource(std::string_view bytes, bool is_raw) : rest_(bytes), is_raw_(is_raw) {}
 
-  // False if there are not so many.
+  // Removes the next `count` bytes from the stream. Returns false if there are fewer.
   bool take(std::size_t count, std::string& bytes);
-  // No more than this can be taken.
+  // Returns an upper bound of the number of bytes left.
   std::size_t room() const { return is_raw_ ? rest_.size() : held_.size() + rest_.size(); }
 
  private:
@@ -33,12 +33,12 @@ class ByteSource {
 
   std::string_view rest_;
   bool is_raw_;
-  std::string held_;  // decoded and not taken yet
+  std::string held_;  // decoded bytes not removed yet
 };
 
 namespace {
 
-// Of a letter; -1 if it is none.
+// Returns the value of a base64 letter, or -1.
 int value_in_base64(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -88,7 +88,8 @@ bool ByteSource::take(std::size_t count, std::string& bytes) {
   return true;
 }
 
-// Four letters are up to three bytes.
+// Decodes the next four letters, which are up to three bytes. Returns false if there are not four
+// valid ones.
 bool ByteSource::decode() {
   std::uint32_t bits = 0;
   int letters = 0, padding = 0;
@@ -117,7 +118,7 @@ VtuFile::VtuFile(std::string_view bytes, std::string name) : name_(std::move(nam
   std::string section;
   VtuArray* open = nullptr;
   bool whole = false;
-  int below = 0;  // tags that are open within an array: what is said of it, with texts of their own
+  int below = 0;  // depth of open tags within an array, which describe it and may contain text
   while (xml.next()) {
     const std::string& tag = xml.tag();
     if (open && tag != "DataArray") {
@@ -135,7 +136,7 @@ VtuFile::VtuFile(std::string_view bytes, std::string name) : name_(std::move(nam
       below = 0;
     } else if (tag == "AppendedData") {
       take_appended(xml);
-      whole = true;  // or what is cut of it is missed when it is read
+      whole = true;  // reading an array detects truncated data
       break;
     } else if ((tag == "Points" || tag == "Cells" || tag == "PointData") && !xml.is_whole()) {
       section = tag;

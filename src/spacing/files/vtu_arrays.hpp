@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrays of a VTK XML file, found by name and read one by one: as text, base64 or raw bytes, in
-// place or appended, packed by zlib or not (VTK file formats, https://docs.vtk.org/en/latest/
-// design_documents/VTKFileFormats.html).
+// Reader of the arrays of a VTK XML file, which are found by name and read one by one. They may be
+// text, base64 or raw bytes, inline or appended, compressed by zlib or not (VTK file formats,
+// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html).
 #pragma once
 
 #include <bit>
@@ -17,30 +17,34 @@ namespace pnpbs {
 class ByteSource;
 class XmlTags;
 
+// The description of an array, and its content if that is inline.
 struct VtuArray {
-  std::string section, name, type;  // section: "Points", "PointData", ...
+  std::string section, name, type;  // section: "Points", "Cells" or "PointData"
   std::int64_t components = 1;
   std::string format;
   std::uint64_t offset = 0;
   std::string_view content;
 };
 
+// A piece of an unstructured grid.
 struct VtuPiece {
   std::int64_t points = 0, cells = 0;
   std::vector<VtuArray> arrays;
 };
 
+// A parsed VTK XML file of an unstructured grid.
 class VtuFile {
  public:
-  // Keeps a reference to the bytes. Throws Error(ErrorKind::file).
+  // Parses the file. `bytes` must outlive this object. Throws Error(ErrorKind::file).
   VtuFile(std::string_view bytes, std::string name);
 
   const std::vector<VtuPiece>& pieces() const { return pieces_; }
 
-  // Null if there is none.
+  // Returns the array, or null if the piece has none with this section and name.
   const VtuArray* find(const VtuPiece& piece, std::string_view section,
                        std::string_view name) const;
-  // Whatever the type in the file. Integers are exact up to 2^53.
+  // Returns the numbers of an array with this number of tuples, converted to double from any type.
+  // Integers are exact up to 2^53. Throws Error(ErrorKind::file).
   std::vector<double> read(const VtuArray& array, std::int64_t tuples) const;
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -61,7 +65,7 @@ class VtuFile {
   std::string name_;
   std::vector<VtuPiece> pieces_;
   std::endian order_ = std::endian::little;
-  std::size_t word_size_ = 4;  // of headers
+  std::size_t word_size_ = 4;  // bytes of a number in headers
   bool packed_ = false, appended_raw_ = true;
   std::string_view appended_;
 };

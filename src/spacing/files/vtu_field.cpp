@@ -11,7 +11,7 @@ namespace pnpbs {
 
 namespace {
 
-// Of VTK's types of cells, those that are taken: by their corners, which come first.
+// Kinds of VTK cells that matter here. All VTK cells list their corners before other points.
 enum class CellKind { triangle, pixel, quadrangle, tetrahedron, other_face, other_solid, less };
 
 struct VtkCell {
