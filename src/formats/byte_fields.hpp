@@ -34,7 +34,7 @@ class ByteFields {
     return number;
   }
 
-  // Returns the next number as a coordinate. Throws likewise if its size exceeds 1e60.
+  // Returns the next number as a coordinate. Throws also if its absolute value exceeds 1e60.
   template <class Number>
   double coordinate(std::string_view what) {
     const auto value = static_cast<double>(next<Number>(what));

@@ -173,7 +173,7 @@ std::vector<MshFacet> facets_of(const MshMesh& mesh, int dimension) {
 
 namespace {
 
-// Renumbers the nodes that a surface uses and copies them into the surface.
+// The nodes of the mesh that a surface uses, with new numbers in the surface.
 class UsedNodes {
  public:
   explicit UsedNodes(const MshMesh& mesh) : mesh_(mesh), number_(mesh.nodes.size(), -1) {}
@@ -218,8 +218,8 @@ struct MshLine {
   bool inner;
 };
 
-// Joins lines into curves. A curve ends where other than two lines meet, at a stop, or where the
-// tag or side changes.
+// The curves that lines form. A curve ends where the number of lines that meet is not two, at a
+// stop, or where the tag or side changes.
 class CurveFinder {
  public:
   CurveFinder(const std::vector<MshLine>& lines, const std::vector<MshPoint>& stops)
@@ -352,8 +352,8 @@ struct Side {
   std::int64_t element;
 };
 
-// Divides the elements of a dimension into parts: connected sets in one physical group that no
-// facet of the mesh divides.
+// The parts of a mesh: connected sets of elements in one physical group that no facet of the mesh
+// divides.
 class Parts {
  public:
   Parts(const MshMesh& mesh, int dimension) : mesh_(mesh), dimension_(dimension) {

@@ -14,7 +14,7 @@
 
 namespace pnpbs {
 
-// The sides of a facet on which the domain lies.
+// Tells apart facets with the domain on one side and on both sides.
 enum class MshSides {
   one_inside,   // the facet bounds the domain
   both_inside,  // the facet lies inside the domain
@@ -47,7 +47,7 @@ SurfaceTriangles triangles_of(const MshMesh& mesh, const std::vector<MshFacet>& 
 
 // A chain of lines with the same tag and sides.
 struct MshCurve {
-  // indices of nodes of the mesh; a closed curve does not repeat the first
+  // Indices of nodes of the mesh; a closed curve does not repeat the first.
   std::vector<std::int32_t> nodes;
   bool closed;
   std::int32_t tag;

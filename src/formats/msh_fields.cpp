@@ -42,7 +42,7 @@ std::string_view MshFields::required_line(std::string_view what) {
 
 void MshFields::skip_section(std::string_view section) {
   const std::string end = "\n$End" + std::string(section);
-  // the line of an empty section ends right before its $End
+  // The line of an empty section ends right before its $End.
   const std::size_t from = at_ > 0 ? at_ - 1 : 0;
   const std::size_t found = bytes_.find(end, from);
   if (found == std::string_view::npos)

@@ -30,7 +30,7 @@ struct MshRegion {
 
 // The elements of one shape.
 struct MshCells {
-  // indices of nodes from 0; as many per element as the shape has corners
+  // Indices of nodes from 0; as many per element as the shape has corners.
   std::vector<std::int32_t> corners;
   std::vector<std::int32_t> regions;  // region of each element, as index in MshMesh::regions
 
@@ -70,7 +70,7 @@ MshMesh read_msh(const std::string& path);
 // Returns whether the file has the extension .msh, in upper or lower case.
 bool is_msh(const std::string& path);
 
-// Sections that the parser stores.
+// Selects the sections that the parser stores.
 enum class MshWanted { mesh, mesh_and_node_values };
 // Parses the bytes of a file like read_msh(). `name` stands for the file in messages.
 MshMesh parse_msh(std::string_view bytes, const std::string& name,

@@ -19,7 +19,8 @@
 namespace pnpbs {
 namespace {
 
-// Numbers points in the order of first appearance. Points with equal coordinates are one vertex.
+// A numbering of points in the order of first appearance. Points with equal coordinates are one
+// vertex.
 class VertexTable {
  public:
   std::int32_t index_of(Point<3> x);
@@ -119,7 +120,7 @@ class TextParser {
       const std::string_view field = fields_.required(expected);
       if (is_word(field, "endsolid")) return;
       if (!is_word(field, "facet")) fields_.fail_found(field, expected);
-      // the normal is ignored: it follows from the corners, and some files have wrong ones
+      // The normal is ignored: it follows from the corners, and some files have wrong ones.
       read_triangle();
       surface_.tags.push_back(tags_.tag_of(name));
     }

@@ -45,7 +45,7 @@ SurfaceTriangles parse_tetgen(std::string_view text, const std::string& name, Te
 SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
                                SurfaceFormat format, const std::function<NodeFile()>& node_file);
 
-// Assigns tags to names, from 1 in the order of first use. The empty name has a tag, too.
+// Tags of names, from 1 in the order of first use. The empty name has a tag, too.
 class TagNames {
  public:
   std::int32_t tag_of(const std::string& name) {

@@ -20,7 +20,8 @@ Point<2> applied(const std::array<double, 6>& affine, const Point<2>& p) {
           affine[3] + affine[4] * p[0] + affine[5] * p[1]};
 }
 
-constexpr double kSameLongitude = 1e-6;  // degrees
+// Tolerance for a grid that goes around the Earth. [degrees]
+constexpr double kSameLongitude = 1e-6;
 
 bool is_somewhere(const Point<2>& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); }
 
@@ -103,7 +104,7 @@ std::vector<Point<2>> Grid::cells_of(std::vector<Point<2>> points) const {
 }
 
 CellBox Grid::window_for(const GridRequest& request) const {
-  // margin, since the sides are curved between the points of the lattice
+  // Margin, since the sides are curved between the points of the lattice.
   constexpr double more = 0.05;
   const Box<2> box = box_around_finite(cells_of(lattice_over(request.part)));
   const std::int64_t counts[2] = {columns_, rows_};

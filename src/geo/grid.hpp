@@ -23,7 +23,7 @@ namespace pnpbs::geo {
 struct GridRequest {
   std::string path;
   std::string variable;  // "": the file has only one variable
-  // projection of the points, see ReferenceSystem::called(); "": that of the grid
+  // Projection of the points, see ReferenceSystem::called(); "": that of the grid.
   std::string projection;
   Box<2> part;  // region of interest in the projection of the points
 };
@@ -40,7 +40,7 @@ class Grid {
   // Throws Error if a point cannot be projected into the grid's system or the file can no longer be
   // read.
   void evaluate(const std::vector<Point<2>>& points, double* values, std::int32_t* inside) const;
-  // bounding box of the grid in the projection of the points
+  // Returns the bounding box of the grid in the projection of the points.
   const Box<2>& extent() const { return extent_; }
 
  private:
@@ -54,7 +54,7 @@ class Grid {
   std::int64_t columns_ = 0, rows_ = 0;
   // GDAL's affine transformations from cells to coordinates and back
   std::array<double, 6> to_plane_{}, to_cells_{};
-  // from the points' projection to the grid's system, and back
+  // From the points' projection to the grid's system, and back.
   std::optional<Transformation> forward_, backward_;
   bool wraps_ = false;        // the grid is in degrees, so longitudes are equivalent modulo 360
   bool goes_around_ = false;  // the last column is adjacent to the first one

@@ -253,7 +253,7 @@ std::vector<double> cuts_of(const std::vector<Part>& parts) {
   return cuts;
 }
 
-// Rebuilds the boundary curves, with segments split where their tags change.
+// The replacement of boundary curves by ones whose segments are split where their tags change.
 class Retagging {
  public:
   Retagging(std::vector<Curve>& curves, std::vector<Point<2>>& points)

@@ -16,14 +16,14 @@
 namespace pnpbs::geo {
 namespace {
 
-// Edges between vertices, which are joined into curves. Curves end where other than two edges of
-// one role meet.
+// The use of an edge: part of the boundary, of an inner curve, or of a line whose use is not
+// decided yet.
 enum class EdgeRole { boundary, inner, line };
 
 // An edge of polygons or lines.
 struct Edge {
   std::int64_t begin, end;
-  EdgeRole role;  // `line`: not decided yet
+  EdgeRole role;
   std::int32_t tag;
   std::int64_t order;
   bool of_line;
@@ -78,7 +78,7 @@ std::vector<char> without_branches(const std::vector<Edge>& edges, const Inciden
   return left;
 }
 
-// Joins edges into curves.
+// The curves that edges form.
 class ChainMaker {
  public:
   ChainMaker(const std::vector<Edge>& edges, Index places)
@@ -154,7 +154,7 @@ bool is_inside(const Point<2>& p, const std::vector<Edge>& edges,
   return inside;
 }
 
-// Decides which lines bound the domain and which are inner curves, see settle_lines().
+// The decision which lines bound the domain and which are inner curves, see settle_lines().
 class LineSettler {
  public:
   LineSettler(std::vector<Edge>& edges, const std::vector<Point<2>>& points)
@@ -243,7 +243,7 @@ class LineSettler {
   UnionFind<Index> parts_;              // connected parts of closed lines
   std::vector<char> in_outline_;        // by vertex
   std::vector<char> closed_;            // by line
-  std::vector<Index> degree_;           // number of closed lines at each vertex
+  std::vector<Index> degree_;           // number of edges of closed lines at each vertex
 };
 
 // Sets the roles of lines. Closed lines that neither meet a polygon nor lie inside one bound the
@@ -323,7 +323,8 @@ std::vector<Piece> pieces_of(const std::vector<Route>& routes) {
   return pieces;
 }
 
-// Turns all pieces between the same two vertices into at most one edge, and counts what is merged.
+// A converter of pieces to edges. All pieces between the same two vertices become at most one edge,
+// and it counts the pieces that are merged or left out.
 class EdgeSorter {
  public:
   EdgeSorter(const WordsFor& where, Outlines& outlines, std::vector<Edge>& edges)

@@ -44,7 +44,7 @@ struct Curve {
   bool closed;
   std::vector<std::int64_t> places;  // vertices; a closed curve does not repeat the first one
   std::vector<std::int32_t> tags;    // tag of each segment
-  // comes from a line of the file, not from a polygon
+  // Comes from a line of the file, not from a polygon.
   bool of_line = false;
 };
 
@@ -60,7 +60,7 @@ inline std::int64_t end_of(const Curve& curve, std::size_t segment) {
 struct Outlines {
   std::vector<Curve> curves;
   std::int64_t shared_edges = 0;  // edges that two polygons share
-  // edges that a feature passes in both directions, or that lines repeat
+  // Edges that a feature passes in both directions, or that lines repeat.
   std::int64_t dropped_edges = 0;
   std::int64_t retagged_edges = 0;  // outline edges that got the tag of a line on them
   std::int64_t lost_tags = 0;       // line edges on other lines with another tag

@@ -113,8 +113,8 @@ std::optional<Point<2>> sphere_seen_from(const std::string& request) {
 }
 
 // Returns a projection for data around these points: a UTM zone if they fit in one, else Lambert's
-// azimuthal equal-area projection. Throws if the points are all around the Earth on both sides of
-// the equator.
+// azimuthal equal-area projection. Throws if they extend over more than 180 degrees of longitude on
+// both sides of the equator.
 ReferenceSystem local_projection(const ReferenceSystem& data,
                                  const std::vector<Point<2>>& degrees) {
   const LongitudeRange range = longitudes_of(degrees);

@@ -61,7 +61,8 @@ class Projection {
   bool on_sphere() const { return on_sphere_; }
   double sphere_radius() const;  // in the unit of the points; 0: not on a sphere
   bool is_identity() const { return !forward_; }
-  // empty if the system of the data is unknown
+  // Returns the reference system of the projected points. It is empty if that of the data is
+  // unknown.
   const ReferenceSystem& system() const { return target_; }
   // Returns the unique form of a point in degrees: the longitude is above -180 and at most 180, and
   // 0 at a pole.
@@ -73,23 +74,24 @@ class Projection {
   // distance from the nearer end. A point on the straight way in the data may be far from it.
   // Returns 0 if the data are not projected.
   double off_way(const Point<2>& point, const Point<2>& a, const Point<2>& b) const;
-  // Projects canonical points in place. If a point cannot be projected, returns its index and the
-  // reason, else nothing.
+  // A point that cannot be projected.
   struct Fault {
     std::size_t index;
     MessageText reason;
   };
+  // Projects canonical points in place. If a point cannot be projected, returns its index and the
+  // reason, else nothing.
   std::optional<Fault> project(std::vector<Point<2>>& points) const;
   // Convert projected points to degrees on the ellipsoid of the data, or back. Points without a
   // counterpart become infinite. Throw Error if the system of the data is unknown.
   void to_degrees(std::vector<Point<2>>& points) const;
   void from_degrees(std::vector<Point<2>>& points) const;
-  // Returns the smallest and largest ratio of projected lengths to lengths on the ellipsoid, along
-  // meridians and parallels, at a sample of the projected points. Both are 1 if the system of the
-  // data is unknown.
+  // The smallest and largest ratio of projected lengths to lengths on the ellipsoid.
   struct Scale {
     double least = 1, greatest = 1;
   };
+  // Returns the scale along meridians and parallels at a sample of the projected points. Both
+  // values are 1 if the system of the data is unknown.
   Scale scale_at(const std::vector<Point<2>>& points) const;
 
  private:
@@ -102,7 +104,7 @@ class Projection {
   bool on_sphere_ = false;
   bool wraps_ = false;                                // the data are degrees that are projected
   std::optional<Transformation> forward_, backward_;  // empty: the identity
-  // from the target to degrees, and from degrees to the target
+  // From the target to degrees, and from degrees to the target.
   std::optional<Transformation> degrees_, of_degrees_;
   std::vector<Point<2>> poles_;  // projected south and north pole
 };

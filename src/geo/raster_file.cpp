@@ -184,8 +184,8 @@ void RasterFile::read_numbers(const CellBox& cells, void* numbers, GDALDataType 
     reject_raster("cannot read " + name_ + ": " + messages.failure());
 }
 
-// GDAL's cache is common to the process, so its limit is not changed. Instead the blocks of this
-// file are dropped when they may exceed our limit.
+// Drops the blocks of this file from GDAL's cache when they may exceed our limit. The cache is
+// common to the process, so its own limit is not changed.
 void RasterFile::limit_cache_of_gdal(const CellBox& read) {
   if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr)) return;
   int columns = 1, rows = 1;

@@ -27,7 +27,8 @@ class RasterFile {
   const std::string& name() const { return name_; }
   std::int64_t columns() const;
   std::int64_t rows() const;
-  // GDAL's affine transformation; throws Error if there is none
+  // Returns GDAL's affine transformation from columns and rows to coordinates. Throws Error if
+  // there is none.
   std::array<double, 6> to_plane() const;
   ReferenceSystem system() const;  // empty if the file names none
   // Returns the number of columns and rows of blocks that cost little more to read than a part of

@@ -14,7 +14,7 @@ Gaps::Gaps(const CellBox& box, const std::vector<double>& values) : box_(box) {
   for (std::int64_t row = box.row; row < box.row_end(); ++row)
     for (std::int64_t column = box.column; column < box.column_end(); ++column) {
       const double value = values[box.place_of(column, row)];
-      // cells without a known value start with a source far away
+      // Cells without a known value start with a source far away.
       nearest_.push_back({column, std::isnan(value) ? row + no_end : row, value});
     }
 }

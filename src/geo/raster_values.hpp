@@ -16,7 +16,8 @@
 
 namespace pnpbs::geo {
 
-// A cache of the values used last, limited by their total bytes(). The type must have bytes().
+// A cache of recently used values, limited by the sum of their bytes(), which their type must
+// define.
 template <class Value>
 class RecentlyUsed {
  public:
@@ -53,18 +54,19 @@ class RecentlyUsed {
   std::unordered_map<std::int64_t, typename Values::iterator> places_;
 };
 
-// Fills the cells without data in a rectangle with the value of the nearest cell. Distances count
-// steps along columns and rows; of several nearest cells, the first in row-major order counts.
+// The cells of a rectangle in which cells without data take the value of the nearest cell with
+// data. Distances count steps along columns and rows; of several nearest cells, the first in
+// row-major order counts.
 class Gaps {
  public:
-  // `values` are in row-major order, NaN for cells without data.
+  // Starts with the values of the box in row-major order, NaN for cells without data.
   Gaps(const CellBox& box, const std::vector<double>& values);
 
   // Adds the value of a cell outside the box.
   void offer(std::int64_t column, std::int64_t row, double value);
-  // Returns how many steps beyond the box the cells are searched that may be nearer to a gap than
-  // the nearest known value, if all cells in `covered` are known and none exist outside `whole`.
-  // Returns 0 if none may be nearer, and no_end if no value is known.
+  // Returns the number of steps beyond the box within which a cell may be nearer to a gap than the
+  // nearest known value. The cells in `covered` are known, and there are none outside `whole`.
+  // Returns 0 if no cell may be nearer, and no_end if no value is known.
   static constexpr std::int64_t no_end = std::int64_t{1} << 40;
   std::int64_t steps_beyond(const CellBox& covered, const CellBox& whole);
   // Returns the values of the box with filled gaps.

@@ -51,7 +51,7 @@ class Shapes {
   Projection projection_;
   Projection::Scale scale_;
   std::vector<Point<2>> places_;
-  // feature in which each vertex of the file first appears
+  // Feature in which each vertex of the file first appears.
   std::vector<std::int64_t> feature_of_place_;
   Outlines outlines_;
   std::int64_t lines_along_shore_ = 0;

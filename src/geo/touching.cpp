@@ -100,7 +100,7 @@ std::pair<double, double> foot_of(const Point<2>& p, const Point<2>& a, const Po
   return {t, std::hypot(p[0] - a[0] - t * ux, p[1] - a[1] - t * uy)};
 }
 
-// Splits segments of routes at the vertices on them.
+// The search for vertices that lie on segments of routes.
 class Splitter {
  public:
   Splitter(std::vector<Route>& routes, const std::vector<Point<2>>& points,

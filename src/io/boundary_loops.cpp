@@ -15,7 +15,7 @@ namespace pnpbs::io {
 
 namespace {
 
-// positions of boundary nodes, by number
+// Positions of boundary nodes by their numbers.
 using Places = std::unordered_map<std::int64_t, Point<3>>;
 
 // A node with its position, as ranks exchange it.
@@ -61,8 +61,8 @@ Places places_of(const std::vector<LoopEdge>& edges, const NodeSource& nodes,
   return places;
 }
 
-// Divides the edges into closed loops that pass each node once. As many edges end at a node as
-// begin there, so every walk returns to its start.
+// The closed loops that edges form, which pass each node once. As many edges end at a node as begin
+// there, so every walk along edges returns to its start.
 class Walks {
  public:
   explicit Walks(const std::vector<LoopEdge>& edges) : edges_(edges), is_used_(edges.size()) {}
@@ -76,7 +76,7 @@ class Walks {
  private:
   void walk_from(std::size_t first) {
     std::vector<LoopEdge> way;
-    // index in `way` of the edge that begins at the node
+    // Index in `way` of the edge that begins at the node.
     std::unordered_map<std::int64_t, std::size_t> step;
     for (std::size_t next = first;;) {
       const LoopEdge& edge = edges_[next];

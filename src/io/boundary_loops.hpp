@@ -38,7 +38,7 @@ std::vector<BoundaryLoop> boundary_loops(const NodeSource& nodes, const Communic
 
 // A part of a loop whose edges all have the same kind.
 struct BoundaryChain {
-  // numbers of nodes; a whole loop repeats the first one at the end
+  // Numbers of nodes; a whole loop repeats the first one at the end.
   std::vector<std::int64_t> nodes;
   std::int32_t kind;
   bool is_closed;  // a whole loop

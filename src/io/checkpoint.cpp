@@ -69,13 +69,13 @@ void write_rows(SharedWriter& file, const Column& column, std::int64_t place, st
   });
 }
 
-// The cell of one node.
+// A VTK cell with one node.
 struct Vertex {
   std::int64_t number;
   std::uint8_t type = 1;  // VTK's type of a vertex cell
 };
 
-// Writes a checkpoint. All ranks construct it and call write().
+// A writer of a checkpoint. All ranks construct it and call write().
 template <int Dim>
 class CheckpointWriter {
  public:
@@ -195,7 +195,7 @@ class CheckpointWriter {
     const std::array<std::size_t, 3> offsets{offsetof(Vertex, type), offsetof(Vertex, number),
                                              offsetof(Vertex, number)};
     for (std::size_t k = 0; k < offsets.size(); ++k) {
-      // the offsets have one more row, the end of the last cell
+      // The offsets have one more row, the end of the last cell.
       const bool last = k == 2 && comm_.rank() == comm_.size() - 1;
       write_rows(file, {vertices[k], 1, offsets[k]}, places_[next++], rows_.first,
                  rows_.count + last, vertex);
@@ -298,7 +298,7 @@ RankSpan share_of(const Communicator& comm, std::int64_t n) {
 }
 
 template <int Dim>
-// Reads a checkpoint into a placement. All ranks construct it and call read().
+// A reader of a checkpoint into a placement. All ranks construct it and call read().
 class CheckpointReader {
  public:
   CheckpointReader(PlacementImpl<Dim>& placement, const std::string& path)

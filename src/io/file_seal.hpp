@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A checksum at the end of a file that protects its structure. A library that parses the structure
-// then need not be robust against damage. HDF5 ignores bytes after the end of its data.
+// A checksum ("seal") at the end of a file that protects its structure. A library that parses the
+// structure then need not be robust against damage. HDF5 ignores bytes after the end of its data.
 #pragma once
 
 #include <cstdint>

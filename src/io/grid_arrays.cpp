@@ -80,7 +80,8 @@ GridArray field_array(const Contents& all, std::size_t field) {
 
 }  // namespace
 
-// A grid of facets has the ids only, since the grid of the elements has the other arrays.
+// Returns the arrays of nodes. A grid of facets has the ids only, since the grid of the elements
+// has the other arrays.
 std::vector<GridArray> point_data(const Contents& all) {
   std::vector<GridArray> data{of_nodes("id", all, &NodeRows::ids)};
   if (!all.is_beside) {
@@ -92,7 +93,8 @@ std::vector<GridArray> point_data(const Contents& all) {
   return data;
 }
 
-// The tag of facets, or the region of elements, comes first, where DOLFINx expects it.
+// Returns the arrays of cells. The tag of facets, or the region of elements, comes first, where
+// DOLFINx expects it.
 std::vector<GridArray> cell_data(const Contents& all) {
   if (all.cells == Cells::nodes) return {};
   if (all.cells == Cells::elements) {

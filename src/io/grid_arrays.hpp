@@ -37,8 +37,8 @@ GridArray zero_array(const Contents& all, int columns);
 
 // Returns the node numbers of the corners of all cells.
 GridArray corner_array(const Contents& all);
-// Return the positions in the corner array at which cells end; cell_bounds() also has the begin of
-// the first one.
+// Return the index in the corner array at which each cell ends, or begins; cell_bounds() has the
+// end of the last cell, too.
 GridArray cell_ends(const Contents& all);
 GridArray cell_bounds(const Contents& all);
 GridArray cell_types(const Contents& all);  // VTK's cell types

@@ -230,7 +230,7 @@ namespace {
 // An existing attribute with a single value.
 class Attribute {
  public:
-  // `kind` names the kind of value in messages.
+  // Throws unless there is such an attribute. `kind` names the kind of its value in messages.
   Attribute(hid_t file, const std::string& name, const char* kind, const std::string& object,
             const std::string& attribute)
       : failure_(damaged(name, std::string("it has no ") + kind + " \"" + attribute + "\" at \"" +

@@ -12,8 +12,7 @@
 #include "base/error.hpp"
 #include "io/hdf5.hpp"
 
-// HDF5's macros for constants call these functions by name. They are not linked and called
-// separately.
+// HDF5's macros for constants call H5open() and H5check(), to which the library is not linked.
 #undef H5OPEN
 #define H5OPEN
 #undef H5CHECK

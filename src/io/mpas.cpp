@@ -41,7 +41,7 @@ struct EntityPlace {
 template <class Value>
 using RowFill = std::function<void(const EntityPlace&, std::span<Value> row)>;
 
-// Iterates over the cells, edges or vertices in the order of their numbers.
+// An iteration over the cells, edges or vertices in the order of their numbers.
 class EntityRows {
  public:
   explicit EntityRows(const SphereGrid& grid);
@@ -54,8 +54,8 @@ class EntityRows {
 
  private:
   std::int64_t number(Entity of, const EntityPlace& at) const;
-  // Returns the entities that own nodes lead whose cells have numbers from `begin` up to, but
-  // without, `end`, in the order of the entities' numbers.
+  // Returns the entities whose leading node is owned and has a cell with a number from `begin` up
+  // to, but without, `end`. They are in the order of the entities' numbers.
   std::vector<EntityPlace> led(Entity of, std::int64_t begin, std::int64_t end) const;
   // Sends rows to the ranks that write them. Returns the rows received, in the order of their
   // numbers. Collective.
@@ -64,7 +64,7 @@ class EntityRows {
                              const std::vector<Value>& rows, const Communicator& comm) const;
 
   const SphereGrid& grid_;
-  std::vector<std::int32_t> leaders_;  // own nodes with a cell, in the order of cells
+  std::vector<std::int32_t> leaders_;  // owned nodes with a cell, in the order of cells
 };
 
 template <class Value, class Visit>
@@ -84,7 +84,7 @@ void EntityRows::for_windows(Entity of, int columns, const RowFill<Value>& fill,
   }
 }
 
-// The rank is the one whose part of the window contains the leading cell.
+// A row goes to the rank whose part of the window contains the leading cell.
 template <class Value>
 std::vector<Value> EntityRows::brought(Entity of, int columns,
                                        const std::vector<EntityPlace>& places,

@@ -16,20 +16,22 @@ namespace {
 
 enum Type { line = 1, triangle = 2, tetrahedron = 4, point = 15 };
 
-// Nodes and cells that are kept in memory. Their tags are those of Writer::tag_of_block.
+// A node that is kept in memory until its block is written. Tags of nodes and cells are those of
+// Writer::tag_of_block().
 struct HeldNode {
   std::int32_t tag;
   std::int64_t number;
   std::array<double, 3> x;
 };
 
+// A facet or element that is kept in memory.
 struct HeldCell {
   std::int32_t tag;
   std::int64_t number;
   std::array<std::int64_t, 4> corners;
 };
 
-// Writes one file.
+// The writer of one file.
 class Writer {
  public:
   Writer(const NodeSource& nodes, SharedFile& file)

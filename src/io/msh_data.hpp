@@ -50,7 +50,7 @@ class RowsByTag {
 // Appends all fields in the order of the nodes' numbers. Collective.
 void append_node_data(const NodeSource& nodes, SharedFile& file);
 
-// Appends all fields in the order of the blocks of nodes. The rows have numbers, but meshio 5
+// The output fields in the order of the blocks of nodes. The rows have numbers, but meshio 5
 // ignores them and assigns rows to nodes by position.
 class NodeDataByBlock {
  public:

@@ -34,7 +34,7 @@ struct EntityPart {
 // Indices of nodes, facets or elements of this rank, by part.
 using RowsByPart = std::map<EntityPart, std::vector<std::int32_t>>;
 
-// Writes the file of one rank.
+// The file of one rank.
 class MshPart {
  public:
   // Finds groups and numbers of all ranks. Collective.
@@ -67,7 +67,8 @@ class MshPart {
   const std::vector<std::int32_t>& owners_of(MshKind kind) const {
     return kind == kMshFacets ? mesh_.facet_owners : mesh_.element_owners;
   }
-  // Indices of elements fit into 32 bits, see require_fits_rank().
+  // Returns the index of the first ghost element. Indices fit into 32 bits, see
+  // require_fits_rank().
   std::int32_t first_ghost() const { return static_cast<std::int32_t>(mesh_.owned_elements); }
   std::int32_t ghosts() const {
     return static_cast<std::int32_t>(mesh_.element_numbers.size()) - first_ghost();
@@ -153,7 +154,7 @@ class MshPart {
     parts_.erase(std::unique(parts_.begin(), parts_.end()), parts_.end());
   }
 
-  // `tag` must be that of a group.
+  // Returns the part of a row. `tag` must be that of a group.
   EntityPart part(MshKind kind, std::int32_t tag, std::int32_t owner) const {
     const std::vector<MshGroup>& groups = groups_[kind];
     return {kind, static_cast<std::size_t>(group_of(groups, tag) - groups.data()), owner};
@@ -250,7 +251,7 @@ class MshPart {
               " " + std::to_string(range.first) + " " + std::to_string(range.second) + "\n");
   }
 
-  // `type`: element type, or 0 for nodes.
+  // Writes the first line of a block. `type`: element type, or 0 for nodes.
   static void begin_block(int dimension, std::int64_t entity, int type, std::size_t rows,
                           Sink& sink) {
     sink.text(std::to_string(dimension) + " " + std::to_string(entity) + " " +

@@ -27,10 +27,10 @@ void turn_over(std::vector<Value>& values) {
   }
 }
 
-// Composes the header.
+// The text of a header.
 class Head {
  public:
-  // `begin`: offset of the first array. [bytes]
+  // Composes the header. `begin`: offset of the first array. [bytes]
   Head(const NetcdfContents& contents, std::int64_t begin) {
     text_ = std::string("CDF\005", 4);
     number(std::int64_t{0});  // number of records

@@ -14,7 +14,7 @@ namespace pnpbs::io {
 
 namespace {
 
-// Records of nodes, field values, elements and facets that ranks exchange.
+// A node, as ranks exchange it.
 template <int Dim>
 struct NodeRow {
   std::int64_t id;
@@ -23,12 +23,13 @@ struct NodeRow {
   std::int32_t tag, region;
 };
 
+// A component of a field at a node.
 struct FieldValue {
   std::int64_t id, component;
   double value;
 };
 
-// Nodes of elements and facets are given by labels, see NodesById::label().
+// An element. Its nodes are given by labels, see NodesById::label().
 template <int Dim>
 struct ElementRow {
   std::array<std::int64_t, Dim + 1> corners;  // smallest label first

@@ -14,7 +14,7 @@ namespace pnpbs::io {
 namespace {
 
 constexpr std::size_t kLongestFieldName = 63;
-// components of a tensor in space, which is also the largest in Gmsh
+// Components of a tensor in space, which is also the largest in Gmsh.
 constexpr std::int64_t kMaxComponents = 9;
 
 [[noreturn]] void refuse_field(const std::string& what) { throw Error(ErrorKind::argument, what); }

@@ -26,8 +26,8 @@
 namespace pnpbs::io {
 namespace {
 
-// Cleanup of unfinished files that a killed process has left. They are removed when the file is
-// written again.
+// Output files, and the cleanup of unfinished files that a killed process has left. They are
+// removed when the file is written again.
 
 std::uint64_t hash_of(std::string_view text, std::uint64_t hash = 0) {
   for (const char letter : text) hash = mixed(hash ^ static_cast<unsigned char>(letter));

@@ -33,7 +33,7 @@ class OutputFile {
   void close(int descriptor) const;
   bool written_aside() const;
   const char* name_aside() const { return temporary_->path(); }
-  // true if remove_temporaries() has removed the file
+  // Returns whether remove_temporaries() has removed the file.
   bool removed() const { return temporary_ && temporary_->removed(); }
 
   // Publish the complete file in steps. All files that belong together must take a step before any

@@ -82,7 +82,8 @@ void SharedFile::append_text(std::string_view text) {
   });
 }
 
-// A single rank writes without measuring first, since no other rank determines its offset.
+// Appends to a regular file. Several ranks measure their bytes first to find their offsets. A
+// single rank writes at once.
 void SharedFile::append_at_places(const std::function<void(Sink&)>& write) {
   if (comm_->size() == 1) return write(places_);
   std::int64_t size = 0;
@@ -106,8 +107,8 @@ void SharedFile::write_at_place(std::span<const char> bytes) {
   place_ += std::ssize(bytes);
 }
 
-// Streams: the ranks send their bytes to rank 0 in parts, one rank after the other. All ranks take
-// part in each step, so that all of them notice a failure.
+// Appends to a stream. The ranks send their bytes to rank 0 in parts, one rank after the other. All
+// ranks take part in each step, so that all of them notice a failure.
 void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
   collective_try(*comm_, [&] {
     Sink stream(to_descriptor(stream_, output_.quoted(), before_write_));

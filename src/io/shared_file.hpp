@@ -46,7 +46,7 @@ class SharedFile {
   bool is_first() const { return comm_->rank() == 0; }
 
  private:
-  // size of a write or message. [bytes]
+  // Size of a write or message. [bytes]
   static constexpr std::size_t kPartSize = std::size_t{1} << 20;
 
   void create();

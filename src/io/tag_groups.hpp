@@ -16,7 +16,7 @@
 
 namespace pnpbs::io {
 
-// Groups by tag, first of this rank, then of all ranks.
+// The groups of a rank by tag, and their sum over all ranks.
 class TagGroups {
  public:
   void add(std::int32_t tag, std::span<const Point<3>> corners) {

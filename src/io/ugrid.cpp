@@ -16,7 +16,7 @@ namespace pnpbs::io {
 
 namespace {
 
-// Writes one file.
+// The writer of one file.
 class UgridWriter {
  public:
   UgridWriter(const NodeSource& nodes, SharedFile& file)

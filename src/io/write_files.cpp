@@ -23,7 +23,8 @@ namespace {
 template <int Dim>
 class OwnPiece : public NodeSource {
  public:
-  // prepare() of rows.hpp must have been called. `fields` need values at ghosts. Local.
+  // Includes the ghosts that elements and facets refer to. prepare() of rows.hpp must have been
+  // called. `fields` need values at ghosts. Local.
   OwnPiece(const Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
 
   // The iterations are local.
@@ -411,7 +412,7 @@ void write_files(Placement& placement, const OutputFields& fields,
   collective_try(comm, [&] {
     require_hdf5_for(requests, comm);
     fields.require_current(placement.results());
-    // throws if there are no nodes, which is reported before missing fields
+    // Throws if there are no nodes, which is reported before missing fields.
     placement.results().prepare_order();
     require_fields_for(requests, fields.all());
     visit_dimension(placement.results(), [&]<int Dim>(Results<Dim>& results) {

@@ -22,7 +22,7 @@ struct FileRequest {
   bool facets = false;  // the file has the facets of a grid, not its elements
 };
 
-// The results that files are requested of.
+// Properties of the results for which files are requested.
 struct Requested {
   int dimension = 2;
   bool has_elements = false;

@@ -86,8 +86,8 @@ std::string heavy_data_path(const std::string& path) {
   return std::filesystem::path(path).replace_extension("h5").string();
 }
 
-// DOLFINx finds grids by name and takes the first attribute as the tags of facets. PyVista requires
-// a time.
+// Writes the XML file. DOLFINx finds grids by name and takes the first attribute as the tags of
+// facets. PyVista requires a time.
 void write_xdmf(const NodeSource& nodes, SharedFile& file) {
   const Contents& all = nodes.contents();
   const std::string heavy = std::filesystem::path(heavy_data_path(file.path())).filename().string();

@@ -16,8 +16,8 @@
 namespace pnpbs {
 namespace {
 
-// Fills the arrays of a DistributedMesh. Converts the global numbers of nodes and elements to the
-// local indices that solvers use.
+// The arrays of a DistributedMesh while they are filled. It converts the global numbers of nodes
+// and elements to the local indices that solvers use.
 template <std::size_t Corners>
 class MeshArrays {
  public:

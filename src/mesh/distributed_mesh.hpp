@@ -37,7 +37,7 @@ struct DistributedMesh {
   std::vector<std::int32_t> facet_corners;  // [facets][corners - 1], indices of nodes
   // [facets][2], indices; -1: no element, or not on this rank
   std::vector<std::int32_t> facet_elements;
-  // in the first of these elements, the corner opposite to the facet
+  // In the first of these elements, the corner opposite to the facet.
   std::vector<std::int32_t> facet_opposite;
   std::vector<std::int32_t> facet_tags, facet_owners;
   std::vector<std::int8_t> facet_inner;  // 1 if two elements share the facet, on whatever ranks

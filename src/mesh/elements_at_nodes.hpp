@@ -29,7 +29,7 @@ class ElementsAtNodes {
 
   std::span<const Element> own() const { return std::span(elements_).first(owned_); }
   std::span<const Element> of_others() const { return std::span(elements_).subspan(owned_); }
-  // Sorted numbers of those nodes of own elements that other ranks own.
+  // Returns the sorted numbers of those corners of owned elements that other ranks own.
   const std::vector<std::int64_t>& nodes_of_others() const { return nodes_of_others_; }
   // Calls visit(element) for each element at `node`, which this rank must own.
   template <class Visit>
@@ -78,7 +78,7 @@ class ElementsAtNodes {
   }
 
   const RankRanges& nodes_;
-  std::vector<Element> elements_;  // own elements come first
+  std::vector<Element> elements_;  // owned elements come first
   std::size_t owned_;
   std::vector<std::int64_t> nodes_of_others_;
   std::vector<std::int64_t> offsets_;  // first entry of each owned node in entries_

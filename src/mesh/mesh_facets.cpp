@@ -22,7 +22,8 @@ int opposite_corner(const MeshElement<Corners>& element,
   return common == Corners - 1 ? opposite : -1;
 }
 
-// Collects facets with the elements on their sides, packed for the ranks that own these elements.
+// The facets of owned nodes with the elements on their sides, packed for the ranks that own these
+// elements.
 template <std::size_t Corners>
 class FacetFinder {
  public:

@@ -35,7 +35,7 @@ template <std::size_t Corners>
 struct MeshFacet {
   std::array<std::int64_t, Corners - 1> corners;
   std::array<std::int64_t, 2> elements;  // smaller number first; the second may be kNoElement
-  // index of the corner opposite to the facet, in each element
+  // Index of the corner opposite to the facet, in each element.
   std::array<std::int8_t, 2> opposite;
   std::int32_t tag;
 };

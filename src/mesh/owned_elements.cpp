@@ -47,7 +47,7 @@ void for_elements_and_tags(const Results<Dim>& results, const Visit& visit) {
   }
 }
 
-// Collects elements and sorts them by the ids of their corners.
+// A list of elements that is sorted by the ids of their corners.
 template <std::size_t Corners, int Dim>
 class ElementsInOrder {
  public:

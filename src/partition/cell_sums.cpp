@@ -15,7 +15,7 @@ std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cel
   for (const CellSum& entry : own) pack(counted.to(static_cast<int>(entry.cell / length)), entry);
   const std::vector<Message> asked = comm.sparse_all_to_all(counted.messages());
 
-  // sums before each cell of this rank's block
+  // Sums before each cell of this rank's block.
   std::vector<std::int64_t> before(static_cast<std::size_t>(length), 0);
   const auto at = [&](const CellSum& entry) -> std::int64_t& {
     return before[static_cast<std::size_t>(entry.cell - first)];

@@ -14,8 +14,8 @@ namespace pnpbs {
 
 namespace {
 
-// Finds the other ranks that need the nodes of each leaf as ghosts. Each call of spread() adds one
-// hop: a rank that needs a leaf needs its neighbours, too.
+// The ranks that need the nodes of each leaf as ghosts. Each call of spread() adds one hop: a rank
+// that needs a leaf needs its neighbours, too.
 template <int Dim>
 class Needs {
  public:
@@ -114,8 +114,8 @@ std::vector<std::int32_t> reached_from(const LeafGraph<Dim>& graph,
 
 }  // namespace
 
-// A search in boxes, and not in a graph of all cells: with many ranks, a rank needs a small part of
-// such a graph.
+// Searches in boxes and not in a graph of all cells, of which a rank needs only a small part if
+// there are many ranks.
 template <int Dim>
 std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) const {
   const BackgroundTree<Dim>& tree = cells_.tree();

@@ -19,8 +19,8 @@ namespace pnpbs {
 // Ghost layers of one depth, which is counted in hops of the leaf graph.
 class Halo {
  public:
-  // Calls visit(rank) for the other ranks that need the nodes of the leaf as ghosts: they hold a
-  // leaf within the depth of it. Valid for the leaves of this rank and those near them.
+  // Calls visit(rank) for each other rank that needs the nodes of the leaf as ghosts, because it
+  // holds a leaf within the depth. Valid for the leaves of this rank and those near them.
   template <class Visit>
   void for_ranks(std::int32_t leaf, const Visit& visit) const {
     for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
@@ -99,8 +99,8 @@ class Distribution {
 
   // Returns, for each leaf, the sum of `counts` over all leaves before it in Morton order and over
   // all ranks, plus `start`. Then adds the sum over all leaves to `start`. Each rank passes the
-  // counts of its own nodes. The result is 0 for leaves of other ranks' cells without counts. It
-  // does not depend on the partition. Sums are modulo 2^64. Collective.
+  // counts of its owned nodes. The result is 0 for leaves in cells of other ranks in which this
+  // rank counts nothing. It does not depend on the partition. Sums are modulo 2^64. Collective.
   std::vector<std::int64_t> prefix_sums(const Communicator& comm, std::vector<std::int64_t> counts,
                                         std::int64_t& start) const;
 

@@ -36,8 +36,8 @@ class KnownRegion {
     });
   }
 
-  // Calls visit(leaf) for each unknown leaf with meets(box). If meets() holds for the box of a
-  // leaf, it must hold for the boxes of all cells around it.
+  // Calls visit(leaf) for each unknown leaf whose box fulfils meets(box). If meets() holds for a
+  // box, it must hold for the boxes of all cells around it.
   template <class Meets, class Visit>
   void for_unknown_leaves(const BackgroundTree<Dim>& tree, const Meets& meets,
                           const Visit& visit) const {
@@ -51,7 +51,7 @@ class KnownRegion {
   bool covers(const BackgroundTree<Dim>& tree, const Box<Dim>& box) const {
     return covers(tree, box, [](std::int32_t) { return true; });
   }
-  // Returns whether the part of the box in cells with matters(cell) is known.
+  // Returns whether the part of the box is known that lies in cells with matters(cell).
   template <class Matters>
   bool covers(const BackgroundTree<Dim>& tree, const Box<Dim>& box, const Matters& matters) const {
     if (is_everywhere()) return true;

@@ -81,7 +81,7 @@ std::string TetrahedronValues::title() const {
 // A face that the picture shows.
 struct VisibleFace {
   std::array<std::int64_t, 3> corners;  // in no particular order
-  // the tetrahedron behind the cut plane that has the face; 0 for surface meshes
+  // The tetrahedron behind the cut plane that has the face; 0 for surface meshes.
   std::size_t tetrahedron;
   bool cut;  // true if the tetrahedron on the other side is removed, false on the boundary
 };
@@ -113,8 +113,8 @@ void mark(Marks& marks, const auto& corners) {
   for (const std::int64_t node : corners) marks[static_cast<std::size_t>(node)] = true;
 }
 
-// Finds the visible faces. Sorting all faces would take far more time and memory, so only faces are
-// sorted whose corners all lie on the boundary or in removed tetrahedra.
+// The faces that can be visible. Sorting all faces would take far more time and memory, so only
+// faces are sorted whose corners all lie on the boundary or in removed tetrahedra.
 class Shell {
  public:
   Shell(const Body& body, const CutPlane& plane)
@@ -200,7 +200,7 @@ class BodyView {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double turned = 26 * degree;  // rotation of the view to the right. [rad]
-// elevation of the view. [rad]
+// Elevation of the view. [rad]
 constexpr double raised = 22 * degree;
 constexpr Point<3> lamp{-0.46, 0.56, 0.69};  // direction to the light: right, up, toward the viewer
 // |z| of the unit normal above which a plane is a floor and not a wall
@@ -235,7 +235,7 @@ double BodyView::light(const Point<3>& normal) const {
 constexpr PictureSize body_picture_size{18, 1400, 2400};
 
 constexpr Colour skin = colour(0xb9cadb);  // colour of the boundary
-// colour of cut tetrahedra if they are not coloured by a value
+// Colour of cut tetrahedra if they are not coloured by a value.
 constexpr Colour flesh = colour(0xf0dcae);
 
 // Loss of brightness where no light falls. [1]
@@ -310,7 +310,7 @@ void BodyPainter::add(const VisibleFace& face) {
   painted.tetrahedron = face.tetrahedron;
   Point<3> normal = unit_vector(cross(difference(b, a), difference(c, a)));
   if (body_.surfaces_alone()) {
-    // both sides of an open surface are visible
+    // Both sides of an open surface are visible.
     if (!view_.shows(normal)) normal = opposite(normal);
   } else {
     const TetrahedronCorners corners = body_.corners(face.tetrahedron);

@@ -13,7 +13,7 @@ constexpr double max_intervals = 4;  // largest number of intervals between tick
 // Returns the smallest of 1, 2, 5 times a power of ten that is at least `value`.
 double round_above(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
-  // the factor absorbs rounding errors of round numbers
+  // The factor absorbs rounding errors of round numbers.
   const double digit = value / power * (1 - 1e-9);
   return power * (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10);
 }

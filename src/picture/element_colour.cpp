@@ -50,8 +50,8 @@ void choose_quality_scale(const ElementValues& values, ColourScale& scale) {
   scale.low = narrowest(values, ends, [](double value, double low) { return value >= low; });
 }
 
-// Chooses a scale that is symmetric about 1 and at most from 0 to 2. Longer edges are wrong by
-// whatever factor.
+// Chooses a scale that is symmetric about 1 and at most from 0 to 2. It does not distinguish edges
+// longer than 2 d, which are wrong anyway.
 void choose_edge_scale(const ElementValues& values, ColourScale& scale) {
   constexpr std::array widths{0.05, 0.1, 0.2, 0.3, 0.5, 1.0};
   scale.palette = edge_palette;

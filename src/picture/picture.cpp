@@ -16,18 +16,18 @@
 namespace pnpbs::picture {
 namespace {
 
-// number of size classes; discs of a class share colour and size
+// Number of size classes; discs of a class share colour and size.
 constexpr int spacing_classes = 48;
 // Number of discs per path. Cairo uses about 2 kB of memory for each.
 constexpr std::size_t discs_at_once = 4096;
-// Disc diameters. [d]
-constexpr double disc_over_spacing = 0.6;  // inner nodes
-constexpr double dense_disc = 0.85;        // inner nodes if there are few pixels per spacing
-// boundary nodes. [shortest edge, at most d]
+// Disc diameters of inner nodes: normally, and if there are few pixels per spacing. [d]
+constexpr double disc_over_spacing = 0.6;
+constexpr double dense_disc = 0.85;
+// Disc diameter of boundary nodes. [shortest edge, at most d]
 constexpr double boundary_disc = 0.45;
-// centre of a bubble
+// Disc diameter at the centre of a bubble. [d]
 constexpr double disc_in_bubble = 0.22;
-constexpr double min_disc = 1.1;        // smallest diameter. [pixels]
+constexpr double min_disc = 1.1;        // smallest disc diameter. [pixels]
 constexpr double edge_on_colour = 0.3;  // opacity of triangle edges over coloured triangles
 constexpr PictureSize picture_size{14, 1000, 2400};
 

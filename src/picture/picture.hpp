@@ -20,7 +20,7 @@ struct SphereView {
 
 struct PictureStyle {
   bool bubbles = false;  // draw the bubbles, circles of diameter d
-  // if not `none`, draw coloured triangles instead of discs
+  // If not `none`, draw coloured triangles instead of discs.
   ElementColour colour = ElementColour::none;
 };
 

@@ -10,7 +10,7 @@
 
 namespace pnpbs::picture {
 
-// smallest spacing with triangle edges; edges of smaller triangles would blur to grey. [pixels]
+// Smallest spacing with triangle edges; edges of smaller triangles would blur to grey. [pixels]
 constexpr double edges_from_spacing = 7.0;
 
 // Mapping from the domain to the picture, and sizes of its parts. Lengths are in pixels unless they
@@ -32,7 +32,7 @@ struct PictureFrame {
   double from_pixels(double length) const { return length / pixels_per_unit; }
 };
 
-// Limits for the size of a picture. [pixels]
+// The limits of the size of a picture. [pixels]
 struct PictureSize {
   double wanted_spacing;  // distance between typical nodes, within the limits of the sides
   double min_side;        // limits of the longer side of the domain

@@ -150,7 +150,7 @@ class SpherePainter {
     }
   }
 
-  // Draws a shape on each end of the map that it crosses.
+  // Draws a shape and, if it crosses an end of the map, its copy at the other end.
   void draw_copies(cairo_t* cairo, Shape shape, const Colour& colour) const {
     for (const double turn : {-360.0, 360.0, 360.0}) {
       for (Point<2>& corner : shape) corner[0] += turn;

@@ -47,7 +47,7 @@ std::string TriangleValues::title() const {
 
 namespace {
 
-// limits memory, since cairo stores a path until it is filled
+// Limits memory, since cairo stores a path until it is filled.
 constexpr std::size_t triangles_at_once = 4096;
 
 constexpr double overlap = 0.5;  // width of the overlap of triangles. [line width]
