@@ -9,7 +9,8 @@ namespace pnpbs {
 
 namespace {
 
-// Reads the optional keyword "[ST][C][N][4][n]OFF". The counts may follow in the same line.
+// Reads the optional keyword "[ST][C][N][4][n]OFF". Throws if it has 4 or n, since vertices must
+// have three coordinates. The counts may follow in the same line.
 void read_keyword(TextFields& fields) {
   if (!fields.next_line()) fields.fail("the file ends, expected 'OFF'");
   TextFields ahead = fields;

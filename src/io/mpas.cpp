@@ -57,8 +57,8 @@ class EntityRows {
   // Returns the entities whose leading node is owned and has a cell with a number from `begin` up
   // to, but without, `end`. They are in the order of the entities' numbers.
   std::vector<EntityPlace> led(Entity of, std::int64_t begin, std::int64_t end) const;
-  // Sends rows to the ranks that write them. Returns the rows received, in the order of their
-  // numbers. Collective.
+  // Sends each row to the rank whose part of the window contains the leading cell. Returns the rows
+  // received, in the order of their numbers. Collective.
   template <class Value>
   std::vector<Value> brought(Entity of, int columns, const std::vector<EntityPlace>& places,
                              const std::vector<Value>& rows, const Communicator& comm) const;
@@ -84,7 +84,6 @@ void EntityRows::for_windows(Entity of, int columns, const RowFill<Value>& fill,
   }
 }
 
-// A row goes to the rank whose part of the window contains the leading cell.
 template <class Value>
 std::vector<Value> EntityRows::brought(Entity of, int columns,
                                        const std::vector<EntityPlace>& places,
