@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A binary file of numbers, one after the other.
+// Binary files that are a sequence of numbers, read one by one.
 #pragma once
 
 #include <algorithm>
@@ -14,16 +14,18 @@
 
 namespace pnpbs {
 
+// A reader of numbers at a current byte, which names this byte in errors.
 class ByteFields {
  public:
-  // From byte `begin` on. `name` stands for the file in messages. Keeps a reference to the bytes.
+  // Starts at byte `begin`. `name` stands for the file in messages. `bytes` must outlive this
+  // object.
   ByteFields(std::string_view bytes, std::size_t begin, std::endian order, std::string name)
       : bytes_(bytes), at_(begin), order_(order), name_(std::move(name)) {}
 
   std::size_t remaining() const { return bytes_.size() - at_; }
 
-  // The next number. `what` is what it should be, for the message if it is not: Error with
-  // "name: at byte 84: found ..., expected what".
+  // Returns the next number. `what` describes the expected number in messages. Throws Error "name:
+  // at byte 84: found ..., expected what" if there is none.
   template <class Number>
   Number next(std::string_view what) {
     if (remaining() < sizeof(Number)) fail("the file ends, expected " + std::string(what));
@@ -32,6 +34,7 @@ class ByteFields {
     return number;
   }
 
+  // Returns the next number as a coordinate. Throws also if its absolute value exceeds 1e60.
   template <class Number>
   double coordinate(std::string_view what) {
     const auto value = static_cast<double>(next<Number>(what));

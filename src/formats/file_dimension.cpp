@@ -12,8 +12,9 @@ namespace pnpbs {
 
 namespace {
 
-// A .poly is Triangle's or TetGen's: the second number of both is the dimension. Only what is
-// certainly a body's is said to be one; all else, pipes too, is for the reader of plane domains.
+// Returns whether a .poly file declares dimension 3. Both Triangle's and TetGen's format have the
+// dimension as second number. All other files, pipes included, are left to the reader of plane
+// domains, which then reports what is wrong.
 bool has_three_dimensions(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The dimension of the domain that a file describes.
 #pragma once
 
 #include <string>
 
 namespace pnpbs {
 
-// Of the domain that a file describes, 2 or 3: by the ending of its name, of .poly by the second
-// number in it, of .msh by what it holds. Throws Error(ErrorKind::file) if a .msh cannot be read;
-// what else is not known to be in space is taken to be in the plane.
+// Returns the dimension, 2 or 3. It follows from the extension of the file, for .poly from the
+// second number in it and for .msh from its nodes and elements. Files of unknown format count as
+// plane. Throws Error(ErrorKind::file) if a .msh cannot be read.
 int file_dimension(const std::string& path);
 
 }  // namespace pnpbs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the user calls the tags. As in Gmsh's files a tag of points, of curves, of surfaces and of
-// the inside may have a name each.
+// Names of tags. As in Gmsh's files, tags of points, curves, surfaces and volumes are independent,
+// and each may have a name.
 #pragma once
 
 #include <cstdint>
@@ -10,35 +10,37 @@
 
 namespace pnpbs {
 
+// A tag and the dimension of what it marks.
 struct GroupTag {
-  int dimension;  // 0 points, 1 curves, 2 surfaces (the inside of a domain in the plane), 3 bodies
+  int dimension;  // 0 points, 1 curves, 2 surfaces (the regions of a plane domain), 3 volumes
   std::int32_t tag;
 
   auto operator<=>(const GroupTag&) const = default;
 };
 
+// A map from tags to names.
 class GroupNames {
  public:
   void set(const GroupTag& group, std::string name) {
     names_.insert_or_assign(group, std::move(name));
   }
-  // Unless it has one.
+  // Sets the name unless the tag has one.
   void add(const GroupTag& group, const std::string& name) { names_.try_emplace(group, name); }
 
-  // nullptr if it has none.
+  // Returns the name, or nullptr if the tag has none.
   const std::string* find(const GroupTag& group) const {
     const auto found = names_.find(group);
     return found == names_.end() ? nullptr : &found->second;
   }
 
-  // By dimension, then by tag.
+  // Returns all names, sorted by dimension and tag.
   const std::map<GroupTag, std::string>& all() const { return names_; }
 
  private:
   std::map<GroupTag, std::string> names_;
 };
 
-// What a group without a name is called: "tag_7".
+// Returns the name of a group that has none: "tag_7".
 inline std::string name_of_tag(std::int64_t tag) { return "tag_" + std::to_string(tag); }
 
 }  // namespace pnpbs

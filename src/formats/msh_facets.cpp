@@ -22,11 +22,12 @@
 namespace pnpbs {
 namespace {
 
-// The sides of elements, by which elements touch.
+// Sides of elements. Two elements touch if they share a side.
 
 constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
 
-// Corners of the facets of each shape; -1: no fourth one.
+// Corners of the sides of each shape, as indices of corners of the element. -1: the side is a
+// triangle or an edge.
 using Sides = std::vector<std::array<int, 4>>;
 
 const Sides& sides_of(MshShape shape) {
@@ -42,7 +43,7 @@ const Sides& sides_of(MshShape shape) {
   return sides.at(shape);
 }
 
-// Nodes of a side; kNone: no fourth one.
+// Nodes of a side. kNone: the side has fewer than four corners.
 using Key = std::array<std::int32_t, 4>;
 
 Key key_of(Key corners) {
@@ -50,13 +51,13 @@ Key key_of(Key corners) {
   return corners;
 }
 
-// Of corners.
+// Returns the number of corners.
 std::int32_t count_of(const Key& corners) {
   return static_cast<std::int32_t>(std::find(corners.begin(), corners.end(), kNone) -
                                    corners.begin());
 }
 
-// Calls visit(shape, corners, region).
+// Calls visit(shape, corners, region) for each element of this dimension.
 template <class Visit>
 void for_cells(const MshMesh& mesh, int dimension, const Visit& visit) {
   for (std::size_t shape = 0; shape < kMshShapes; ++shape) {
@@ -69,15 +70,16 @@ void for_cells(const MshMesh& mesh, int dimension, const Visit& visit) {
   }
 }
 
-// A facet of elements that fill the domain.
+// A side of elements that fill the domain.
 struct Face {
   Key key, corners;
-  std::int32_t region;  // tag of an element's that has it
+  std::int32_t region;  // tag of the region of the first element
   int elements = 1;
-  bool divides = false;  // elements of different regions
-  bool given = false;    // as an element itself
+  bool divides = false;  // between elements of different regions
+  bool given = false;    // also given as an element of its own
 };
 
+// Returns the sides of all elements of this dimension, once each and sorted by key.
 std::vector<Face> faces_of_cells(const MshMesh& mesh, int dimension) {
   const std::vector<std::int32_t> tags = tags_of_regions(mesh, dimension);
   std::vector<Face> all;
@@ -113,7 +115,8 @@ std::string nodes_text(const MshMesh& mesh, const Key& corners) {
   return text;
 }
 
-// By the entities that these regions bound; unknown if none bounds a single one.
+// Returns, for each region of this dimension, whether it bounds the domain, from the number of
+// entities that it bounds. Returns `unknown` if no region bounds exactly one entity.
 std::vector<MshSides> sides_of_regions(const MshMesh& mesh, int dimension) {
   const bool told = std::ranges::any_of(mesh.regions, [&](const MshRegion& region) {
     return region.dimension == dimension && region.bounds == 1;
@@ -170,7 +173,7 @@ std::vector<MshFacet> facets_of(const MshMesh& mesh, int dimension) {
 
 namespace {
 
-// The mesh's nodes that a surface uses, numbered anew.
+// The nodes of the mesh that a surface uses, with new numbers in the surface.
 class UsedNodes {
  public:
   explicit UsedNodes(const MshMesh& mesh) : mesh_(mesh), number_(mesh.nodes.size(), -1) {}
@@ -208,12 +211,15 @@ SurfaceTriangles triangles_of(const MshMesh& mesh, const std::vector<MshFacet>& 
 
 namespace {
 
+// A line element.
 struct MshLine {
-  std::array<std::int32_t, 2> ends;  // nodes of the mesh
+  std::array<std::int32_t, 2> ends;  // indices of nodes of the mesh
   std::int32_t tag;
   bool inner;
 };
 
+// The curves that lines form. A curve ends where the number of lines that meet is not two, at a
+// stop, or where the tag or side changes.
 class CurveFinder {
  public:
   CurveFinder(const std::vector<MshLine>& lines, const std::vector<MshPoint>& stops)
@@ -262,7 +268,7 @@ class CurveFinder {
   const std::vector<MshLine>& lines_;
   std::vector<char> used_;
   std::set<std::int32_t> stops_;
-  std::map<std::int32_t, std::vector<std::size_t>> at_;  // the lines that each node ends
+  std::map<std::int32_t, std::vector<std::size_t>> at_;  // lines at each node
   std::vector<MshCurve> curves_;
 };
 
@@ -273,7 +279,8 @@ void require_plane(const MshMesh& mesh) {
                                      "constant z");
 }
 
-// Of lines of which the file does not tell more, those that belong to open chains lie inside.
+// Marks lines with unknown sides as inner lines if they belong to open chains, which cannot bound a
+// domain.
 void find_open_chains(const std::vector<MshFacet>& facets, std::vector<MshLine>& lines) {
   std::map<std::int32_t, std::vector<std::size_t>> at;
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -332,17 +339,21 @@ std::vector<MshPoint> points_in_groups(const MshMesh& mesh) {
 
 namespace {
 
+// An element that fills the domain.
 struct Element {
   Point<3> middle;
-  double size;  // its area or volume, but for a factor
+  double size;  // proportional to its area or volume
   std::int32_t group;
 };
 
+// A side of an element.
 struct Side {
   Key key;
   std::int64_t element;
 };
 
+// The parts of a mesh: connected sets of elements in one physical group that no facet of the mesh
+// divides.
 class Parts {
  public:
   Parts(const MshMesh& mesh, int dimension) : mesh_(mesh), dimension_(dimension) {
@@ -362,7 +373,8 @@ class Parts {
   std::vector<MshRegionPoint> points() {
     UnionFind<std::int64_t> part(elements_.size());
     join_across_sides(part);
-    // The largest element stands for its part, so that the point is far from its sides.
+    // Take the midpoint of the largest element, so that the point is far from the sides of the
+    // part.
     std::vector<std::int64_t> largest(elements_.size(), -1);
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       std::int64_t& best =
@@ -400,7 +412,7 @@ class Parts {
     return mesh_.nodes[static_cast<std::size_t>(node)];
   }
 
-  // Of what lies between the side and the middle.
+  // Returns the size of the triangle or pyramid between the side and the midpoint, up to a factor.
   double size_over(const Key& side, const Point<3>& middle) const {
     const Point<3> a = difference(position(side[0]), middle),
                    b = difference(position(side[1]), middle);
@@ -414,7 +426,7 @@ class Parts {
     return size;
   }
 
-  // But those that are facets, which divide the domain.
+  // Joins elements of one group across common sides, except where the side is a facet of the mesh.
   void join_across_sides(UnionFind<std::int64_t>& part) {
     std::set<Key> facets;
     for_cells(mesh_, dimension_ - 1,

@@ -42,7 +42,8 @@ std::string_view MshFields::required_line(std::string_view what) {
 
 void MshFields::skip_section(std::string_view section) {
   const std::string end = "\n$End" + std::string(section);
-  const std::size_t from = at_ > 0 ? at_ - 1 : 0;  // an empty section ends in its second line
+  // The line of an empty section ends right before its $End.
+  const std::size_t from = at_ > 0 ? at_ - 1 : 0;
   const std::size_t found = bytes_.find(end, from);
   if (found == std::string_view::npos)
     fail("the section $" + std::string(section) + " has no end '" + end.substr(1) + "'");
@@ -113,7 +114,7 @@ std::int64_t MshFields::count(std::string_view what, std::size_t text_bytes,
 
 void MshFields::require_room(std::int64_t count, std::string_view what, std::size_t text_bytes,
                              std::size_t binary_bytes) const {
-  // The last number of a text file may end it.
+  // The last number of a text file need not be followed by a separator.
   const std::size_t room = binary_ ? remaining() / binary_bytes : (remaining() + 1) / text_bytes;
   if (static_cast<std::uint64_t>(count) > room)
     fail("the file ends too early: it has no room for " + std::to_string(count) + " " +

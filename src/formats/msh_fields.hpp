@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file in Gmsh's MSH format, line by line and number by number. In a text file numbers are
-// separated by blanks or ends of lines; in a binary one only lines that begin and end sections are
-// text.
+// Files in Gmsh's MSH format, read line by line and number by number. In a text file, blanks and
+// line ends separate numbers. In a binary file only the lines that begin and end sections are text.
 #pragma once
 
 #include <array>
@@ -15,38 +14,40 @@
 
 namespace pnpbs {
 
+// A reader of MSH files at a current byte, which names the line or byte in errors.
 class MshFields {
  public:
-  // `name` stands for the file in messages. Keeps a reference to the bytes.
+  // `name` stands for the file in messages. `bytes` must outlive this object.
   MshFields(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
 
-  // From here on numbers are binary, in this order of bytes.
+  // Switches to binary numbers in this byte order.
   void set_binary(std::endian order) {
     binary_ = true;
     order_ = order;
   }
   bool is_binary() const { return binary_; }
 
-  // The next line that is not blank, without blanks around it, in either kind of file; nothing at
-  // the end.
+  // Returns the next line that is not blank, without surrounding blanks, in text and binary files.
+  // Returns nothing at the end of the file.
   std::optional<std::string_view> line();
-  // `what` is what it should be, for the message if there is none.
+  // Returns the next line. `what` describes the expected line in the error if there is none.
   std::string_view required_line(std::string_view what);
-  // To the line "$End<section>", past whatever is before it.
+  // Skips everything up to and including the line "$End<section>".
   void skip_section(std::string_view section);
 
-  // Each throws Error "name:line: found ..., expected what", or "name: at byte 84: ...".
+  // Return the next number. Each throws Error "name:line: found ..., expected what", or "name: at
+  // byte 84: ..." for binary files.
   std::int32_t int32(std::string_view what);
   std::int64_t size(std::string_view what);  // 64 bits, not negative
   double coordinate(std::string_view what);
-  double any_number(std::string_view what);  // whatever a double can be
-  // How many follow that take so many bytes each, as text at least: no more than the file has room
-  // for.
+  double any_number(std::string_view what);  // also infinite or not a number
+  // Returns a number of items that follow. Throws if the file is too short for items of at least
+  // this many bytes each.
   std::int64_t count(std::string_view what, std::size_t text_bytes, std::size_t binary_bytes);
   void require_room(std::int64_t count, std::string_view what, std::size_t text_bytes,
                     std::size_t binary_bytes) const;
 
-  // Told as lying at the number or line that was read last.
+  // Throws Error at the number or line that was read last.
   [[noreturn]] void fail(const std::string& message) const;
   [[noreturn]] void fail_found(std::string_view found, std::string_view what) const;
 

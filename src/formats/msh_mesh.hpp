@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh as a file of Gmsh's holds it: the MSH file format, versions 4.1 and 2.2, text and binary
-// (Gmsh reference manual, https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format).
+// The contents of a file in Gmsh's MSH format, versions 4.1 and 2.2, text and binary (Gmsh
+// reference manual, https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format).
 #pragma once
 
 #include <array>
@@ -20,22 +20,24 @@ inline constexpr std::array kMshCorners{1, 2, 3, 4, 4, 8, 6, 5};
 inline constexpr std::array kMshDimensions{0, 1, 2, 2, 3, 3, 3, 3};
 inline constexpr std::size_t kMshShapes = kMshCorners.size();
 
-// What elements of one shape lie in: an entity of the geometry, perhaps in a physical group.
+// The geometric entity that elements lie in, and its physical group.
 struct MshRegion {
   int dimension;
   std::int32_t entity;
-  std::int32_t group;  // its tag; 0: in none
-  int bounds = 0;      // so many entities of the next dimension say that it bounds them
+  std::int32_t group;  // tag of the physical group; 0: none
+  int bounds = 0;      // number of entities of the next dimension that it bounds
 };
 
+// The elements of one shape.
 struct MshCells {
-  std::vector<std::int32_t> corners;  // as many of each as its shape has; nodes from 0
-  std::vector<std::int32_t> regions;  // of each
+  // Indices of nodes from 0; as many per element as the shape has corners.
+  std::vector<std::int32_t> corners;
+  std::vector<std::int32_t> regions;  // region of each element, as index in MshMesh::regions
 
   std::size_t count() const { return regions.size(); }
 };
 
-// Values at nodes, of one $NodeData section.
+// Values at nodes of one $NodeData section.
 struct MshNodeValues {
   std::string name;
   std::int32_t components;
@@ -43,44 +45,45 @@ struct MshNodeValues {
   std::vector<double> values;  // [node_tags][components]
 };
 
+// A mesh from Gmsh.
 struct MshMesh {
-  std::string name;  // of the file
+  std::string name;  // name of the file
   std::vector<Point<3>> nodes;
-  std::vector<std::int64_t> node_tags;  // what the file calls them
+  std::vector<std::int64_t> node_tags;  // tags of the nodes in the file
   std::vector<MshRegion> regions;
   std::array<MshCells, kMshShapes> cells;
   GroupNames names;
-  std::vector<MshNodeValues> node_values;  // if they are wanted
+  std::vector<MshNodeValues> node_values;  // filled on request only
   std::vector<Warning> warnings;
 
   const MshCells& of(MshShape shape) const { return cells[static_cast<std::size_t>(shape)]; }
-  // Has it any elements of this dimension?
+  // Returns whether the mesh has elements of this dimension.
   bool has(int dimension) const;
-  // Of the domain that it describes: 2 if all of it lies in a plane of constant z.
+  // Returns the dimension of the domain: 2 if all elements lie in a plane of constant z, else 3.
   int dimension() const;
 };
 
-// Throws Error(ErrorKind::file, "path:line: ...") or, from binary files, "path: at byte 84: ...".
-// Elements of higher order become straight ones between their corners.
+// Reads a file. Elements of higher order become straight ones between their corners. Throws
+// Error(ErrorKind::file, "path:line: ..."), or "path: at byte 84: ..." for binary files.
 MshMesh read_msh(const std::string& path);
 
-// By the ending of the file's name, in capitals or not.
+// Returns whether the file has the extension .msh, in upper or lower case.
 bool is_msh(const std::string& path);
 
-// The same from memory. `name` stands for the file in messages.
+// Selects the sections that the parser stores.
 enum class MshWanted { mesh, mesh_and_node_values };
+// Parses the bytes of a file like read_msh(). `name` stands for the file in messages.
 MshMesh parse_msh(std::string_view bytes, const std::string& name,
                   MshWanted wanted = MshWanted::mesh);
 
-// Leaves one of each set of elements with the same corners, the first: in version 2.2 an element in
-// several physical groups is there once for each.
+// Keeps the first of several elements with the same corners. In version 2.2 an element in several
+// physical groups appears once for each.
 void remove_repeated(MshMesh& mesh);
 
-// Tags for the elements of this dimension, by region: that of their physical group. Without one
-// they have, if no element of this dimension has any, the number of their entity, else the least
-// positive tag that is free.
+// Returns the tag of each region: that of its physical group. If no element of this dimension is in
+// a group, it is the number of the entity. Otherwise regions in no group get free_tag().
 std::vector<std::int32_t> tags_of_regions(const MshMesh& mesh, int dimension);
-// The least positive number that is neither a group's nor an entity's, of whatever dimension.
+// Returns the smallest positive number that is not the tag of a group or entity of any dimension.
 std::int32_t free_tag(const MshMesh& mesh);
 
 }  // namespace pnpbs

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Lookup of the nodes of a mesh by their tags in the file.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace pnpbs {
 
-// Nodes by what the file calls them.
+// A map from node tags to indices. Consecutive tags need no memory.
 class MshNodeTable {
  public:
   void build(const std::vector<std::int64_t>& tags) {
@@ -23,7 +24,7 @@ class MshNodeTable {
   }
   std::optional<std::int64_t> repeated() const { return repeated_; }
 
-  // -1 if there is none.
+  // Returns the index of the node, or -1 if there is none.
   std::int32_t at(std::int64_t tag) const {
     if (consecutive_)
       return tag >= first_ && tag - first_ < count_ ? static_cast<std::int32_t>(tag - first_) : -1;

@@ -16,14 +16,14 @@
 namespace pnpbs {
 namespace {
 
-// Types of elements in Gmsh's files, by the list in its manual.
+// A type of elements in Gmsh's files (reference manual, section "MSH file format").
 struct MshType {
   std::int32_t number;
   MshShape shape;
-  int nodes;  // the corners come first
+  int nodes;  // corners first
 };
 
-// Up to fifth order.
+// Supported types, up to fifth order.
 constexpr std::array kMshTypes{
     MshType{15, MshShape::point, 1},        MshType{1, MshShape::line, 2},
     MshType{8, MshShape::line, 3},          MshType{26, MshShape::line, 4},
@@ -43,15 +43,16 @@ constexpr std::array kMshTypes{
     MshType{7, MshShape::pyramid, 5},       MshType{14, MshShape::pyramid, 14},
     MshType{19, MshShape::pyramid, 13}};
 
-// The regions of a mesh, made as elements ask for them from what a file tells of its entities.
+// The regions of a mesh. They are created when an element refers to them, from the entities of the
+// file.
 class MshRegionTable {
  public:
-  // group: the first physical group that it is in, 0 if it is in none.
+  // Adds an entity. `group` is its first physical group, or 0 if it has none.
   void add_entity(int dimension, std::int32_t entity, std::int32_t group) {
     group_of_[{dimension, entity}] = group;
     if (dimension > 0 && group != 0) any_group_[static_cast<std::size_t>(dimension)] = true;
   }
-  // What bounds an entity of that dimension.
+  // Adds `bound` to the boundary of an entity of dimension `dimension`.
   void add_bound(int dimension, std::int32_t bound, bool bounds_one_in_group) {
     ++bounds_[{dimension - 1, bound}][bounds_one_in_group];
   }
@@ -61,7 +62,7 @@ class MshRegionTable {
     return found == group_of_.end() ? 0 : found->second;
   }
 
-  // Its place among all.
+  // Returns the index of the region, which is created if necessary.
   std::int32_t region_of(int dimension, std::int32_t entity, std::int32_t group) {
     const std::array<std::int32_t, 3> key{dimension, entity, group};
     const auto [found, is_new] =
@@ -72,7 +73,8 @@ class MshRegionTable {
   std::vector<MshRegion> take() { return std::move(regions_); }
 
  private:
-  // Where physical groups say what the domain is, entities in none are no part of it.
+  // Returns how many entities the entity bounds. If physical groups define the domain, entities in
+  // no group do not count.
   int bounds_of(int dimension, std::int32_t entity) const {
     const auto found = bounds_.find({dimension, entity});
     if (found == bounds_.end()) return 0;
@@ -82,17 +84,17 @@ class MshRegionTable {
 
   std::vector<MshRegion> regions_;
   std::map<std::array<std::int32_t, 3>, std::int32_t> region_at_;
-  std::map<GroupTag, std::int32_t> group_of_;  // of entities
-  // See MshRegion: by those in no physical group, and by those in one.
+  std::map<GroupTag, std::int32_t> group_of_;  // group of each entity
+  // Numbers of entities in no physical group, and in one, that an entity bounds.
   std::map<GroupTag, std::array<int, 2>> bounds_;
-  std::array<bool, 4> any_group_{};  // of entities of each dimension
+  std::array<bool, 4> any_group_{};  // by dimension: some entity is in a group
 };
 
 constexpr std::array kEntityNames{"point", "curve", "surface", "volume"};
 constexpr std::int64_t kMaxNodes = std::numeric_limits<std::int32_t>::max();
 
 constexpr std::size_t kDouble = sizeof(double), kSize = sizeof(std::int64_t), kInt = 4;
-constexpr std::size_t kTextNumber = 2;  // a digit and what parts it from the next
+constexpr std::size_t kTextNumber = 2;  // a digit and a separator. [bytes]
 
 std::size_t index_of(MshShape shape) { return static_cast<std::size_t>(shape); }
 
@@ -236,7 +238,7 @@ class MshParser {
     }
   }
 
-  // Its sign is an orientation.
+  // Returns the tag without its sign, which is an orientation.
   std::int32_t positive(std::int32_t tag) const {
     if (tag == std::numeric_limits<std::int32_t>::min() || tag == 0)
       fields_.fail("found " + std::to_string(tag) + ", expected the tag of a group or entity");
@@ -337,7 +339,8 @@ class MshParser {
     const std::int64_t count = count_in_line("elements");
     fields_.require_room(count, "elements", 4 * kTextNumber, 2 * kInt);
     for (std::int64_t read = 0; read < count;) {
-      // In text each element has its own type and number of tags, in binary a block has.
+      // In a text file each element has its own type and tags; in a binary file a block of elements
+      // has.
       const bool binary = fields_.is_binary();
       if (!binary) fields_.int32("an element's number");
       const MshType& type = read_type();
@@ -358,7 +361,7 @@ class MshParser {
     }
   }
 
-  // First the physical group, then the entity.
+  // Reads the tags of an element: the physical group first, then the entity.
   std::int32_t read_old_tags(const MshType& type, std::int32_t tags) {
     std::array<std::int32_t, 2> first{0, 0};
     for (std::int32_t k = 0; k < tags; ++k) {
@@ -387,7 +390,7 @@ class MshParser {
     if (type.nodes > corners) ++curved_;
   }
 
-  // ------------------------------------------------------------ values at nodes
+  // ------------------------------------------------------------ node values
   // Names, times and counts stand in lines of text, in either kind of file.
   void read_node_values() {
     MshNodeValues field;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OBJ: Wavefront, "Advanced Visualizer Manual" (1995), appendix B1. Vertices and faces are read,
-// and what names faces: an object (o), a group (g), a material (usemtl). Everything else is passed
-// over.
+// OBJ reader (Wavefront, "Advanced Visualizer Manual", 1995, appendix B1). It reads vertices and
+// faces, and the object (o), group (g) and material (usemtl) that name faces. Other statements are
+// skipped.
 #include <optional>
 
 #include "formats/polygons.hpp"
@@ -51,7 +51,7 @@ class ObjParser {
     tag_ = 0;
   }
 
-  // A tag for each object, group and material that come together.
+  // Returns the tag of the current combination of object, group and material.
   std::int32_t tag() {
     if (tag_ != 0) return tag_;
     std::string name;
@@ -71,7 +71,7 @@ class ObjParser {
       fields_.fail(problem);
   }
 
-  // A backslash at the end of a line joins it and the next one.
+  // Returns the next field of the statement. A backslash at the end of a line continues it.
   std::optional<std::string_view> next_in_statement() {
     for (;;) {
       auto field = fields_.next();
@@ -87,8 +87,8 @@ class ObjParser {
     }
   }
 
-  // "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal"; vertices are counted
-  // from 1, or backwards from -1, the last one so far.
+  // Returns the vertex of a corner: "vertex", "vertex/texture", "vertex//normal" or
+  // "vertex/texture/normal". Vertices count from 1, or from -1 backwards from the last one read.
   std::int32_t corner(std::string_view field) const {
     const std::int64_t number =
         fields_.integer_in(field.substr(0, field.find('/')), "a vertex number");
@@ -104,9 +104,9 @@ class ObjParser {
   SurfaceTriangles surface_;
   TagNames tags_;
   std::string object_, group_, material_;
-  std::int32_t tag_ = 0;  // of the faces to come; 0: to be found
+  std::int32_t tag_ = 0;  // tag of the next faces; 0: not determined yet
   std::vector<std::int32_t> corners_;
-  bool is_joined_ = false;  // this line to the next one
+  bool is_joined_ = false;  // this line continues in the next one
 };
 
 }  // namespace

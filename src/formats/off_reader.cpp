@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OFF, as Geomview has it (http://www.geomview.org/docs/html/OFF.html), a vertex or face in a line.
-// Normals and colors are not read.
+// OFF reader (Geomview, http://www.geomview.org/docs/html/OFF.html), with one vertex or face per
+// line. Normals and colours are skipped.
 #include "formats/polygons.hpp"
 #include "formats/surface_formats.hpp"
 #include "formats/text_fields.hpp"
@@ -9,7 +9,8 @@ namespace pnpbs {
 
 namespace {
 
-// "[ST][C][N][4][n]OFF", which may be missing. The counts may follow in the same line.
+// Reads the optional keyword "[ST][C][N][4][n]OFF". Throws if it has 4 or n, since vertices must
+// have three coordinates. The counts may follow in the same line.
 void read_keyword(TextFields& fields) {
   if (!fields.next_line()) fields.fail("the file ends, expected 'OFF'");
   TextFields ahead = fields;

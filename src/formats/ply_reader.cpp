@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PLY. Of vertices x, y and z are read, of faces their list of vertices; everything else is passed
-// over.
+// PLY reader. It reads x, y and z of vertices and the vertex lists of faces; other elements and
+// properties are skipped.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -19,8 +19,8 @@
 namespace pnpbs {
 namespace {
 
-// The header of a PLY file, which says what is in the rest: G. Turk, "The PLY Polygon File Format"
-// (1994), with the names of types that came later.
+// Types of properties in a PLY header (G. Turk, "The PLY Polygon File Format", 1994), which also
+// have the newer names with sizes.
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
@@ -29,7 +29,7 @@ struct PlyProperty {
   std::string name;
   PlyType type;
   bool is_list = false;
-  PlyType count_type = PlyType::uint8;  // of a list
+  PlyType count_type = PlyType::uint8;  // type of the length of a list
 };
 
 struct PlyElement {
@@ -37,7 +37,7 @@ struct PlyElement {
   std::int64_t count;
   std::vector<PlyProperty> properties;
 
-  // Its place among the properties; as many as there are if it is none of them.
+  // Returns the index of the property, or the number of properties if there is none of this name.
   std::size_t place_of(std::string_view property) const;
 };
 
@@ -112,7 +112,7 @@ std::size_t PlyElement::place_of(std::string_view property) const {
   return static_cast<std::size_t>(found - properties.begin());
 }
 
-// Leaves the fields at the end of the header's last line.
+// Parses the header. The fields are left at the end of its last line.
 PlyHeader parse_ply_header(TextFields& fields) {
   if (!fields.next_line()) fields.fail("the file ends, expected 'ply'");
   if (const auto field = fields.required("'ply'"); field != "ply")
@@ -140,6 +140,7 @@ PlyHeader parse_ply_header(TextFields& fields) {
   }
 }
 
+// Data of a PLY file as text.
 class TextSource {
  public:
   explicit TextSource(TextFields& fields) : fields_(fields) {}
@@ -155,6 +156,7 @@ class TextSource {
   TextFields& fields_;
 };
 
+// Data of a PLY file in binary form.
 class BinarySource {
  public:
   explicit BinarySource(const ByteFields& fields) : fields_(fields) {}
@@ -204,6 +206,7 @@ class BinarySource {
   ByteFields fields_;
 };
 
+// Parser of the data that follow the header.
 template <class Source>
 class Body {
  public:
@@ -224,7 +227,7 @@ class Body {
   }
 
  private:
-  // `read` is called for each property of each row, with the property's place.
+  // Calls read(property, index) for each property of each row, and end_row() after each row.
   template <class Read, class EndRow>
   void read_rows(const PlyElement& element, const Read& read, const EndRow& end_row) {
     for (std::int64_t i = 0; i < element.count; ++i) {

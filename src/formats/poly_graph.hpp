@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangle's .poly format (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments,
-// holes, regions.
+// Plane straight-line graphs in Triangle's .poly format
+// (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments, holes, regions.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,22 @@
 
 namespace pnpbs {
 
+// The contents of a .poly file of the plane.
 struct PolyGraph {
-  std::string name;  // of the file
+  std::string name;  // name of the file
   VertexSection<2> vertices;
-  std::vector<std::int64_t> segment_ends;  // two of each: vertices, from 0
-  std::vector<std::int32_t> segment_tags;  // 1 where the file has none
-  std::vector<double> holes;               // two coordinates of each
+  std::vector<std::int64_t> segment_ends;  // [segments][2], indices of vertices from 0
+  std::vector<std::int32_t> segment_tags;  // 1 if the file has no markers
+  std::vector<double> holes;               // [holes][2], coordinates
   RegionSection<2> regions;
 };
 
-// If the file holds no vertices ("0 2 0 0"), they are read from the .node file beside it. Throws
-// Error(ErrorKind::file, "file:line: ...").
+// Reads a .poly file. If it has no vertices ("0 2 0 0"), reads the .node file of the same name.
+// Throws Error(ErrorKind::file, "file:line: ...").
 PolyGraph read_poly(const std::string& path);
 
-// The same from text. `name` stands for the file in messages.
+// Parses the text of a .poly file, which must have its vertices. `name` stands for the file in
+// messages.
 PolyGraph parse_poly(std::string_view text, const std::string& name);
 
 }  // namespace pnpbs

@@ -56,7 +56,8 @@ VertexSection<Dim> read_vertex_section(TextFields& fields) {
   return vertices;
 }
 
-// 0 for none; nothing if it is no tag. Triangle writes them with a decimal point.
+// Returns the tag in a regional attribute, 0 if the attribute is empty, or nothing if it is not a
+// tag. Triangle writes attributes with a decimal point.
 std::optional<std::int32_t> tag_in(std::string_view attribute) {
   double value = 0;
   if (attribute.empty()) return 0;

@@ -16,7 +16,7 @@ bool repeats_a_vertex(std::span<const std::int32_t> corners) {
   return std::set<std::int32_t>(corners.begin(), corners.end()).size() < corners.size();
 }
 
-// Each corner that is the one before it left out: an edge between the two is none.
+// Returns the corners without those that repeat the one before.
 std::vector<std::int32_t> without_edges_of_no_length(std::span<const std::int32_t> corners) {
   std::vector<std::int32_t> left;
   for (const std::int32_t corner : corners)
@@ -25,7 +25,7 @@ std::vector<std::int32_t> without_edges_of_no_length(std::span<const std::int32_
   return left;
 }
 
-// Twice the area, along the normal.
+// Returns the normal of the polygon, with twice its area as length.
 Point<3> area_vector(const std::vector<Point<3>>& x, std::span<const std::int32_t> corners) {
   const Point<3>& origin = x[static_cast<std::size_t>(corners[0])];
   Point<3> sum{};
@@ -44,7 +44,7 @@ Point<3> area_vector(const std::vector<Point<3>>& x, std::span<const std::int32_
   return sum;
 }
 
-// Along the axis nearest to the normal, so that the polygon is counter-clockwise.
+// Projects the polygon along the axis nearest to the normal, so that it is counter-clockwise.
 std::vector<Point<2>> projected(const std::vector<Point<3>>& x,
                                 std::span<const std::int32_t> corners, const Point<3>& normal) {
   std::size_t axis = 0;
@@ -78,7 +78,7 @@ std::string add_polygon(SurfaceTriangles& surface, std::span<const std::int32_t>
     return "";
   }
   const std::vector<std::int32_t> corners = without_edges_of_no_length(given);
-  if (corners.size() <= 3) {  // with fewer, one that is nothing, as an STL may have
+  if (corners.size() <= 3) {  // fewer than 3: a degenerate polygon, as STL files contain them
     add(corners[0], corners[corners.size() / 2], corners.back());
     return "";
   }

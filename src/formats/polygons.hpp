@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Triangulation of polygons in surface files.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +10,11 @@
 
 namespace pnpbs {
 
-// Adds a polygon of the surface's vertices, in triangles of the same orientation: convex or not,
-// with corners on straight edges or not, and flat or nearly. A triangle is added whatever its
-// corners are, and so is what has no more of them, but for some that follow each other and are the
-// same. Returns what is wrong with it; nothing is added then.
+// Adds a polygon to the surface as triangles of the same orientation. The polygon may be
+// non-convex, have corners on straight edges, and be slightly curved. Triangles are added even if
+// degenerate, as are polygons that become triangles, or less, without repeated consecutive corners.
+// Returns an error text if the polygon cannot be divided; then nothing is added. An empty string
+// means success.
 std::string add_polygon(SurfaceTriangles& surface, std::span<const std::int32_t> corners,
                         std::int32_t tag);
 

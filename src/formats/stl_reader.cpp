@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// STL: 3D Systems, "StereoLithography Interface Specification" (1988). Text may hold several
-// solids, each with a name. Binary: 80 bytes of anything, the number of triangles, 50 bytes each.
+// STL reader (3D Systems, "StereoLithography Interface Specification", 1988). A text file has one
+// or more solids with names. A binary file has a header of 80 bytes, the number of triangles, and
+// 50 bytes for each.
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
@@ -18,7 +19,8 @@
 namespace pnpbs {
 namespace {
 
-// Numbers points in the order of their first appearance; those with equal coordinates are one.
+// A numbering of points in the order of first appearance. Points with equal coordinates are one
+// vertex.
 class VertexTable {
  public:
   std::int32_t index_of(Point<3> x);
@@ -30,7 +32,7 @@ class VertexTable {
 
   std::vector<Point<3>> points_;
   std::vector<std::int32_t>
-      slots_;  // open addressing: of a point or -1; at least half of them free
+      slots_;  // open addressing: indices of points or -1; at least half are -1
 };
 
 constexpr std::int32_t kFree = -1;
@@ -41,7 +43,7 @@ std::uint64_t hash_of(const Point<3>& x) {
   return hash;
 }
 
-// The slot that has the point, or the free one where it belongs.
+// Returns the slot of the point, or the free slot in which to store it.
 std::size_t VertexTable::slot_of(const Point<3>& x) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hash_of(x) & mask;
@@ -57,7 +59,7 @@ void VertexTable::grow() {
 }
 
 std::int32_t VertexTable::index_of(Point<3> x) {
-  for (double& coordinate : x) coordinate += 0.0;  // -0 is 0
+  for (double& coordinate : x) coordinate += 0.0;  // turns -0 into 0
   if (2 * points_.size() >= slots_.size()) grow();
   std::int32_t& slot = slots_[slot_of(x)];
   if (slot == kFree) {
@@ -72,11 +74,11 @@ constexpr std::size_t kBeforeTriangles = kHeader + 4;
 constexpr std::size_t kTriangle = 50;
 constexpr std::size_t kNormal = 12;
 
-// All their corners can be numbered.
+// Largest number of triangles whose corners all fit into the vertex numbers.
 constexpr std::size_t kMaxTriangles = kMaxVertices / 3;
 constexpr const char* kTooManyTriangles = "more than 715827882 triangles";
 
-// Keywords are in capitals in some files.
+// Returns whether the field is the word, in upper or lower case.
 bool is_word(std::string_view field, std::string_view word) {
   return std::ranges::equal(field, word, {}, [](char c) { return in_small_letters(c); });
 }
@@ -118,7 +120,8 @@ class TextParser {
       const std::string_view field = fields_.required(expected);
       if (is_word(field, "endsolid")) return;
       if (!is_word(field, "facet")) fields_.fail_found(field, expected);
-      read_triangle();  // its normal follows from its corners, and is nonsense in some files
+      // The normal is ignored: it follows from the corners, and some files have wrong ones.
+      read_triangle();
       surface_.tags.push_back(tags_.tag_of(name));
     }
   }
@@ -169,7 +172,8 @@ bool begins_as_text(std::string_view bytes) {
   return is_word(fields.required("a word"), "solid");
 }
 
-// Neither text nor of the size that a binary file of so many triangles has.
+// Throws an error for a file that is not text and does not have the size of a binary file with
+// `count` triangles.
 [[noreturn]] void fail_as_binary(std::string_view bytes, std::size_t count,
                                  const std::string& name) {
   const std::string what =
@@ -194,7 +198,7 @@ bool begins_as_text(std::string_view bytes) {
 
 }  // namespace
 
-// A binary file may begin with "solid", too, but has the size that it says.
+// Parses text or binary. A binary file may begin with "solid", too, so the size is checked first.
 SurfaceTriangles parse_stl(std::string_view bytes, const std::string& name) {
   const bool has_header = bytes.size() >= kBeforeTriangles;
   ByteFields fields(bytes, has_header ? kHeader : 0, std::endian::little, name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parsers of the formats of surfaces, each in a file of its own.
+// Parsers of surface formats, one source file for each.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ namespace pnpbs {
 inline constexpr std::int64_t kMaxVertices = std::numeric_limits<std::int32_t>::max();
 inline constexpr const char* kTooManyVertices = "more than 2147483647 vertices";
 
-// As surface_format, but nothing for other endings.
+// Returns the format by the extension, as surface_format(), or nothing if it is unknown.
 std::optional<SurfaceFormat> known_surface_format(const std::string& path);
 
-// What to say of vertices that are numbered from 0.
+// Returns an error text about a vertex number, where numbers start at 0.
 inline std::string no_such_vertex(std::int64_t number, std::int64_t count) {
   return "there is no vertex " + std::to_string(number) +
          (count > 0 ? ", expected 0 to " + std::to_string(count - 1) : "");
@@ -34,17 +34,18 @@ SurfaceTriangles parse_off(std::string_view text, const std::string& name);
 SurfaceTriangles parse_obj(std::string_view text, const std::string& name);
 SurfaceTriangles parse_ply(std::string_view bytes, const std::string& name);
 
-// TetGen's. `node_file` may be empty.
+// TetGen's file formats.
 enum class TetGenFormat { poly, smesh };
+// Parses a TetGen file. `node_file` may be empty.
 SurfaceTriangles parse_tetgen(std::string_view text, const std::string& name, TetGenFormat format,
                               const std::function<NodeFile()>& node_file);
 
-// One of these. Throws Error(ErrorKind::file) where there are no triangles. `name` stands for the
-// file in messages.
+// Parses a file of any of these formats. `name` stands for the file in messages. Throws
+// Error(ErrorKind::file), also if there are no triangles.
 SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
                                SurfaceFormat format, const std::function<NodeFile()>& node_file);
 
-// Tags for names, from 1 in the order in which they are asked for. No name ("") is one, too.
+// Tags of names, from 1 in the order of first use. The empty name has a tag, too.
 class TagNames {
  public:
   std::int32_t tag_of(const std::string& name) {
@@ -54,7 +55,7 @@ class TagNames {
     return entry->second;
   }
 
-  // Those that are not empty, by tag.
+  // Returns the nonempty names in the order of their tags.
   std::vector<std::pair<std::int32_t, std::string>> take_names() { return std::move(names_); }
 
  private:

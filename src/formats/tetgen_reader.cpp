@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TetGen's .poly and .smesh (https://wias-berlin.de/software/tetgen/fformats.html): vertices,
-// facets, holes, regions. A facet is one polygon or more that do not lie in each other.
+// TetGen reader (.poly and .smesh, https://wias-berlin.de/software/tetgen/fformats.html): vertices,
+// facets, holes, regions. A facet consists of polygons that do not lie inside each other.
 #include "formats/polygons.hpp"
 #include "formats/surface_formats.hpp"
 
@@ -40,7 +40,7 @@ class FacetParser {
     });
   }
 
-  // They may go on in further lines.
+  // Reads the corners of a polygon, which may continue in further lines.
   void read_corners() {
     corners_.clear();
     const std::int64_t count = read_count(fields_, "corners");
@@ -51,7 +51,7 @@ class FacetParser {
     }
   }
 
-  // 0 is no marker.
+  // Reads the marker of a facet. 0 means that it has none.
   std::int32_t read_tag() {
     const std::int32_t marker = has_markers_ ? fields_.tag("a boundary marker") : 0;
     return marker == 0 ? 1 : marker;

@@ -148,7 +148,7 @@ std::string read_whole_file(const std::string& path) {
   std::array<char, 65536> part;
   while (const std::size_t count = std::fread(part.data(), 1, part.size(), file.get())) {
     bytes.append(part.data(), count);
-    // A device that gives zeros may never end.
+    // Stop at zero bytes, because a device such as /dev/zero never ends.
     if (is_device && std::memchr(part.data(), 0, count) != nullptr) break;
   }
   if (std::ferror(file.get())) fail(std::strerror(errno));

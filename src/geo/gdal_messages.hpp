@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What GDAL has to say on this thread goes here instead of standard error, while this lives.
+// Capture of GDAL's messages. During its lifetime, an object receives the messages of this thread,
+// which GDAL would write to standard error.
 #pragma once
 
 #include <cpl_error.h>
@@ -8,6 +9,8 @@
 
 namespace pnpbs::geo {
 
+// The first failure and the first warning of GDAL on this thread. Not copyable, since GDAL has its
+// address.
 class GdalMessages {
  public:
   GdalMessages() { CPLPushErrorHandlerEx(take, this); }
@@ -16,8 +19,8 @@ class GdalMessages {
   ~GdalMessages() { CPLPopErrorHandler(); }
 
   bool failed() const { return !failure_.empty(); }
-  const std::string& failure() const { return failure_; }  // the first one, "" if there was none
-  const std::string& warning() const { return warning_; }  // likewise
+  const std::string& failure() const { return failure_; }  // the first failure, or ""
+  const std::string& warning() const { return warning_; }  // the first warning, or ""
   void forget() { failure_ = warning_ = ""; }
 
  private:

@@ -14,12 +14,14 @@ namespace {
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 
+// Applies an affine transformation in GDAL's form.
 Point<2> applied(const std::array<double, 6>& affine, const Point<2>& p) {
   return {affine[0] + affine[1] * p[0] + affine[2] * p[1],
           affine[3] + affine[4] * p[0] + affine[5] * p[1]};
 }
 
-constexpr double kSameLongitude = 1e-6;  // degrees
+// Tolerance for a grid that goes around the Earth. [degrees]
+constexpr double kSameLongitude = 1e-6;
 
 bool is_somewhere(const Point<2>& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); }
 
@@ -35,7 +37,7 @@ Box<2> box_around_finite(const std::vector<Point<2>>& points) {
   return box;
 }
 
-// Over a box, its sides included.
+// Returns points of a regular lattice over the box, including its sides.
 std::vector<Point<2>> lattice_over(const Box<2>& box) {
   constexpr int pieces = 32;
   std::vector<Point<2>> points;
@@ -102,7 +104,8 @@ std::vector<Point<2>> Grid::cells_of(std::vector<Point<2>> points) const {
 }
 
 CellBox Grid::window_for(const GridRequest& request) const {
-  constexpr double more = 0.05;  // than the lattice saw: the sides are curved
+  // Margin, since the sides are curved between the points of the lattice.
+  constexpr double more = 0.05;
   const Box<2> box = box_around_finite(cells_of(lattice_over(request.part)));
   const std::int64_t counts[2] = {columns_, rows_};
   std::int64_t first[2], last[2];
@@ -127,9 +130,10 @@ void Grid::evaluate(const std::vector<Point<2>>& points, double* values,
   const double counts[2] = {static_cast<double>(columns_), static_cast<double>(rows_)};
   const std::int64_t first[2] = {window_.column, window_.row};
   const std::int64_t size[2] = {window_.columns, window_.rows};
+  // A point between the last and the first column of a grid that goes around the Earth.
   struct OverSeam {
     std::size_t point;
-    double part;  // of the way from the last column to the first
+    double part;  // position between the last column (0) and the first one (1)
   };
   std::vector<OverSeam> over_seam;
   std::vector<Between> places;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors of libpnpbs, with the points that their messages name.
+// Error messages of libpnpbs with the points that they name.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace pnpbs::geo {
 
-// Returns the last message on a context, or on this thread.
+// Returns the last error message of the context, or of this thread if `context` is null.
 inline MessageText last_message(pnpbs_context context) {
   std::int32_t count = 0;
   pnpbs_last_error_data(context, nullptr, &count);
@@ -28,8 +28,8 @@ inline MessageText last_message(pnpbs_context context) {
   return {pnpbs_last_error(context), std::move(points)};
 }
 
-// Returns the text with the points that it names. They are known while the text is, or contains,
-// the last message of libpnpbs on this thread, or `last`, that of this library.
+// Returns the text together with the points that it names. They are known only if the text contains
+// the last message of libpnpbs on this thread, or `last`, the last message of this library.
 inline MessageText with_points(const std::string& text, const MessageText& last) {
   for (const MessageText& known : {last, last_message(nullptr)}) {
     const std::size_t at = known.empty() ? std::string::npos : text.find(known.text());

@@ -10,8 +10,9 @@ namespace {
 
 using Place = std::int64_t;
 
+// The nearest point on a segment.
 struct Foot {
-  double t, distance;  // where on the segment, 0 .. 1
+  double t, distance;  // t: position on the segment, 0 to 1
 };
 
 Foot foot_on(const Point<2>& a, const Point<2>& b, const Point<2>& p) {
@@ -21,12 +22,13 @@ Foot foot_on(const Point<2>& a, const Point<2>& b, const Point<2>& p) {
   return {t, std::hypot(p[0] - a[0] - t * ux, p[1] - a[1] - t * uy)};
 }
 
-// Points one after another along a polyline: how far each is from it.
+// A polyline with a search for the segment near a point. Consecutive points should be near each
+// other.
 class FollowedLine {
  public:
   explicit FollowedLine(std::vector<Point<2>> points) : points_(std::move(points)) {}
 
-  // Looks near the last one first.
+  // Returns whether a segment is within `tolerance`. The search starts at the segment found last.
   bool is_near(const Point<2>& p, double tolerance) {
     const std::size_t segments = points_.size() - 1;
     for (std::size_t k = 0; k < segments; ++k) {
@@ -43,30 +45,32 @@ class FollowedLine {
   std::size_t last_ = 0;
 };
 
+// A segment of the boundary.
 struct Segment {
   std::size_t curve, index;
   Place a, b;
 };
 
-// A place on the boundary: a vertex is that of its segment.
+// A point on the boundary. A vertex is represented by t = 0 or 1 on one of its segments.
 struct ShorePlace {
   std::size_t segment;
   double t;
 };
 
-// A part of a segment that gets a tag.
+// An interval of a segment that gets a tag.
 struct Part {
   double from, to;
   std::int32_t tag;
 };
 
-// A line, or what has one tag of it.
+// A line of the file, or a part of it with a single tag.
 struct Line {
   std::vector<Place> places;
   std::int32_t tag;
   bool is_closed() const { return places.front() == places.back(); }
 };
 
+// The boundary of the domain, on which lines are searched for parts that they follow.
 class Shore {
  public:
   Shore(const std::vector<Curve>& curves, const std::vector<Point<2>>& points, double tolerance)
@@ -82,7 +86,7 @@ class Shore {
     sort_into_columns();
   }
 
-  // Whether the line runs along the boundary; then that has its tag.
+  // Returns whether the line follows the boundary. If so, that part of the boundary gets its tag.
   bool take(const Line& line) {
     const auto begin = spot_near(points_[line.places.front()]);
     const auto end = begin ? spot_near(points_[line.places.back()]) : std::nullopt;
@@ -112,7 +116,7 @@ class Shore {
       second = second == none ? segment : many;
   }
 
-  // Segments by where they may be near to something, so that many lines need not look at all.
+  // Sorts segments into columns by x, so that a search for near segments visits few of them.
   void sort_into_columns() {
     if (segments_.empty()) return;
     double high = -HUGE_VAL;
@@ -153,7 +157,7 @@ class Shore {
     return nearest;
   }
 
-  // A vertex within the tolerance takes its place.
+  // Returns t, moved to an end of the segment that is within the tolerance.
   double at_vertex(const Point<2>& a, const Point<2>& b, double t) const {
     const double length = distance<2>(a, b);
     if (std::min(t, 1 - t) * length > tolerance_) return t;
@@ -166,8 +170,9 @@ class Shore {
     return {a[0] + spot.t * (b[0] - a[0]), a[1] + spot.t * (b[1] - a[1])};
   }
 
-  // From the beginning of the line along the boundary, as long as that stays near the line, to the
-  // line's end. At first towards b of the segment, or towards its a.
+  // Follows the boundary from `begin` to `end` and returns the parts on the way. Returns nothing if
+  // the boundary leaves the line, or the line the boundary. `forward`: the way begins towards b of
+  // the first segment, else towards its a.
   std::optional<Way> way_along(const Line& line, ShorePlace begin, const ShorePlace& end,
                                bool forward) const {
     std::vector<Point<2>> line_points, shore{point_at(begin)};
@@ -209,12 +214,12 @@ class Shore {
   double tolerance_;
   std::vector<Segment> segments_;
   double low_ = 0, width_ = 0;
-  std::vector<std::vector<std::size_t>> columns_;        // segments in each, in order
-  std::vector<std::vector<Part>> parts_;                 // of each segment, the last one counts
-  std::vector<std::pair<std::size_t, std::size_t>> at_;  // the segments at each place
+  std::vector<std::vector<std::size_t>> columns_;  // segments in each column, by increasing index
+  std::vector<std::vector<Part>> parts_;  // parts of each segment; later ones have precedence
+  std::vector<std::pair<std::size_t, std::size_t>> at_;  // up to two segments at each vertex
 };
 
-// The curve in pieces of one tag, begun where the tag changes if it is closed.
+// Divides the curve into lines of one tag. A closed curve is divided where its tag changes.
 std::vector<Line> lines_of(const Curve& curve) {
   const std::size_t count = segments_of(curve);
   std::size_t first = 0;
@@ -239,7 +244,7 @@ Curve curve_of(const Line& line) {
   return curve;
 }
 
-// Where tags begin and end on a segment.
+// Returns the sorted positions on a segment where tags begin or end, including 0 and 1.
 std::vector<double> cuts_of(const std::vector<Part>& parts) {
   std::vector<double> cuts{0, 1};
   for (const Part& part : parts) cuts.push_back(part.from), cuts.push_back(part.to);
@@ -248,6 +253,7 @@ std::vector<double> cuts_of(const std::vector<Part>& parts) {
   return cuts;
 }
 
+// The replacement of boundary curves by ones whose segments are split where their tags change.
 class Retagging {
  public:
   Retagging(std::vector<Curve>& curves, std::vector<Point<2>>& points)

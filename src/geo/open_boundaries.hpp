@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines that run along what bounds the domain, as the open boundary of a sea does: they are no
-// curves of their own, but tell the tag of that part of the boundary.
+// Lines that follow the boundary of the domain, such as the open boundary of a sea. They are not
+// curves of their own, but define the tag of a part of the boundary.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace pnpbs::geo {
 
-// Of a line all of which lies within `tolerance` of a part of the boundary, and all of that part
-// within `tolerance` of the line, that part has the tag and the line is gone. The boundary is split
-// where the line begins and ends, unless it has a vertex within `tolerance` of there; it keeps its
-// shape. New places are put behind `points`. The number of lines that were taken so.
+// Gives the tags of such lines to the boundary and removes the lines from `curves`. A line follows
+// a part of the boundary if each lies within `tolerance` of the other. The boundary keeps its
+// shape. It is split at the ends of the line unless it has a vertex within `tolerance` of them; new
+// vertices are appended to `points`. Returns the number of lines removed.
 std::int64_t retag_open_boundaries(std::vector<Curve>& curves, std::vector<Point<2>>& points,
                                    double tolerance);
 

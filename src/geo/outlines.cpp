@@ -16,12 +16,14 @@
 namespace pnpbs::geo {
 namespace {
 
-// Edges between places, put in order: curves from where they meet to where they meet.
+// The use of an edge: part of the boundary, of an inner curve, or of a line whose use is not
+// decided yet.
 enum class EdgeRole { boundary, inner, line };
 
+// An edge of polygons or lines.
 struct Edge {
   std::int64_t begin, end;
-  EdgeRole role;  // line: not known yet
+  EdgeRole role;
   std::int32_t tag;
   std::int64_t order;
   bool of_line;
@@ -29,7 +31,7 @@ struct Edge {
 
 using Index = std::int64_t;
 
-// The edges at every place.
+// Compressed rows of the edges at each vertex.
 class Incidence {
  public:
   Incidence(const std::vector<Edge>& edges, Index places)
@@ -53,8 +55,8 @@ Index other_end(const Edge& edge, Index place) {
   return edge.begin == place ? edge.end : edge.begin;
 }
 
-// Marks what is left of the edges when all those are taken away, again and again, that end where
-// no other does.
+// Marks the edges that belong to closed lines: removes edges with a free end until none is left.
+// Updates `degree`, the number of edges at each vertex.
 std::vector<char> without_branches(const std::vector<Edge>& edges, const Incidence& incidence,
                                    std::vector<Index>& degree) {
   std::vector<char> left(edges.size(), 1);
@@ -76,6 +78,7 @@ std::vector<char> without_branches(const std::vector<Edge>& edges, const Inciden
   return left;
 }
 
+// The curves that edges form.
 class ChainMaker {
  public:
   ChainMaker(const std::vector<Edge>& edges, Index places)
@@ -89,7 +92,8 @@ class ChainMaker {
   }
 
  private:
-  // Where one curve goes on: two edges of the same role meet, and no other.
+  // Returns whether a curve passes through the vertex: exactly two edges meet there, and they have
+  // the same role.
   bool is_passed(Index place) const {
     if (incidence_.degree(place) != 2) return false;
     const Index* edges = incidence_.at(place);
@@ -102,7 +106,8 @@ class ChainMaker {
     return edges[0] == edge ? edges[1] : edges[0];
   }
 
-  // Back along the curve to where it begins; all around it, if it is closed, to where it is.
+  // Follows the curve back to its beginning. Returns the first edge and vertex there. For a closed
+  // curve, returns the given edge.
   std::pair<Index, Index> begin_of(Index edge) const {
     Index at = edge, place = edges_[edge].begin;
     while (is_passed(place)) {
@@ -136,7 +141,8 @@ class ChainMaker {
   std::vector<char> used_;
 };
 
-// Whether the place lies behind an odd number of the edges.
+// Returns whether the point is inside the closed curves that the edges form, by the parity of
+// crossings.
 bool is_inside(const Point<2>& p, const std::vector<Edge>& edges,
                const std::vector<Point<2>>& points) {
   bool inside = false;
@@ -148,6 +154,7 @@ bool is_inside(const Point<2>& p, const std::vector<Edge>& edges,
   return inside;
 }
 
+// The decision which lines bound the domain and which are inner curves, see settle_lines().
 class LineSettler {
  public:
   LineSettler(std::vector<Edge>& edges, const std::vector<Point<2>>& points)
@@ -167,7 +174,7 @@ class LineSettler {
     find_closed();
     const std::vector<Index> candidates = parts_apart();
     const bool bound = outlines_.empty() || any_surrounds_a_polygon(candidates);
-    std::vector<char> bounds(points_.size(), 0);  // parts of lines, by their least place
+    std::vector<char> bounds(points_.size(), 0);  // by the root vertex of each part
     if (bound)
       for (const Index part : candidates) bounds[part] = 1;
     for (std::size_t p = 0; p < points_.size(); ++p)
@@ -198,7 +205,7 @@ class LineSettler {
       if (closed_[e]) parts_.join(lines_[e].begin, lines_[e].end);
   }
 
-  // Closed parts that neither meet a polygon nor lie in one.
+  // Returns the parts of closed lines that neither meet a polygon nor lie inside one.
   std::vector<Index> parts_apart() {
     std::vector<char> meets(points_.size(), 0);
     std::vector<Index> all, apart;
@@ -232,39 +239,40 @@ class LineSettler {
 
   std::vector<Edge>& edges_;
   const std::vector<Point<2>>& points_;
-  std::vector<Edge> lines_, outlines_;  // outlines: the boundary of their union
-  UnionFind<Index> parts_;              // of closed lines
-  std::vector<char> in_outline_;        // of places
-  std::vector<char> closed_;            // of lines
-  std::vector<Index> degree_;           // of places, by closed lines
+  std::vector<Edge> lines_, outlines_;  // outlines_: the boundary of the union of the polygons
+  UnionFind<Index> parts_;              // connected parts of closed lines
+  std::vector<char> in_outline_;        // by vertex
+  std::vector<char> closed_;            // by line
+  std::vector<Index> degree_;           // number of edges of closed lines at each vertex
 };
 
-// Closed lines that neither meet a polygon nor lie in one bound the domain; the others are inner
-// curves. Throws Error where lines branch so that none can tell.
+// Sets the roles of lines. Closed lines that neither meet a polygon nor lie inside one bound the
+// domain, if there are no polygons or such a line surrounds one. All other lines are inner curves.
+// Throws Error if an odd number of closed lines meet at a vertex.
 void settle_lines(std::vector<Edge>& edges, const std::vector<Point<2>>& points,
                   const WordsFor& where) {
   LineSettler(edges, points).run(where);
 }
 
-// Every edge is in one of them; they are in the order of their first edges.
+// Joins all edges into curves, in the order of the first edges.
 std::vector<Curve> chains_of(const std::vector<Edge>& edges, std::int64_t places) {
   return ChainMaker(edges, places).run();
 }
 
 using Place = std::int64_t;
 
-// A segment of a route, from the lower place to the higher one or the other way round.
+// A segment of a route, stored from the smaller vertex index to the larger one.
 struct Piece {
   Place low, high;
   bool upward;
   bool of_line;
   std::int64_t feature;
   std::int32_t tag;
-  std::int64_t order;  // in the file
+  std::int64_t order;  // order in the file
   std::tuple<Place, Place, bool, std::int64_t> key() const { return {low, high, of_line, order}; }
 };
 
-// Twice the area, positive if the places go round against the clock.
+// Returns twice the area that the vertices enclose, positive if they are counter-clockwise.
 double turning_area(const std::vector<Place>& places, const std::vector<Point<2>>& points) {
   const Point<2>& o = points[places.front()];
   double area = 0;
@@ -275,8 +283,8 @@ double turning_area(const std::vector<Place>& places, const std::vector<Point<2>
   return area;
 }
 
-// On a sphere an outline encloses the smaller of its two sides, which may hold the point that is
-// projected from.
+// Returns whether the outline has its inside on the left. On a sphere an outline encloses the
+// smaller of the two areas, which may contain the point of projection.
 bool turns_left(const std::vector<Place>& places, const std::vector<Point<2>>& points,
                 double radius) {
   if (radius == 0) return turning_area(places, points) > 0;
@@ -287,7 +295,7 @@ bool turns_left(const std::vector<Place>& places, const std::vector<Point<2>>& p
   return (area > 0) == is_smaller;
 }
 
-// Each place once in a row; the inside on the left of outlines and holes.
+// Removes repeated consecutive vertices. Orients outlines counter-clockwise and holes clockwise.
 void straighten(Route& route, const std::vector<Point<2>>& points, double radius) {
   std::vector<Place>& places = route.places;
   places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -315,12 +323,14 @@ std::vector<Piece> pieces_of(const std::vector<Route>& routes) {
   return pieces;
 }
 
+// A converter of pieces to edges. All pieces between the same two vertices become at most one edge,
+// and it counts the pieces that are merged or left out.
 class EdgeSorter {
  public:
   EdgeSorter(const WordsFor& where, Outlines& outlines, std::vector<Edge>& edges)
       : where_(where), outlines_(outlines), edges_(edges) {}
 
-  // All pieces between two places, those of outlines first.
+  // Adds the edge for all pieces between two vertices, sorted with those of outlines first.
   void take(std::vector<Piece> pieces) {
     const std::size_t given = pieces.size();
     cancel_within_features(pieces);
@@ -350,10 +360,10 @@ class EdgeSorter {
  private:
   static bool is_line(const Piece& piece) { return piece.of_line; }
 
-  // What one feature goes along there and back has its area on both sides: the cut at 180 degrees,
-  // the way to a pole, a spike.
+  // Removes pairs of opposite pieces of one feature, whose area lies on both sides: a cut at 180
+  // degrees, the way to a pole, a spike.
   static void cancel_within_features(std::vector<Piece>& pieces) {
-    std::vector<Piece> left;  // those of a feature stand together
+    std::vector<Piece> left;  // the pieces of a feature are consecutive
     for (const Piece& piece : pieces) {
       const bool back = !left.empty() && !piece.of_line && !left.back().of_line &&
                         left.back().feature == piece.feature && left.back().upward != piece.upward;
@@ -387,7 +397,7 @@ class EdgeSorter {
 }  // namespace
 
 std::size_t Places::Hash::operator()(const Point<2>& point) const {
-  // Any mixing of the bits will do: the numbers go by the order of points, not by this.
+  // Any hash function will do, because the numbers follow from the order of points.
   std::uint64_t mixed = std::bit_cast<std::uint64_t>(point[0]) * 0x9E3779B97F4A7C15u;
   mixed = std::rotl(mixed, 29) ^ std::bit_cast<std::uint64_t>(point[1]);
   mixed *= 0xBF58476D1CE4E5B9u;
@@ -402,8 +412,8 @@ std::int64_t Places::add(const Point<2>& point) {
   return found->second;
 }
 
-// Outlines have their polygon on the left: around the point that the sphere is seen from, which is
-// the infinite one of its projection, they turn right.
+// Outlines have their polygon on the left. In the projection from a point inside a polygon, their
+// total signed area is negative.
 void Outlines::leave_out_shared_edges_outside(const std::vector<Point<2>>& points) {
   double twice_area = 0;
   for (const Curve& curve : curves) {

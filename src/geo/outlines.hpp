@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What bounds a domain, and what lies in it, of outlines of polygons and lines. Neighbouring
-// polygons have edges in common; these are inner curves, and the others bound their union.
+// Boundary and inner curves of a domain, from outlines of polygons and from lines. Edges that
+// neighbouring polygons share are inner curves; the other edges bound the union of the polygons.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,10 @@
 
 namespace pnpbs::geo {
 
-// Points at the same place are one.
+// The distinct points of a layer. A "place" is the index of such a point, here called a vertex.
 class Places {
  public:
+  // Returns the index of the point, which is added if it is new.
   std::int64_t add(const Point<2>& point);
   const std::vector<Point<2>>& points() const { return points_; }
 
@@ -29,7 +30,7 @@ class Places {
   std::vector<Point<2>> points_;
 };
 
-// A path by the numbers of its places.
+// An outline, hole or line of the file as indices of vertices.
 struct Route {
   PathKind kind;
   std::int64_t feature;
@@ -37,12 +38,13 @@ struct Route {
   std::vector<std::int64_t> places;
 };
 
-// Straight segments between places.
+// A chain of straight segments.
 struct Curve {
-  bool bounds;  // the domain; otherwise it lies in it
+  bool bounds;  // bounds the domain; otherwise lies inside it
   bool closed;
-  std::vector<std::int64_t> places;  // of closed ones, the first is not repeated
-  std::vector<std::int32_t> tags;    // of the segments
+  std::vector<std::int64_t> places;  // vertices; a closed curve does not repeat the first one
+  std::vector<std::int32_t> tags;    // tag of each segment
+  // Comes from a line of the file, not from a polygon.
   bool of_line = false;
 };
 
@@ -54,23 +56,27 @@ inline std::int64_t end_of(const Curve& curve, std::size_t segment) {
   return curve.places[(segment + 1) % curve.places.size()];
 }
 
+// The curves of a layer, and counts of the edges that were merged or left out.
 struct Outlines {
   std::vector<Curve> curves;
-  std::int64_t shared_edges = 0;    // of neighbours
-  std::int64_t dropped_edges = 0;   // there and back in one feature, or twice the same line
-  std::int64_t retagged_edges = 0;  // of outlines, that a line has, too: its tag counts
-  std::int64_t lost_tags = 0;       // of lines that have an edge in common with others
-  std::int64_t outer_edges = 0;     // of neighbours, where the domain is what no polygon covers
+  std::int64_t shared_edges = 0;  // edges that two polygons share
+  // Edges that a feature passes in both directions, or that lines repeat.
+  std::int64_t dropped_edges = 0;
+  std::int64_t retagged_edges = 0;  // outline edges that got the tag of a line on them
+  std::int64_t lost_tags = 0;       // line edges on other lines with another tag
+  std::int64_t outer_edges = 0;     // shared edges left out by leave_out_shared_edges_outside()
 
-  // On a sphere that is seen from a point in one of the polygons, edges that two of them share are
-  // outside of the domain.
+  // If the outlines enclose the point of projection of a sphere, the domain is outside the
+  // polygons. Then removes the edges that polygons share, which are outside the domain.
   void leave_out_shared_edges_outside(const std::vector<Point<2>>& points);
 };
 
-// Outlines enclose areas that do not overlap. Closed lines outside of all of them bound the domain,
-// too. Throws Error with the place, for which `where` finds words.
+// Describes a vertex in error messages.
 using WordsFor = std::function<MessageText(std::int64_t place)>;
-// radius: of the sphere that the points are in a stereographic projection of, or 0 for the plane.
+// Builds the curves of polygons, whose areas must not overlap, and of lines. Closed lines outside
+// all polygons bound the domain, see settle_lines(). `radius`: radius of the sphere whose
+// stereographic projection contains the points, or 0 in the plane. Throws Error with a vertex
+// described by `where`.
 Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
                      const WordsFor& where, double radius = 0);
 

@@ -24,10 +24,10 @@ using namespace pnpbs::geo;
 
 namespace {
 
-// With the texts that callers are given.
+// The shapes of a layer and the strings that callers receive.
 struct Object {
   explicit Object(const Request& request) : shapes(request) {
-    if (shapes.on_sphere()) return;  // none that coordinates would be in
+    if (shapes.on_sphere()) return;  // on a sphere, coordinates are in space, without a projection
     const ReferenceSystem& system = shapes.projection().system();
     name = system.name(), unit = system.unit(), proj = system.proj();
     wkt = system.wkt(), prj = system.prj();
@@ -37,7 +37,7 @@ struct Object {
 };
 
 // ------------------------------------------------------------------ handles --------------------
-// As libpnpbs has them: keys, never addresses; in numbers that none of its own has.
+// Handles are keys and not addresses, as in libpnpbs. The keys differ from those of libpnpbs.
 template <class Handle, class Object>
 class Registry {
  public:
@@ -117,6 +117,7 @@ pnpbs_status report(pnpbs_status status, const auto& message) noexcept {
   return status;
 }
 
+// Runs the body and converts exceptions to a status and a last error.
 template <class Body>
 pnpbs_status guarded(const Body& body) noexcept {
   const api::DefaultArithmetic arithmetic;
@@ -182,7 +183,7 @@ std::vector<Point<2>> points_from(std::int64_t n, const double* coordinates) {
   return points;
 }
 
-// As PROJ's transformations take them, to degrees or from them.
+// Converts coordinates in place with PROJ, to degrees or from them.
 template <class Way>
 pnpbs_status change_coordinates(pnpbs_geo_shapes shapes, std::int64_t n, double* coordinates,
                                 const Way& way) {

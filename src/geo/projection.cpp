@@ -23,7 +23,7 @@ bool is_pole(const Point<2>& degrees) { return std::fabs(degrees[1]) == 90; }
 Legs Legs::shortest(const Point<2>& a, const Point<2>& b) {
   const double first = is_pole(a) ? b[0] : a[0], last = is_pole(b) ? a[0] : b[0];
   const double across = last - first, sum = a[1] + b[1];
-  // As near to opposite meridians as canonical places can be told apart.
+  // Tolerance for opposite meridians, as in canonical(). [degrees]
   constexpr double kSame = 1e-9;
   const bool is_over_pole = std::fabs(std::fabs(across) - 180) < kSame && sum != 0;
   if (is_over_pole) {
@@ -50,21 +50,22 @@ double off_great_circle(const Point<2>& place, const Point<2>& a, const Point<2>
 
 namespace {
 
-// UTM zones are 6 degrees wide. This far beyond its edge lengths are off by 0.2 % at most, about as
-// much as on its central meridian and its edge.
+// Distance from the central meridian up to which a UTM zone is used. Zones are 6 degrees wide. At
+// this distance lengths are wrong by at most 0.2 %, about as much as at the edge of the zone.
+// [degrees]
 constexpr double half_zone = 3.5;
-// Where UTM ends.
+// Latitudes of the ends of UTM. [degrees]
 constexpr double most_northern = 84, most_southern = -80;
-// Projected and back, a point is where it was; this many degrees, 0.1 m, are for tables that are
-// only inverted approximately.
+// Largest difference of a point that is projected and back. 0.1 m allow for projections whose
+// inverse is approximate. [degrees]
 constexpr double same_degrees = 1e-6;
 
-// For the scale: so many points, and so far to both sides of each.
+// Number of sample points of the scale, and the distance to both sides of each.
 constexpr std::size_t scale_samples = 1000;
 constexpr double scale_step = 1e-4;  // degrees
 constexpr double radian = std::numbers::pi / 180;
 
-// What longitudes the points take, the shorter way round: from `west`, over `width` degrees.
+// The smallest range that contains all longitudes: from `west` over `width`. [degrees]
 struct LongitudeRange {
   double west, width;
   double middle() const { return std::remainder(west + width / 2, 360); }
@@ -84,7 +85,8 @@ LongitudeRange longitudes_of(const std::vector<Point<2>>& degrees) {
   return {west, 360 - gap};
 }
 
-// Longitude and latitude in "sphere(LONGITUDE,LATITUDE)".
+// Returns the longitude and latitude of "sphere(LONGITUDE,LATITUDE)", or nothing if the request is
+// for another projection. Throws if it is malformed.
 std::optional<Point<2>> sphere_seen_from(const std::string& request) {
   constexpr std::string_view word = "sphere";
   if (!std::string_view(request).starts_with(word)) return std::nullopt;
@@ -110,6 +112,9 @@ std::optional<Point<2>> sphere_seen_from(const std::string& request) {
   return degrees;
 }
 
+// Returns a projection for data around these points: a UTM zone if they fit in one, else Lambert's
+// azimuthal equal-area projection. Throws if they extend over more than 180 degrees of longitude on
+// both sides of the equator.
 ReferenceSystem local_projection(const ReferenceSystem& data,
                                  const std::vector<Point<2>>& degrees) {
   const LongitudeRange range = longitudes_of(degrees);
@@ -133,7 +138,7 @@ ReferenceSystem local_projection(const ReferenceSystem& data,
   const double reach = std::fabs(std::remainder(range.middle() - meridian, 360)) + range.width / 2;
   if (reach <= half_zone && south >= most_southern && north <= most_northern)
     return ReferenceSystem::utm(data, zone, south + north >= 0);
-  // Whole degrees, so that files that differ little have the same projection.
+  // Round to degrees, so that files that differ little have the same projection.
   return ReferenceSystem::azimuthal(data, std::round(range.middle()),
                                     std::round((south + north) / 2));
 }
@@ -214,11 +219,11 @@ void Projection::find_poles() {
   poles_ = {{0, -90}, {0, 90}};
   forward_->apply(poles_);
   for (Point<2>& pole : poles_)
-    if (!std::isfinite(pole[0] + pole[1])) pole = {NAN, NAN};  // at which there is no place
+    if (!std::isfinite(pole[0] + pole[1])) pole = {NAN, NAN};  // not equal to any point
 }
 
-// PROJ's way back has half of the digits near a pole, and fails at some: it takes the arc sine of
-// what rounding may leave above 1.
+// Corrects the degrees of projected poles. PROJ's inverse has half the digits near a pole and fails
+// at some, since the argument of an arcsine exceeds 1 by rounding.
 void Projection::restore_poles(const std::vector<Point<2>>& projected,
                                std::vector<Point<2>>& degrees) const {
   for (std::size_t i = 0; i < projected.size(); ++i)
@@ -233,7 +238,7 @@ double Projection::sphere_radius() const {
 Point<2> Projection::canonical(const Point<2>& point) const {
   if (!wraps_) return point;
   auto [longitude, latitude] = point;
-  // Files are cut at 180 degrees but for rounding; this is a tenth of a millimetre.
+  // Files are cut at 180 degrees up to rounding. The tolerance is a tenth of a millimetre.
   constexpr double kSame = 1e-9;
   if (std::fabs(std::fabs(longitude) - 180) < kSame) longitude = 180;
   if (std::fabs(std::fabs(latitude) - 90) < kSame) latitude = std::copysign(90, latitude);
@@ -243,7 +248,8 @@ Point<2> Projection::canonical(const Point<2>& point) const {
   return {longitude, latitude};
 }
 
-// Maps that are cut open at 180 degrees go the long way around: the middle tells.
+// In a map that is cut at 180 degrees, the projected segment goes the long way around. The
+// projected midpoint decides between the two.
 Legs Projection::legs_of(const Point<2>& a, const Point<2>& b) const {
   const Legs straight = Legs::straight(a, b);
   if (!wraps_) return straight;
@@ -281,7 +287,7 @@ std::optional<Projection::Fault> Projection::project(std::vector<Point<2>>& poin
   backward_->apply(returned);
   restore_poles(points, returned);
   if (!wraps_) return std::nullopt;
-  // Far from where a projection is meant for it may give some place, which is another point's.
+  // Far outside its range of validity a projection may return the point of another place.
   for (std::size_t i = 0; i < given.size(); ++i) {
     const double shrink = std::max(std::cos(given[i][1] * radian), 1e-9);
     const double off =
@@ -313,8 +319,8 @@ Projection::Scale Projection::scale_at(const std::vector<Point<2>>& points) cons
   scale = {HUGE_VAL, 0};
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const double c = std::cos(centres[i][1] * radian), s = std::sin(centres[i][1] * radian);
-    if (c < 1e-3) continue;  // at a pole there are no parallels
-    // Radii of curvature: of the parallel, and of the meridian.
+    if (c < 1e-3) continue;  // parallels degenerate at a pole
+    // Radii of curvature of the parallel and of the meridian.
     const double w = std::sqrt(a * a * c * c + b * b * s * s);
     const double radii[2] = {a * a / w * c, a * a * b * b / (w * w * w)};
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rectangle of a raster's values, in the least type that has them exactly.
+// Rectangles of raster cells, and their values in the smallest type that represents them exactly.
 #pragma once
 
 #include <algorithm>
@@ -12,28 +12,29 @@
 
 namespace pnpbs::geo {
 
-// Rectangles of a raster's cells, and how such a rectangle is divided into equal ones.
+// A rectangle of cells.
 struct CellBox {
   std::int64_t column, row, columns, rows;
 
   std::int64_t count() const { return columns * rows; }
   std::int64_t column_end() const { return column + columns; }
   std::int64_t row_end() const { return row + rows; }
-  // Of a cell within, row by row.
+  // Returns the index of a cell in row-major order.
   std::size_t place_of(std::int64_t its_column, std::int64_t its_row) const {
     return static_cast<std::size_t>((its_row - row) * columns + (its_column - column));
   }
   bool operator==(const CellBox&) const = default;
 };
 
-// What is in both; no columns or no rows if nothing is.
+// Returns the intersection, which has no columns or no rows if it is empty.
 inline CellBox common_part(const CellBox& a, const CellBox& b) {
   const std::int64_t column = std::max(a.column, b.column), row = std::max(a.row, b.row);
   return {column, row, std::max<std::int64_t>(0, std::min(a.column_end(), b.column_end()) - column),
           std::max<std::int64_t>(0, std::min(a.row_end(), b.row_end()) - row)};
 }
 
-// Pieces of this size, but at the edges of the whole, which begin at multiples of it.
+// A division of a rectangle into tiles. Tiles begin at multiples of their size and are cut at the
+// edges of the rectangle.
 class Tiling {
  public:
   Tiling(const CellBox& whole, std::int64_t columns, std::int64_t rows)
@@ -50,13 +51,13 @@ class Tiling {
   std::int64_t number_of(std::int64_t column, std::int64_t row) const {
     return (row / rows_ - first_row_) * across_ + (column / columns_ - first_column_);
   }
-  // With so many columns and rows of those that follow.
+  // Returns the cells of a tile, and `more` columns and rows of those that follow.
   CellBox box_of(std::int64_t number, std::int64_t more = 0) const {
     return common_part(whole_,
                        {(number % across_ + first_column_) * columns_,
                         (number / across_ + first_row_) * rows_, columns_ + more, rows_ + more});
   }
-  // Calls with the number of each piece that has cells of this box, and with those.
+  // Calls call(tile, its cells in the box) for each tile that meets the box.
   template <class Call>
   void for_each_in(const CellBox& box, const Call& call) const {
     const CellBox part = common_part(whole_, box);
@@ -75,13 +76,13 @@ class Tiling {
   std::int64_t columns_, rows_, first_column_, first_row_, across_, down_;
 };
 
-// What numbers in a file stand for.
+// Conversion of the numbers in a file to values.
 struct RasterMeaning {
   bool has_no_data = false;
   double no_data = 0;
   double scale = 1, offset = 0;
 
-  // Not a number where there is no data.
+  // Returns the value, or NaN if there is no data.
   double value(double number) const {
     if ((has_no_data && number == no_data) || !std::isfinite(number))
       return std::numeric_limits<double>::quiet_NaN();
@@ -89,11 +90,12 @@ struct RasterMeaning {
   }
 };
 
+// The values of a rectangle of cells.
 struct RasterBlock {
   using Numbers = std::variant<std::vector<std::int16_t>, std::vector<float>, std::vector<double>>;
 
   CellBox cells;
-  Numbers numbers;  // row by row
+  Numbers numbers;  // in row-major order
   RasterMeaning meaning;
 
   double at(std::int64_t column, std::int64_t row) const {

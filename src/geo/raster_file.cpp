@@ -17,15 +17,15 @@
 namespace pnpbs::geo {
 namespace {
 
-// GDAL has decoded blocks of files in memory, up to 5 % of the machine's by default. Of this file
-// they are no more than this, unless the user has set GDAL's limit.
+// Limit of GDAL's cache for this file, unless the user has set GDAL's limit. GDAL's own default is
+// 5 % of the machine's memory.
 constexpr std::int64_t max_bytes_in_gdal = std::int64_t{64} << 20;
 
 [[noreturn]] void reject_raster(const std::string& message) {
   throw Error(ErrorKind::file, message);
 }
 
-// Files of several variables have each as a dataset of its own.
+// A variable of a file with several. GDAL opens it as a dataset of its own.
 struct Variable {
   std::string name, path;
 };
@@ -49,14 +49,14 @@ std::string names_of(const std::vector<Variable>& variables) {
   return list_text(names, 20);
 }
 
-// What a band is called: NetCDF's variable, or the description of the band.
+// Returns the name of the NetCDF variable, or the description of the band.
 std::string name_of(GDALRasterBandH band) {
   const char* variable = GDALGetMetadataItem(band, "NETCDF_VARNAME", nullptr);
   return variable ? variable : GDALGetDescription(band);
 }
 
-// By the conventions for climate and forecast an axis in this unit is longitude, and most such
-// NetCDF files name no ellipsoid.
+// Returns whether an axis has a unit of longitude by the conventions for climate and forecast (CF).
+// Most such NetCDF files name no ellipsoid.
 bool has_degrees_east(GDALDatasetH dataset) {
   constexpr std::string_view units[] = {"#units=degrees_east", "#units=degree_east",
                                         "#units=degreesE", "#units=degrees_E"};
@@ -150,8 +150,8 @@ ReferenceSystem RasterFile::system() const {
                                           : ReferenceSystem();
 }
 
-// The blocks of the file are tiles, or a few rows each. Of small tiles some are read at once, of
-// short rows many; and of blocks that are too large parts.
+// Blocks of a file are tiles or some rows. Small tiles and short rows are read together; large
+// blocks are read in parts.
 std::array<std::int64_t, 2> RasterFile::shape_of_blocks() const {
   constexpr std::int64_t side = 512, many = std::int64_t{1} << 19, too_many = std::int64_t{1} << 22;
   int columns = 0, rows = 0;
@@ -184,7 +184,8 @@ void RasterFile::read_numbers(const CellBox& cells, void* numbers, GDALDataType 
     reject_raster("cannot read " + name_ + ": " + messages.failure());
 }
 
-// A cache for all that a process reads has a limit of its own, which is not ours to set.
+// Drops the blocks of this file from GDAL's cache when they may exceed our limit. The cache is
+// common to the process, so its own limit is not changed.
 void RasterFile::limit_cache_of_gdal(const CellBox& read) {
   if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr)) return;
   int columns = 1, rows = 1;
@@ -199,8 +200,7 @@ void RasterFile::limit_cache_of_gdal(const CellBox& read) {
 }
 
 RasterBlock RasterFile::read(const CellBox& cells) {
-  // A process that was forked has the place in the file, where the next read begins, in common with
-  // its parent.
+  // A forked process shares the file offset with its parent, so it must open the file again.
   if (::getpid() != process_) {
     static_cast<void>(dataset_.release());
     open_band();

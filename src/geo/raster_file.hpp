@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One band of a raster file, as GDAL reads it. The file stays open.
+// A band of a raster file, read by GDAL.
 #pragma once
 
 #include <gdal.h>
@@ -17,20 +17,24 @@
 
 namespace pnpbs::geo {
 
+// An open raster file.
 class RasterFile {
  public:
-  // The variable is the name of one in a file of several (NetCDF, HDF5), or the number or the
+  // Opens a file. `variable` is a variable of a file with several (NetCDF, HDF5), or the number or
   // description of a band; "" if there is only one. Throws Error.
   RasterFile(const std::string& path, const std::string& variable);
 
   const std::string& name() const { return name_; }
   std::int64_t columns() const;
   std::int64_t rows() const;
-  std::array<double, 6> to_plane() const;  // GDAL's. Throws Error if there is none
-  ReferenceSystem system() const;          // none if the file names none
-  // Columns and rows that are read together at little more cost than any part of them.
+  // Returns GDAL's affine transformation from columns and rows to coordinates. Throws Error if
+  // there is none.
+  std::array<double, 6> to_plane() const;
+  ReferenceSystem system() const;  // empty if the file names none
+  // Returns the number of columns and rows of blocks that cost little more to read than a part of
+  // them.
   std::array<std::int64_t, 2> shape_of_blocks() const;
-  // Throws Error.
+  // Reads a rectangle of cells. Throws Error.
   RasterBlock read(const CellBox& cells);
 
  private:
@@ -48,11 +52,11 @@ class RasterFile {
   void limit_cache_of_gdal(const CellBox& read);
 
   std::string path_, variable_;
-  std::string name_;  // for messages
+  std::string name_;  // name in messages
   pid_t process_ = 0;
   Dataset dataset_;
   GDALRasterBandH band_ = nullptr;
-  std::int64_t bytes_in_gdal_ = 0;  // at most
+  std::int64_t bytes_in_gdal_ = 0;  // upper bound of this file's blocks in GDAL's cache
 };
 
 }  // namespace pnpbs::geo

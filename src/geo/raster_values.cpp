@@ -14,7 +14,7 @@ Gaps::Gaps(const CellBox& box, const std::vector<double>& values) : box_(box) {
   for (std::int64_t row = box.row; row < box.row_end(); ++row)
     for (std::int64_t column = box.column; column < box.column_end(); ++column) {
       const double value = values[box.place_of(column, row)];
-      // What nobody knows is far off.
+      // Cells without a known value start with a source far away.
       nearest_.push_back({column, std::isnan(value) ? row + no_end : row, value});
     }
 }
@@ -30,15 +30,15 @@ void Gaps::take_nearer(std::int64_t column, std::int64_t row, const Nearest& oth
   if (its < now || (its == now && first)) own = other;
 }
 
-// The way from outside leads over the cell of the box next to it.
+// The shortest way from outside passes through the nearest cell of the box.
 void Gaps::offer(std::int64_t column, std::int64_t row, double value) {
   take_nearer(std::clamp(column, box_.column, box_.column_end() - 1),
               std::clamp(row, box_.row, box_.row_end() - 1), {column, row, value});
   spread_ = false;
 }
 
-// From cell to cell, there and back. A way of fewest steps may go along its column first and then
-// along its row, and on it a cell has either the nearest of the last one or a nearer one.
+// Propagates nearest values in two sweeps, forth and back. Distances count steps along rows and
+// columns, so some shortest way runs first along the column and then along the row.
 void Gaps::spread() {
   if (spread_) return;
   spread_ = true;
@@ -65,7 +65,7 @@ std::int64_t Gaps::steps_beyond(const CellBox& covered, const CellBox& whole) {
   for (std::int64_t row = box_.row; row < box_.row_end(); ++row)
     for (std::int64_t column = box_.column; column < box_.column_end(); ++column) {
       const std::int64_t now = steps(nearest_[box_.place_of(column, row)], column, row);
-      // To the nearest cell that is not covered.
+      // Distance to the nearest cell that is not covered.
       const std::int64_t out =
           std::min({column - to_west + 1, to_east - column, row - to_north + 1, to_south - row});
       if (now >= out) most = std::max(most, now);
@@ -83,15 +83,15 @@ std::vector<double> Gaps::filled() {
 
 namespace {
 
-// Columns and rows of what is filled at once: a few milliseconds' work.
+// Columns and rows of the tiles in which gaps are filled. A tile takes a few milliseconds.
 constexpr std::int64_t kTile = 256;
 
-// Tiles have a column and a row of those that follow, so that what is between their cells and the
-// next ones is in one of them. Blocks have not: a file's own blocks would be decoded several times.
+// Columns and rows that a tile shares with the next ones, so that every interval between cells lies
+// inside one tile. Blocks share none, because blocks of the file would be decoded several times.
 constexpr std::int64_t kShared = 1;
 
-// The cells around a place, row by row: those with the higher numbers are the next ones, or the
-// last again.
+// The four cells around a point in row-major order. At the last column or row, the next one is the
+// same.
 struct Corners {
   std::int64_t column[2], row[2];
   Corners(const Between& place, const CellBox& window)
@@ -99,9 +99,9 @@ struct Corners {
         row{place.row, std::min(place.row + 1, window.row_end() - 1)} {}
 };
 
-// Not a number if one of the cells has no data.
+// Interpolates. Returns NaN if a cell has no data.
 double value_between(const Between& place, const std::array<double, 4>& corners) {
-  // lerp(NaN, b, t) is b.
+  // std::lerp(NaN, b, t) may return b.
   for (const double value : corners)
     if (std::isnan(value)) return value;
   return std::lerp(std::lerp(corners[0], corners[1], place.right),
@@ -122,8 +122,8 @@ bool any_around(const Between& place, const CellBox& window, const Holds& holds)
          holds(column[1], row[1]);
 }
 
-// What a place, the number `place`, asks of a piece: its value, or one corner's that others are not
-// with.
+// A request of point number `place` to a block or tile: its value, or the value of one of its
+// corners if they lie in several blocks.
 struct TileRequest {
   std::int64_t piece;
   std::size_t place;
@@ -137,7 +137,7 @@ CellBox grown(const CellBox& box, std::int64_t steps, const CellBox& whole) {
       whole, {box.column - steps, box.row - steps, box.columns + 2 * steps, box.rows + 2 * steps});
 }
 
-// What the outer box has and the inner one has not: above, below, and to both sides.
+// Returns the four parts of the outer box that surround the inner one.
 std::vector<CellBox> frame_of(const CellBox& outer, const CellBox& inner) {
   return {{outer.column, outer.row, outer.columns, inner.row - outer.row},
           {outer.column, inner.row_end(), outer.columns, outer.row_end() - inner.row_end()},
@@ -160,7 +160,7 @@ const RasterBlock& RasterValues::block(std::int64_t number) {
   return blocks_in_memory_.get(number, [&] { return read_(blocks_.box_of(number)); });
 }
 
-// take(column, row, value): of cells with data, row by row in each block.
+// Calls take(column, row, value) for each cell with data, in row-major order within each block.
 template <class Take>
 void RasterValues::read_part(const CellBox& part, const Take& take) {
   blocks_.for_each_in(part, [&](std::int64_t number, const CellBox& cells) {
@@ -173,7 +173,7 @@ void RasterValues::read_part(const CellBox& part, const Take& take) {
   });
 }
 
-// The middle, above all.
+// Searches from the middle block, where data are most likely.
 bool RasterValues::has_data() {
   const std::int64_t count = blocks_.count();
   for (std::int64_t k = 0; k < count; ++k) {
@@ -193,7 +193,7 @@ bool RasterValues::tile_has_data(std::int64_t tile) {
   return data == Data::some;
 }
 
-// Looks around the tile no farther than the nearest data may be.
+// Fills the gaps of a tile. Searches around it only as far as nearer data may exist.
 RasterValues::Filled RasterValues::fill(std::int64_t tile) {
   const CellBox box = tiles_.box_of(tile, kShared), &whole = tiles_.whole();
   std::vector<double> own(static_cast<std::size_t>(box.count()), std::nan(""));
@@ -225,7 +225,7 @@ void RasterValues::interpolate(const std::vector<Between>& places, double* value
                                std::int32_t* has_data) {
   const CellBox& window = blocks_.whole();
   std::vector<TileRequest> requests;
-  std::vector<std::size_t> apart;  // places with corners in several blocks
+  std::vector<std::size_t> apart;  // points with corners in several blocks
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto& [column, row] = Corners(places[i], window);
     const std::int64_t first = blocks_.number_of(column[0], row[0]);
@@ -255,7 +255,7 @@ void RasterValues::interpolate(const std::vector<Between>& places, double* value
   interpolate_in_gaps(places, values, has_data);
 }
 
-// Where values are not numbers yet.
+// Computes the values that are still NaN, from tiles with filled gaps.
 void RasterValues::interpolate_in_gaps(const std::vector<Between>& places, double* values,
                                        std::int32_t* has_data) {
   if (has_data) std::fill_n(has_data, places.size(), 1);

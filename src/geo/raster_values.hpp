@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values between the cells of a raster, of which no more than some blocks are in memory: those
-// used last. Cells without data have the value of the nearest cell that has some.
+// Interpolated values of a raster of which only the recently used blocks are in memory. Cells
+// without data take the value of the nearest cell with data.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,15 @@
 
 namespace pnpbs::geo {
 
-// Values have bytes().
+// A cache of recently used values, limited by the sum of their bytes(), which their type must
+// define.
 template <class Value>
 class RecentlyUsed {
  public:
   explicit RecentlyUsed(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  // The value of this number, made if it is not there. It is there until the next call, even where
-  // it alone has more bytes than all may have.
+  // Returns the value of this number, which is made by make() if it is not in the cache. The
+  // reference is valid until the next call, even if the value alone exceeds the limit.
   template <class Make>
   const Value& get(std::int64_t number, const Make& make) {
     const auto found = places_.find(number);
@@ -49,24 +50,26 @@ class RecentlyUsed {
   }
 
   std::size_t most_bytes_, bytes_ = 0;
-  Values values_;  // the last used first
+  Values values_;  // most recently used first
   std::unordered_map<std::int64_t, typename Values::iterator> places_;
 };
 
-// Cells without data in a rectangle, each of which takes the value of the nearest cell that has
-// some: the fewest steps along columns and rows away, the first one row by row of several.
+// The cells of a rectangle in which cells without data take the value of the nearest cell with
+// data. Distances count steps along columns and rows; of several nearest cells, the first in
+// row-major order counts.
 class Gaps {
  public:
-  // Values of the box, row by row: not a number where there is none.
+  // Starts with the values of the box in row-major order, NaN for cells without data.
   Gaps(const CellBox& box, const std::vector<double>& values);
 
-  // Data of a cell outside of the box.
+  // Adds the value of a cell outside the box.
   void offer(std::int64_t column, std::int64_t row, double value);
-  // After offers: so many steps beyond the box are cells which may be nearer to one of its gaps
-  // than the nearest that is known, where all in `covered` are known; beyond `whole` there are
-  // none. Returns 0 if none may be nearer, and no_end if no value is known.
+  // Returns the number of steps beyond the box within which a cell may be nearer to a gap than the
+  // nearest known value. The cells in `covered` are known, and there are none outside `whole`.
+  // Returns 0 if no cell may be nearer, and no_end if no value is known.
   static constexpr std::int64_t no_end = std::int64_t{1} << 40;
   std::int64_t steps_beyond(const CellBox& covered, const CellBox& whole);
+  // Returns the values of the box with filled gaps.
   std::vector<double> filled();
 
  private:
@@ -79,31 +82,34 @@ class Gaps {
   void spread();
 
   CellBox box_;
-  std::vector<Nearest> nearest_;  // of each cell
+  std::vector<Nearest> nearest_;  // by cell of the box
   bool spread_ = false;
 };
 
-// Between the middles of a cell and of the next ones, by these parts of the way.
+// A point between the centres of a cell and of the next column and row. `right` and `down` are
+// fractions of the distance.
 struct Between {
   std::int64_t column, row;
   double right, down;
 };
 
+// Interpolated values of a raster window.
 class RasterValues {
  public:
   using Read = std::function<RasterBlock(const CellBox&)>;
-  struct Memory {  // bytes, at most
+  struct Memory {  // largest sizes. [bytes]
     std::size_t blocks = std::size_t{192} << 20, filled = std::size_t{64} << 20;
   };
 
-  // Of the cells in a window, read in blocks of this many columns and rows.
+  // Creates the values of the cells in `window`. `columns` and `rows` are the size of blocks to
+  // read.
   RasterValues(Read read, const CellBox& window, std::int64_t columns, std::int64_t rows,
                const Memory& memory);
 
-  bool has_data();  // at all: reads until there is some
-  // Linear in each direction; constant beyond the middles of the last cells. Each block is read
-  // once at most, but where cells without data ask for others. has_data[i], unless nullptr, is 0
-  // where none of the cells around a place has data, else 1.
+  bool has_data();  // returns whether any cell has data; reads until it finds one
+  // Interpolates bilinearly, constant beyond the centres of the outermost cells. Reads each block
+  // at most once, except for filling gaps. has_data[i] is 0 if none of the cells around the point
+  // has data, else 1; `has_data` may be null.
   void interpolate(const std::vector<Between>& places, double* values,
                    std::int32_t* has_data = nullptr);
 
@@ -129,7 +135,7 @@ class RasterValues {
   void read_part(const CellBox& part, const Take& take);
 
   Read read_;
-  Tiling blocks_, tiles_;  // what is read at once, and filled at once
+  Tiling blocks_, tiles_;  // division into units of reading, and of filling gaps
   RecentlyUsed<RasterBlock> blocks_in_memory_;
   RecentlyUsed<Filled> tiles_in_memory_;
   std::vector<Data> tile_data_;

@@ -19,7 +19,7 @@ std::string taken(char* text) {
   return result;
 }
 
-// "52 N" and "21 E"; "0" on the equator and the prime meridian.
+// Returns an angle as "52 N" or "21 E", and as "0" on the equator and the prime meridian.
 std::string angle_text(double degrees, char positive, char negative) {
   const std::string number = number_text(std::fabs(degrees));
   if (degrees == 0) return number;
@@ -114,7 +114,7 @@ std::string ReferenceSystem::name() const {
 
 std::string ReferenceSystem::unit() const {
   if (!handle_) return "";
-  char* name = nullptr;  // belongs to the system
+  char* name = nullptr;  // owned by the system
   if (is_geographic())
     OSRGetAngularUnits(get(), &name);
   else
@@ -151,7 +151,7 @@ Transformation::Transformation(const ReferenceSystem& from, const ReferenceSyste
 
 std::string Transformation::apply(std::vector<Point<2>>& points) const {
   const GdalMessages messages;
-  // PROJ takes its counts as int, and coordinates apart.
+  // PROJ's counts are int, and it takes x and y in separate arrays.
   constexpr std::size_t block = 1 << 16;
   std::vector<double> x, y;
   std::vector<int> good;

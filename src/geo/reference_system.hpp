@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What coordinates mean: longitude and latitude on an ellipsoid, or x and y of a projection; and
-// the way from one such system to another, by PROJ. Coordinates are longitude before latitude, and
-// x to the east before y to the north, whatever order a register of such systems has them in.
+// Coordinate reference systems and transformations between them by PROJ. A system defines
+// coordinates as longitude and latitude on an ellipsoid, or as x and y of a projection. Longitude
+// comes before latitude and x (east) before y (north), whatever order a registry defines.
 #pragma once
 
 #include <ogr_srs_api.h>
@@ -15,32 +15,35 @@
 
 namespace pnpbs::geo {
 
+// A coordinate reference system, which may be empty. Most functions require that it is not.
 class ReferenceSystem {
  public:
-  ReferenceSystem() = default;  // none
+  ReferenceSystem() = default;  // empty
   static ReferenceSystem copy_of(OGRSpatialReferenceH system);
-  // A code ("EPSG:2180"), a string of PROJ's, WKT or the path of a .prj file. Throws Error.
+  // Returns the system of a code ("EPSG:2180"), a string of PROJ, WKT or the path of a .prj file.
+  // Throws Error.
   static ReferenceSystem called(const std::string& text);
-  // Of the data's own ellipsoid; for systems other than none.
+  // Returns a UTM zone on the ellipsoid of `data`.
   static ReferenceSystem utm(const ReferenceSystem& data, int zone, bool north);
-  // The same: Lambert's azimuthal equal-area projection about a point in degrees.
+  // Returns Lambert's azimuthal equal-area projection about a point in degrees, on the ellipsoid of
+  // `data`.
   static ReferenceSystem azimuthal(const ReferenceSystem& data, double longitude, double latitude);
 
-  // The same: the stereographic projection from a point in degrees.
+  // Returns the stereographic projection from a point in degrees, on the ellipsoid of `data`.
   static ReferenceSystem stereographic(const ReferenceSystem& data, const Point<2>& from);
 
   explicit operator bool() const { return handle_ != nullptr; }
   OGRSpatialReferenceH get() const { return handle_.get(); }
   bool is_geographic() const;
-  bool has_degrees() const;            // of geographic ones
-  ReferenceSystem geographic() const;  // longitude and latitude beneath it
-  // The same projection in another unit of length, which is so many metres.
+  bool has_degrees() const;            // for geographic systems only
+  ReferenceSystem geographic() const;  // longitude and latitude on its ellipsoid
+  // Returns the same projection in another unit of length. `metres`: length of the unit.
   ReferenceSystem in_unit(const std::string& unit, double metres) const;
 
-  // Texts; "" for none, or where the form cannot tell it.
+  // Descriptions. They are "" for an empty system, or if the format cannot express it.
   std::string name() const;
-  std::string unit() const;  // of its coordinates
-  std::string proj() const;  // PROJ's
+  std::string unit() const;  // unit of the coordinates
+  std::string proj() const;  // PROJ string
   std::string wkt() const;   // WKT 2 (ISO 19162:2019)
   std::string prj() const;   // ESRI's dialect of WKT 1, as in .prj files
 
@@ -55,13 +58,14 @@ class ReferenceSystem {
   Handle handle_;
 };
 
+// A transformation of points from one system to another.
 class Transformation {
  public:
-  // Throws Error where there is no way from one to the other.
+  // Throws Error if there is no transformation between the systems.
   Transformation(const ReferenceSystem& from, const ReferenceSystem& to);
 
-  // In place; what has no place in the other system becomes infinite. What PROJ says to the first
-  // of these, "" if there is none.
+  // Transforms points in place. Points without a counterpart become infinite. Returns PROJ's
+  // message about the first of them, or "".
   std::string apply(std::vector<Point<2>>& points) const;
 
  private:

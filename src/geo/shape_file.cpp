@@ -47,8 +47,8 @@ bool is_shapefile_without_index(const std::string& path) {
   return !exists(stem + "shx") && !exists(stem + "SHX");
 }
 
-// What GDAL says of a shapefile without its index names an option of GDAL's. How to set it is
-// added.
+// Returns advice for a shapefile without index. GDAL's message names an option, and the advice says
+// how to set it.
 std::string advice_on(const std::string& path) {
   if (!is_shapefile_without_index(path)) return "";
   return "\nA shapefile is several files of one name: provide its .shx, or recreate it "
@@ -91,6 +91,7 @@ OGRLayerH layer_of(GDALDatasetH dataset, const std::string& path, const std::str
 }
 
 // ------------------------------------------------------------------ tags -----------------------
+// The tags of features, from a field of the layer.
 class TagField {
  public:
   TagField(OGRLayerH layer, const std::string& name, LayerShapes& shapes)
@@ -149,11 +150,12 @@ class TagField {
 };
 
 // ------------------------------------------------------------------ geometry -------------------
+// Reads the geometry of features.
 class GeometryReader {
  public:
   explicit GeometryReader(LayerShapes& shapes) : shapes_(shapes) {}
 
-  // Curved geometry is taken as the straight segments that GDAL makes of it.
+  // Adds a geometry. GDAL approximates curves by straight segments.
   void read(OGRGeometryH geometry, std::int64_t feature, std::int32_t tag) {
     feature_ = feature;
     tag_ = tag;
@@ -232,7 +234,7 @@ void read_features(OGRLayerH layer, const std::string& tag_field, GdalMessages& 
     else
       reader.read(geometry, OGR_F_GetFID(feature.get()), tags.of(feature.get()));
   }
-  // The end of the layer and a failure look the same.
+  // GDAL returns no feature at the end of the layer and also after a failure.
   if (messages.failed())
     reject_file("cannot read " + shapes.name + " to its end; features read: " +
                 std::to_string(features) + "; " + messages.failure());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One layer of a file, as GDAL reads it: outlines of polygons, lines and points, in the file's own
-// coordinates.
+// One layer of a vector file, read by GDAL: outlines of polygons, lines and points, in the
+// coordinates of the file.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace pnpbs::geo {
 
-// Notes on how a file was interpreted, as data.
+// Codes of the notes on how a file was interpreted.
 enum class NoteCode : std::int32_t {
   no_geometry = PNPBS_GEO_NOTE_NO_GEOMETRY,
   heights_left_out = PNPBS_GEO_NOTE_HEIGHTS_LEFT_OUT,
@@ -32,16 +32,17 @@ enum class NoteCode : std::int32_t {
   segments_left_out = PNPBS_GEO_NOTE_SEGMENTS_LEFT_OUT
 };
 
+// A note on how a file was interpreted.
 struct Note {
   Note(NoteCode of, MessageText words, std::int64_t how_many = 0)
       : code(of), text(as_worded(std::move(words)).text()), count(how_many) {}
 
   NoteCode code;
   std::string text;
-  std::int64_t count;  // of the features, segments or lines that it is about; 0: none
+  std::int64_t count;  // number of the features, segments or lines concerned; 0: not a count
 };
 
-// Throws Error where there is no such note.
+// Returns a note. Throws Error if there is none of this index.
 inline const Note& note_at(const std::vector<Note>& notes, std::int32_t index) {
   if (index < 0 || index >= std::ssize(notes))
     throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) + ": there are " +
@@ -51,30 +52,34 @@ inline const Note& note_at(const std::vector<Note>& notes, std::int32_t index) {
 
 enum class PathKind { outline, hole, line };
 
+// An outline, hole or line of a feature.
 struct Path {
   PathKind kind;
-  std::int64_t feature;  // its number in the file
+  std::int64_t feature;  // number of the feature in the file
   std::int32_t tag;
-  std::vector<Point<2>> points;  // of outlines and holes the first may be repeated at the end
+  std::vector<Point<2>> points;  // outlines and holes may repeat the first point at the end
 };
 
+// A point feature.
 struct Spot {
   std::int64_t feature;
   std::int32_t tag;
   Point<2> point;
 };
 
+// The contents of a layer.
 struct LayerShapes {
-  std::string name;  // of file and layer, for messages
+  std::string name;  // name of file and layer, for messages
   std::vector<Path> paths;
   std::vector<Spot> spots;
   std::map<std::int32_t, std::string> tag_names;
-  ReferenceSystem system;  // none if the file names none
+  ReferenceSystem system;  // empty if the file names none
   std::vector<Note> notes;
 };
 
-// An empty layer name is for files that have only one. Tags are the values of the field: numbers as
-// they are, texts numbered from 1 on and named; 1 without a field. Throws Error.
+// Reads a layer; its name may be empty if the file has only one. Tags are the values of
+// `tag_field`: integers as they are, texts numbered from 1 and named. Without a field they are 1.
+// Throws Error.
 LayerShapes read_layer(const std::string& path, const std::string& layer,
                        const std::string& tag_field);
 

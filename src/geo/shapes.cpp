@@ -41,11 +41,11 @@ void check(pnpbs_status status, pnpbs_context context) {
   if (status < 0) throw Error(kind_of(status), last_message(context));
 }
 
-// Lengths that are off by more than this are told.
+// Difference of the scale from 1 above which a note is given. [1]
 constexpr double told_scale = 0.02;
 
-// Lines this near to the boundary run along it, over the extent of the layer: so far off they are
-// clicked on a screen that shows all of it.
+// Distance from the boundary up to which a line follows it. A line that is drawn on a screen which
+// shows the whole layer is off by about a pixel. [extent of the layer]
 constexpr double along_shore = 1e-3;
 
 double extent_of(const std::vector<Point<2>>& points) {
@@ -71,7 +71,8 @@ MessageText Shapes::words_for(const Point<2>& given, std::int64_t feature) const
   return layer_.name + ": feature " + std::to_string(feature) + ": " + point_text(given);
 }
 
-// A curve may begin where a line along the shore ends, which is no place of the file.
+// Returns the layer and feature of a curve for messages. If the curve begins where a line along the
+// boundary ends, its first vertex belongs to no feature.
 std::string Shapes::words_for(const Curve& curve) const {
   const auto place = static_cast<std::size_t>(curve.places.front());
   if (place >= feature_of_place_.size()) return layer_.name + ": ";
@@ -81,7 +82,7 @@ std::string Shapes::words_for(const Curve& curve) const {
 void Shapes::project() {
   Places given;
   std::vector<Route> routes;
-  std::vector<std::int64_t> features;  // that a place was given with first
+  std::vector<std::int64_t> features;  // feature in which each vertex first appears
   const auto number_of = [&](const Point<2>& point, std::int64_t feature) {
     const std::int64_t number = given.add(projection_.canonical(point));
     if (number == static_cast<std::int64_t>(features.size())) features.push_back(feature);
@@ -185,7 +186,7 @@ void Shapes::take_notes() {
                        outlines_.dropped_edges);
 }
 
-// ------------------------------------------------------------------ into a domain --------------
+// ------------------------------------------------------------------ conversion to a domain ------
 void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const {
   std::int32_t dimension = 0;
   check(pnpbs_domain_dimension(domain, &dimension), context);
@@ -227,7 +228,7 @@ void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corne
   }
 }
 
-// As a domain takes them.
+// Returns the coordinates in the form that a domain takes: [points][2], or [points][3] on a sphere.
 std::vector<double> Shapes::coordinates_of(std::vector<Point<2>> points) const {
   if (on_sphere()) projection_.to_degrees(points);
   std::vector<double> coordinates;
@@ -239,7 +240,7 @@ std::vector<double> Shapes::coordinates_of(std::vector<Point<2>> points) const {
   return in_space;
 }
 
-// ------------------------------------------------------------------ what there is --------------
+// ------------------------------------------------------------------ properties ------------------
 std::int64_t Shapes::vertices() const { return static_cast<std::int64_t>(places_.size()); }
 
 std::int64_t Shapes::boundary_curves() const {

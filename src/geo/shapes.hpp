@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shapes of one layer as a domain can take them: projected, and sorted into what bounds it and
-// what lies in it.
+// The shapes of a layer in the form that a domain takes them: projected, and divided into curves
+// that bound the domain and curves inside it.
 #pragma once
 
 #include <string>
@@ -14,15 +14,17 @@
 
 namespace pnpbs::geo {
 
+// The arguments of pnpbs_geo_read().
 struct Request {
   std::string path, layer, projection, unit, tag_field;
 };
 
+// The projected shapes of a layer.
 class Shapes {
  public:
-  explicit Shapes(const Request& request);  // reads. Throws Error
+  explicit Shapes(const Request& request);  // reads the file; throws Error
 
-  // Throws Error with the message of libpnpbs, and its points.
+  // Adds the shapes to a domain. Throws Error with the message of libpnpbs and its points.
   void add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
 
   const Projection& projection() const { return projection_; }
@@ -34,7 +36,7 @@ class Shapes {
   std::int64_t inner_curves() const;
   std::int64_t points() const { return static_cast<std::int64_t>(layer_.spots.size()); }
 
-  // Returns the message with longitude and latitude after each point of the projection in it.
+  // Returns the message with longitude and latitude added after each projected point.
   MessageText with_degrees(const MessageText& message) const;
 
  private:
@@ -45,11 +47,12 @@ class Shapes {
   MessageText words_for(const Point<2>& given, std::int64_t feature) const;
   std::string words_for(const Curve& curve) const;
 
-  LayerShapes layer_;  // its paths are empty once they are outlines
+  LayerShapes layer_;  // its paths are moved into outlines_
   Projection projection_;
   Projection::Scale scale_;
   std::vector<Point<2>> places_;
-  std::vector<std::int64_t> feature_of_place_;  // in which it was first; of those in the file
+  // Feature in which each vertex of the file first appears.
+  std::vector<std::int64_t> feature_of_place_;
   Outlines outlines_;
   std::int64_t lines_along_shore_ = 0;
 };

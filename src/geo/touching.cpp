@@ -11,14 +11,15 @@ namespace {
 
 using Place = std::int64_t;
 
-// Over the extent of the layer. Of 10 degrees the first is a millimetre, what rounding leaves; the
-// second a metre, by which vertices are off that were given to few digits or drawn by hand.
+// Distances at which a vertex is on a segment, and nearly on it. If the layer extends over 10
+// degrees, they are a millimetre, which covers rounding, and a metre, which covers vertices with
+// few digits or drawn by hand. [extent of the layer]
 constexpr double on_it = 1e-9, nearly_on_it = 1e-6;
 
-// Over its length, how wide an outline may be that encloses nothing.
+// Width up to which an outline encloses nothing. [length]
 constexpr double spike = 1e-3;
 
-// Places in cells of a grid.
+// A grid of cells with the vertices in them. Only vertices with `is_meant` are included.
 class PlaceGrid {
  public:
   PlaceGrid(const std::vector<Point<2>>& points, const std::vector<char>& is_meant)
@@ -44,7 +45,7 @@ class PlaceGrid {
 
   double extent() const { return std::max(high_[0] - low_[0], high_[1] - low_[1]); }
 
-  // All places no farther than `reach` from the segment, and some others: column by column.
+  // Calls visit(vertex) for all vertices within `reach` of the segment, and for some others.
   template <class Visit>
   void for_places_near(const Point<2>& a, const Point<2>& b, double reach,
                        const Visit& visit) const {
@@ -90,7 +91,8 @@ class PlaceGrid {
   std::vector<Place> places_;
 };
 
-// Where on the segment, 0 .. 1, and how far from it.
+// Returns the position of the nearest point on the line through a and b (0 at a, 1 at b), and the
+// distance from it.
 std::pair<double, double> foot_of(const Point<2>& p, const Point<2>& a, const Point<2>& b) {
   const double ux = b[0] - a[0], uy = b[1] - a[1], square = ux * ux + uy * uy;
   if (square == 0) return {0, HUGE_VAL};
@@ -98,6 +100,7 @@ std::pair<double, double> foot_of(const Point<2>& p, const Point<2>& a, const Po
   return {t, std::hypot(p[0] - a[0] - t * ux, p[1] - a[1] - t * uy)};
 }
 
+// The search for vertices that lie on segments of routes.
 class Splitter {
  public:
   Splitter(std::vector<Route>& routes, const std::vector<Point<2>>& points,
@@ -162,8 +165,8 @@ class Splitter {
     return distance<2>(points_[place], points_[end]) <= on_it * grid_->extent();
   }
 
-  // An outline may go along a parallel, and back along what is straight once it is projected: these
-  // two are not the same way.
+  // Returns whether the route encloses an area between the vertex and the segment. An outline may
+  // follow a parallel and return on the projected segment, which is another way.
   bool encloses_an_area(Place place, Place a, Place b, const Route& route) const {
     return last_route_[place] == &route &&
            projection_.off_way(points_[place], points_[a], points_[b]) > spike;
@@ -178,7 +181,7 @@ class Splitter {
         if (place == a || place == b) return;
         const auto [t, distance] = foot_of(points_[place], leg.from, leg.to);
         if (!(t > 0 && t < 1) || distance > nearly_on_it * extent) return;
-        // What all but is an end of the segment would leave next to nothing of it.
+        // A vertex very near an end would leave a tiny segment.
         const bool at_end = is_at(place, a) || is_at(place, b);
         if (distance <= on_it * extent && !at_end) {
           if (!encloses_an_area(place, a, b, route)) stops.push_back({&leg, t, place});
@@ -194,8 +197,8 @@ class Splitter {
   std::vector<Route>& routes_;
   const std::vector<Point<2>>& points_;
   const Projection& projection_;
-  std::vector<std::int64_t> feature_;     // of each place
-  std::vector<const Route*> last_route_;  // of those begun that have the place
+  std::vector<std::int64_t> feature_;     // feature of each vertex
+  std::vector<const Route*> last_route_;  // latest route with each vertex
   std::optional<PlaceGrid> grid_;
   std::vector<std::pair<Place, Place>> pairs_;
   std::optional<NearMiss> near_miss_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Neighbours need not have the same vertices along an edge in common: where one has a vertex on a
-// segment of the other, the segment gets it, too. In the coordinates of the file, where it lies on
-// it; projected, the segment is another curve, and there would be a gap.
+// Common edges of neighbouring features that have different vertices. If a vertex of one lies on a
+// segment of the other, the segment is split there. This happens in the coordinates of the file,
+// where the vertex is on the segment. After projection the segment is curved, and there would be a
+// gap.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +15,15 @@
 
 namespace pnpbs::geo {
 
-// A vertex that all but lies on a segment of another feature.
+// A vertex that is nearly on a segment of another feature.
 struct NearMiss {
   std::int64_t place;
-  std::int64_t feature, other;  // whose vertex, whose segment
+  std::int64_t feature, other;  // feature: of the vertex; other: of the segment
 };
 
-// Splits segments that no other route has where places of routes lie on them. The first near miss
-// among the others, if there is one. The points are canonical ones of the projection's data.
+// Splits the segments of routes at vertices that lie on them, except segments that two routes
+// share. Points must be canonical, see Projection::canonical(). Returns the first near miss of the
+// other vertices, if there is one.
 std::optional<NearMiss> split_where_touched(std::vector<Route>& routes,
                                             const std::vector<Point<2>>& points,
                                             const Projection& projection);

@@ -15,14 +15,17 @@ namespace pnpbs::io {
 
 namespace {
 
-using Places = std::unordered_map<std::int64_t, Point<3>>;  // of boundary nodes, by number
+// Positions of boundary nodes by their numbers.
+using Places = std::unordered_map<std::int64_t, Point<3>>;
 
+// A node with its position, as ranks exchange it.
 struct NodePlace {
   std::int64_t number;
   Point<3> x;
 };
 
-// By where they begin.
+// Returns the edges that bound the domain, of all ranks, with the domain on their left, sorted by
+// their first node. Collective.
 std::vector<LoopEdge> bounding_edges(const NodeSource& nodes, const Communicator& comm) {
   std::vector<LoopEdge> own;
   nodes.for_facets([&](const FacetRows& rows) {
@@ -38,7 +41,7 @@ std::vector<LoopEdge> bounding_edges(const NodeSource& nodes, const Communicator
   return edges;
 }
 
-// z is 0 in the plane.
+// Returns the positions of all boundary nodes; z is 0 in the plane. Collective.
 Places places_of(const std::vector<LoopEdge>& edges, const NodeSource& nodes,
                  const Communicator& comm) {
   Places places;
@@ -58,7 +61,8 @@ Places places_of(const std::vector<LoopEdge>& edges, const NodeSource& nodes,
   return places;
 }
 
-// As many edges end in a node as begin there, so a walk comes back to where it began.
+// The closed loops that edges form, which pass each node once. As many edges end at a node as begin
+// there, so every walk along edges returns to its start.
 class Walks {
  public:
   explicit Walks(const std::vector<LoopEdge>& edges) : edges_(edges), is_used_(edges.size()) {}
@@ -72,7 +76,8 @@ class Walks {
  private:
   void walk_from(std::size_t first) {
     std::vector<LoopEdge> way;
-    std::unordered_map<std::int64_t, std::size_t> step;  // that begins at a node
+    // Index in `way` of the edge that begins at the node.
+    std::unordered_map<std::int64_t, std::size_t> step;
     for (std::size_t next = first;;) {
       const LoopEdge& edge = edges_[next];
       is_used_[next] = true;
@@ -104,7 +109,7 @@ class Walks {
   std::vector<std::vector<LoopEdge>> loops_;
 };
 
-// By the triangles between its first node and its edges.
+// Returns whether the loop goes around an island, by its signed area.
 bool is_island_in_plane(const std::vector<LoopEdge>& loop, const Places& places) {
   const Point<3>& o = places.at(loop.front().begin);
   double twice_area = 0;
@@ -115,17 +120,18 @@ bool is_island_in_plane(const std::vector<LoopEdge>& loop, const Places& places)
   return twice_area < 0;
 }
 
-// By the same triangles, of which the centre of the sphere sees the parts of it.
+// Returns whether the loop goes around an island. Sums the solid angles of the triangles between
+// its first node and its edges, as seen from the centre of the sphere.
 bool is_island_on_sphere(const std::vector<LoopEdge>& loop, const Places& places) {
   const Point<3>& o = places.at(loop.front().begin);
-  double on_left = 0;  // of the whole sphere, but for multiples of it
+  double on_left = 0;  // share of the sphere on the left, modulo 1
   for (const LoopEdge& edge : loop)
     if (edge.begin != loop.front().begin && edge.end != loop.front().begin)
       on_left += winding_of({o, places.at(edge.begin), places.at(edge.end)}, {});
   return on_left - std::floor(on_left) > 0.5;
 }
 
-// The chain begins with the step that begins at this edge of the loop.
+// Returns a chain of `count` edges of the loop from edge `begin` on.
 BoundaryChain chain_from(const std::vector<LoopEdge>& edges, std::size_t begin, std::size_t count,
                          std::int32_t kind, bool is_island) {
   BoundaryChain chain{{edges[begin].begin}, kind, count == edges.size(), is_island};

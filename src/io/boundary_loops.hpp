@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary of a domain in the plane or on a sphere as closed walks with the domain on their
-// left: counter-clockwise around the outside, clockwise around islands. Inner curves bound nothing.
+// The boundary of a domain in the plane or on a sphere as closed loops with the domain on their
+// left: counter-clockwise around the domain, clockwise around islands. Inner curves are no part of
+// it.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@ class Communicator;
 
 namespace pnpbs::io {
 
+// A directed edge of the boundary, with the domain on its left.
 struct LoopEdge {
   std::int64_t begin, end;  // numbers of nodes
   std::int32_t tag;
@@ -22,27 +24,28 @@ struct LoopEdge {
   auto operator<=>(const LoopEdge&) const = default;
 };
 
+// A closed sequence of edges.
 struct BoundaryLoop {
-  std::vector<LoopEdge>
-      edges;       // each begins where the one before it ends, the first where the last
-  bool is_island;  // else it goes around a part of the domain
+  std::vector<LoopEdge> edges;  // each begins where the one before it ends, cyclically
+  bool is_island;               // clockwise around an island; otherwise around a part of the domain
 };
 
-// Walks that meet no node twice: where loops touch they are told apart. Those around the domain
-// come first. All of them on each rank, as the boundary is anyway, in the same order on any number
-// of ranks. On a sphere, where both sides of a loop are bounded, the land of an island is less than
-// half of it. Collective.
+// Returns the loops of the boundary. Loops that touch at a node are separate, so a loop passes no
+// node twice. Loops around the domain come first. All ranks get all loops, in an order that does
+// not depend on the number of ranks. On a sphere both sides of a loop have an area, and an island
+// has less than half of the sphere. Collective.
 std::vector<BoundaryLoop> boundary_loops(const NodeSource& nodes, const Communicator& comm);
 
-// A part of a loop, all of one kind.
+// A part of a loop whose edges all have the same kind.
 struct BoundaryChain {
-  std::vector<std::int64_t> nodes;  // numbers; of a whole loop the first one is the last one, too
+  // Numbers of nodes; a whole loop repeats the first one at the end.
+  std::vector<std::int64_t> nodes;
   std::int32_t kind;
   bool is_closed;  // a whole loop
-  bool is_island;  // of one
+  bool is_island;  // part of a loop around an island
 };
 
-// Each loop in turn, cut where its kind changes. kind_of: by tag.
+// Divides the loops where the kind of their edges changes. `kind_of` maps a tag to a kind.
 std::vector<BoundaryChain> chains_of(const std::vector<BoundaryLoop>& loops,
                                      const std::function<std::int32_t(std::int32_t)>& kind_of);
 

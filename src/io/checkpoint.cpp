@@ -28,10 +28,10 @@
 namespace pnpbs::io {
 namespace {
 
-// For messages.
+// Returns the name of the file for messages.
 std::string quoted_checkpoint(const std::string& path) { return "checkpoint '" + path + "'"; }
 
-// Makes rank 0's numbers everyone's. Collective.
+// Replaces the numbers of all ranks by those of rank 0. Collective.
 template <class Number>
 void share(const Communicator& comm, std::vector<Number>& numbers) {
   Bytes bytes;
@@ -41,17 +41,17 @@ void share(const Communicator& comm, std::vector<Number>& numbers) {
   for_records<Number>({bytes}, [&](Number number) { numbers.push_back(number); });
 }
 
-// Rows of a file in pieces: visit(first row, rows) of `rows`, of that many bytes each.
+// Divides rows into pieces of about 1 MiB and calls visit(first row, number of rows) for each.
 template <class Visit>
 void in_pieces(std::int64_t rows, std::int64_t row_size, const Visit& visit) {
-  constexpr std::int64_t kPiece = 1 << 20;  // bytes written or read at a time
+  constexpr std::int64_t kPiece = 1 << 20;  // size of a write or read. [bytes]
   const std::int64_t most = std::max<std::int64_t>(1, kPiece / row_size);
   for (std::int64_t first = 0; first < rows; first += most)
     visit(first, std::min(most, rows - first));
 }
 
-// The rows of one rank, from row `first` on, of an array that begins at `place`. row(k): its k-th
-// record.
+// Writes the rows of this rank, from row `first` on, to an array that begins at offset `place` of
+// the file. row(k) returns record k of this rank.
 template <class Row>
 void write_rows(SharedWriter& file, const Column& column, std::int64_t place, std::int64_t first,
                 std::int64_t rows, const Row& row) {
@@ -69,12 +69,13 @@ void write_rows(SharedWriter& file, const Column& column, std::int64_t place, st
   });
 }
 
-// A node as a cell of its own.
+// A VTK cell with one node.
 struct Vertex {
   std::int64_t number;
-  std::uint8_t type = 1;  // VTK_VERTEX
+  std::uint8_t type = 1;  // VTK's type of a vertex cell
 };
 
+// A writer of a checkpoint. All ranks construct it and call write().
 template <int Dim>
 class CheckpointWriter {
  public:
@@ -110,7 +111,8 @@ class CheckpointWriter {
   }
 
  private:
-  // The arrays that ranks write rows of, in this order; empty ones are left out.
+  // Returns the arrays whose rows the ranks write, in this order. Empty arrays are left out of the
+  // file.
   std::vector<hdf5::Array> arrays() const {
     std::vector<hdf5::Array> all;
     for (const Column& column : node_columns<Dim>(rows_.total)) all.push_back(column.array);
@@ -124,7 +126,7 @@ class CheckpointWriter {
     return all;
   }
 
-  // What the ranks hold of the spacing's nodes. Collective.
+  // Collects the sizes and the checksum of the parts of a nodal spacing on all ranks. Collective.
   void measure_patch() {
     const Patch<Dim>& patch = *saved_.patch;
     Bytes mine;
@@ -142,7 +144,7 @@ class CheckpointWriter {
     patch_checksum_ = comm_.allreduce_sum(checksum_of(patch));
   }
 
-  // On rank 0, by HDF5: everything but the rows.
+  // Creates the file with everything except the rows, by HDF5. Called on rank 0 only.
   void lay_out() {
     output_.check();
     if (!output_.written_aside())
@@ -193,7 +195,8 @@ class CheckpointWriter {
     const std::array<std::size_t, 3> offsets{offsetof(Vertex, type), offsetof(Vertex, number),
                                              offsetof(Vertex, number)};
     for (std::size_t k = 0; k < offsets.size(); ++k) {
-      const bool last = k == 2 && comm_.rank() == comm_.size() - 1;  // where the last cell ends
+      // The offsets have one more row, the end of the last cell.
+      const bool last = k == 2 && comm_.rank() == comm_.size() - 1;
       write_rows(file, {vertices[k], 1, offsets[k]}, places_[next++], rows_.first,
                  rows_.count + last, vertex);
     }
@@ -211,7 +214,7 @@ class CheckpointWriter {
                patches_before_.facets, std::ssize(patch.border), rows_from(patch.border));
   }
 
-  // On the disk before it replaces another one.
+  // Flushes the file to the disk, before it replaces an older one.
   void flush() const {
     const int descriptor = ::open(output_.name_aside(), O_RDONLY | O_CLOEXEC);
     const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
@@ -225,12 +228,12 @@ class CheckpointWriter {
   const Communicator& comm_;
   const Saved<Dim> saved_;
   std::string path_;
-  OutputFile output_;  // rank 0's
+  OutputFile output_;  // used on rank 0
   RankSpan rows_;
   PatchSizes patches_before_, all_patches_;
   std::vector<std::int64_t> patch_sizes_;
   std::uint64_t patch_checksum_ = 0;
-  std::vector<std::int64_t> places_;  // of arrays()
+  std::vector<std::int64_t> places_;  // offsets of arrays() in the file
 };
 
 template <int Dim>
@@ -238,7 +241,7 @@ void write_checkpoint_of(PlacementImpl<Dim>& placement, const std::string& path)
   CheckpointWriter<Dim>(placement, path).write();
 }
 
-// Bytes of the file, of this rank alone.
+// A file open for reading on this rank.
 class InputFile {
  public:
   InputFile(const std::string& path, std::string name)
@@ -272,7 +275,7 @@ class InputFile {
   int descriptor_;
 };
 
-// `rows` rows from row `first` on, into as many records.
+// Reads `rows` rows, from row `first` on, into an array of records.
 template <class Record>
 void read_rows(const InputFile& file, const Column& column, std::int64_t place, std::int64_t first,
                std::int64_t rows, Record* records) {
@@ -288,13 +291,14 @@ void read_rows(const InputFile& file, const Column& column, std::int64_t place, 
   });
 }
 
-// What of n things is a rank's, in order.
+// Returns the contiguous share of n items that falls to this rank.
 RankSpan share_of(const Communicator& comm, std::int64_t n) {
   const std::int64_t each = n / comm.size(), more = n % comm.size(), rank = comm.rank();
   return {each * rank + std::min(rank, more), each + (rank < more), n};
 }
 
 template <int Dim>
+// A reader of a checkpoint into a placement. All ranks construct it and call read().
 class CheckpointReader {
  public:
   CheckpointReader(PlacementImpl<Dim>& placement, const std::string& path)
@@ -330,7 +334,7 @@ class CheckpointReader {
     throw Error(ErrorKind::file, quoted_checkpoint(path_) + " is damaged: " + why);
   }
 
-  // What fails says of which file.
+  // Runs `work` and adds the name of the file to its errors.
   template <class Work>
   void explained(const Work& work) const {
     const auto text = [this](const Error& error) {
@@ -345,7 +349,7 @@ class CheckpointReader {
     }
   }
 
-  // On rank 0, by HDF5.
+  // Reads and checks everything except the rows, by HDF5. Called on rank 0 only.
   void read_layout() {
     hdf5::require_hdf5();
     hdf5::require_signature(path_, quoted_checkpoint(path_));
@@ -361,7 +365,7 @@ class CheckpointReader {
                       ", and this PNPBS reads format " + std::to_string(kCheckpointFormat) +
                       (format > kCheckpointFormat ? ": a newer one reads it" : ""));
     for_fields(state_, [&](const char* field, auto& value) { get(file, field, value); });
-    if (state_.dimension != Dim) return;  // told by require_same_as
+    if (state_.dimension != Dim) return;  // require_same_as() reports it
     if (state_.nodes <= 0) refuse("it has no nodes");
     for (const Column& column : node_columns<Dim>(state_.nodes))
       places_.push_back(file.place_of(column.array));
@@ -372,7 +376,7 @@ class CheckpointReader {
     if (state_.spacing_saved) read_patch_layout(file);
   }
 
-  // A column of numbers of eight bytes, all of it.
+  // Reads a whole column of numbers with eight bytes.
   template <class Number>
   std::vector<Number> read_numbers(const hdf5::OldFile& file, const std::string& name,
                                    hdf5::Type type) const {
@@ -420,7 +424,7 @@ class CheckpointReader {
     }
   }
 
-  // Rank 0's becomes everyone's.
+  // Replaces the state on all ranks by that of rank 0. Collective.
   void share_state() {
     Bytes bytes;
     if (comm_.rank() == 0) {
@@ -464,7 +468,7 @@ class CheckpointReader {
     return nodes;
   }
 
-  // The parts that fall to this rank, as one.
+  // Reads the parts of a nodal spacing that fall to this rank and joins them to one.
   Patch<Dim> read_patch(const InputFile& file) const {
     const RankSpan parts = share_of(comm_, std::ssize(patch_sizes_) / 3);
     const auto sizes = [this](std::int64_t part) {
@@ -492,7 +496,7 @@ class CheckpointReader {
               patch.border.data());
     for (const PatchNode<Dim>& node : patch.nodes)
       if (!is_usable(node.x) || !is_usable(node.value)) refuse("a node of its spacing is nowhere");
-    // Rows count the nodes of their part.
+    // Rows count the nodes of their part, so shift them to the joined nodes.
     PatchSizes done;
     for (std::int64_t p = 0; p < parts.count; ++p) {
       const PatchSizes part = sizes(parts.first + p);
@@ -518,8 +522,8 @@ class CheckpointReader {
   std::string path_;
   SavedState state_;
   std::uint64_t patch_checksum_ = 0;
-  std::vector<std::int64_t> places_;       // of the arrays read, in the order of reading
-  std::vector<std::int64_t> patch_sizes_;  // three for each part
+  std::vector<std::int64_t> places_;       // offsets of the arrays, in the order of reading
+  std::vector<std::int64_t> patch_sizes_;  // three sizes for each part
 };
 
 template <int Dim>
@@ -545,7 +549,7 @@ void require_same_path(const Communicator& comm, const std::string& path) {
 void write_checkpoint(Placement& placement, const std::string& path) {
   const Communicator& comm = placement.communicator();
   require_same_path(comm, path);
-  // What one rank cannot do at any step of it, all give up.
+  // If one rank fails in any step, all ranks throw.
   collective_try(comm, [&] {
     visit_dimension(placement,
                     [&]<int Dim>(PlacementImpl<Dim>& it) { write_checkpoint_of(it, path); });

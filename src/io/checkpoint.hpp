@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checkpoints: one file from which a placement goes on, on any number of ranks, as if it had never
-// been interrupted. It is a VTKHDF file of the nodes, which ParaView opens, with a group of its own
-// for what only PNPBS asks for.
+// Checkpoints: a file from which a placement continues on any number of ranks, as if it had not
+// been interrupted. The file is a VTKHDF file of the nodes, which ParaView opens, with an
+// additional group that only PNPBS reads.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 
 namespace pnpbs::io {
 
-// Collective, both. What fails leaves the file, or the placement, as it was.
+// Write or read a checkpoint. Collective; if one rank throws, all ranks throw. After an error the
+// existing file, or the placement, is unchanged.
 void write_checkpoint(Placement& placement, const std::string& path);
 void read_checkpoint(Placement& placement, const std::string& path);
 

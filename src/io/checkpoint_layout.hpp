@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a checkpoint holds, and where. Rows of nodes come in any order.
+// Names and shapes of the arrays of a checkpoint. The rows of nodes have no fixed order.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,18 @@ inline constexpr std::int64_t kCheckpointFormat = 4;
 inline constexpr const char* kVtk = "/VTKHDF";
 inline constexpr const char* kOwn = "/PNPBS";
 inline constexpr const char* kSpacing = "/PNPBS/spacing";
-// The dataset of a table of the saved state; left out where the table is empty.
+// Returns the dataset of a table of the saved state. Empty tables have none.
 inline std::string table_path(const char* name) { return std::string(kOwn) + "/" + name; }
 
-// An array of the file, and where its rows are in an array of records: `given` numbers of a record
-// lie at an offset in it, and are followed by zeros in the file.
+// An array of the file and its position in an array of records. Each record has `given` numbers at
+// byte `offset`; the rest of the row in the file is zero.
 struct Column {
   hdf5::Array array;
   std::int64_t given;
   std::size_t offset;
 };
 
+// Returns the columns of n nodes.
 template <int Dim>
 std::vector<Column> node_columns(std::int64_t n) {
   using Saved = SavedNode<Dim>;
@@ -50,7 +51,7 @@ std::vector<Column> node_columns(std::int64_t n) {
   return columns;
 }
 
-// What VTK asks for besides: each node is a vertex, a cell of its own.
+// Returns the arrays that VTK requires in addition, in which each node is a vertex cell.
 inline std::vector<hdf5::Array> vertex_arrays(std::int64_t n) {
   const std::string vtk = std::string(kVtk) + "/";
   return {{vtk + "Types", hdf5::Type::uint8, n},
@@ -58,9 +59,9 @@ inline std::vector<hdf5::Array> vertex_arrays(std::int64_t n) {
           {vtk + "Offsets", hdf5::Type::int64, n + 1}};
 }
 
-// Of a spacing by values at the nodes of an earlier placement: the parts that ranks held, one after
-// the other, and how much of each there is. Rows of simplices and facets count a part's nodes from
-// 0.
+// Sizes of the parts of a spacing that is given at the nodes of an earlier placement. The file has
+// one part for each rank that wrote it. Rows of simplices and facets count the nodes of their part
+// from 0.
 struct PatchSizes {
   std::int64_t nodes = 0, simplices = 0, facets = 0;
 };
@@ -82,7 +83,7 @@ Column facet_column(std::int64_t n) {
   return {{std::string(kSpacing) + "/facets", hdf5::Type::int32, n, Dim}, Dim, 0};
 }
 
-// Whatever the order of the parts.
+// Returns a checksum that does not depend on the order of the parts.
 template <int Dim>
 std::uint64_t checksum_of(const Patch<Dim>& patch) {
   const auto mix = [](std::uint64_t h, std::int64_t value) {

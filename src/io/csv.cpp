@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Comma-separated values with one line of names.
+// CSV writer: comma-separated values with one line of column names.
 #include "io/formats.hpp"
 #include "io/particle_fields.hpp"
 
@@ -14,7 +14,8 @@ std::vector<FieldColumns> all_columns(const NodeSource& nodes) {
   return all;
 }
 
-// Names of fields have no colon, so no two columns have the same name.
+// Returns the column names of a field. Names of fields have no colon, so columns have different
+// names.
 std::string field_names(const OutputField& field) {
   if (field.components == 1) return "," + field.name;
   std::string names;
@@ -29,7 +30,7 @@ std::string column_names(const Contents& all) {
   return names + "\n";
 }
 
-// place: of the node, in this rank's parts of all windows.
+// Writes the values of a node. `place` counts the nodes of this rank over all windows.
 void write_fields(const std::vector<FieldColumns>& fields, std::size_t place, Sink& sink) {
   for (const FieldColumns& field : fields)
     for (std::size_t c = 0; c < field.components; ++c) {
@@ -43,7 +44,7 @@ void write_fields(const std::vector<FieldColumns>& fields, std::size_t place, Si
 void write_csv(const NodeSource& nodes, SharedFile& file) {
   const auto coordinates = static_cast<std::size_t>(nodes.contents().coordinates);
   const std::vector<FieldColumns> fields = all_columns(nodes);
-  std::size_t before = 0;  // nodes of windows that have been
+  std::size_t before = 0;  // nodes of earlier windows
   file.append_text(column_names(nodes.contents()));
   nodes.for_nodes([&](const NodeRows& rows) {
     file.append([&](Sink& sink) {

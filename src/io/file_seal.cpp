@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<char, 8> kMark{'P', 'N', 'P', 'B', 'S', 'e', 'n', 'd'};
 
-// The last bytes of the file, behind the extents that are left out.
+// The end of a sealed file, after the list of the extents that are left out.
 struct SealEnd {
   std::int64_t extents = 0;
   std::uint64_t checksum = 0;
@@ -47,7 +47,7 @@ std::int64_t size_of(const OpenFile& file) {
   return ::fseeko(file.get(), 0, SEEK_END) == 0 ? ::ftello(file.get()) : -1;
 }
 
-// Of the bytes up to `end` without the extents, which must be in order.
+// Returns the checksum of the bytes up to `end` without the extents, which must be sorted.
 std::uint64_t checksum_without(const OpenFile& file, const std::vector<Extent>& extents,
                                std::int64_t end, const std::string& name) {
   std::uint64_t sum = mixed(static_cast<std::uint64_t>(end));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A checksum at the end of a file, of what tells where things lie in it: a library that reads it
-// need then not stand up to damage. HDF5 takes no notice of what comes behind its own last byte.
+// A checksum ("seal") at the end of a file that protects its structure. A library that parses the
+// structure then need not be robust against damage. HDF5 ignores bytes after the end of its data.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,14 @@
 
 namespace pnpbs::io {
 
-// Bytes of a file that the seal leaves out, as they are checked otherwise and may be written later.
+// A range of bytes that the checksum does not cover, because it is checked otherwise and written
+// later.
 struct Extent {
   std::int64_t begin, size;
 };
 
-// Both throw Error(ErrorKind::file); name: of the file, for messages.
+// Append the checksum, or require that it is right. `name` is the name of the file in messages.
+// Both throw Error(ErrorKind::file).
 void add_seal(const std::string& path, const std::string& name, std::vector<Extent> left_out);
 void require_seal(const std::string& path, const std::string& name);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of file formats and one writer for each.
+// The table of output formats and the writer of each.
 #pragma once
 
 #include <span>
@@ -12,25 +12,27 @@
 
 namespace pnpbs::io {
 
-// regions: never, but nodes have the tags of regions that elements have. beside: in files beside.
-// grid: in the file, and the facets in one beside it.
+// Where a format stores elements. never: nowhere. regions: nowhere, but nodes have the tags of the
+// regions that elements have. on_request: in the file. grid: in the file, with facets in a second
+// file. beside: in a second file. always: in the file.
 enum class Elements { never, regions, on_request, grid, beside, always };
 
-// Of what a format has files: anything, bodies, triangles of the plane and of spheres, or the cells
-// of spheres.
+// The kinds of results that a format can store: any, bodies, triangles of the plane and of spheres,
+// or Voronoi cells of spheres.
 enum class Of { anything, bodies, triangles, spheres };
 
+// An output format.
 struct Format {
-  const char* name;  // also the extension, without its dot
+  const char* name;  // also the file extension, without its dot
   const char* help;
-  bool binary;  // not for terminals
+  bool binary;  // must not be written to a terminal
   Elements elements;
   Of of;
-  bool by_hdf5;  // in part at least: a file of its own, no stream
-  // Collective. nullptr: in pieces, which is not one file's business, or of cells.
+  bool by_hdf5;  // written by HDF5, at least in part, so it must be a regular file
+  // Writes one file. nullptr for files in pieces and for cells. Collective.
   void (*write)(const NodeSource& nodes, SharedFile& file);
-  std::span<const std::string_view> fields{};  // of the caller's, that it cannot do without
-  // Instead, of spheres. Collective.
+  std::span<const std::string_view> fields{};  // output fields that the format requires
+  // Writes the Voronoi cells of a sphere, instead of `write`. Collective.
   void (*write_cells)(const SphereGrid& grid, SharedFile& file) = nullptr;
 
   bool in_pieces() const { return !write && !write_cells; }
@@ -39,12 +41,12 @@ struct Format {
 std::span<const Format> formats();
 std::string list_of_formats();
 
-// Of the file of arrays beside a .xdmf file, which nobody asks for by itself.
+// Returns the format of the file of arrays that belongs to a .xdmf file. Users cannot select it.
 const Format& heavy_data_format();
-std::string heavy_data_path(const std::string& path);  // of the .xdmf file
-std::string facets_path(const std::string& path);      // of the file of facets beside a grid's
+std::string heavy_data_path(const std::string& path);  // path: of the .xdmf file
+std::string facets_path(const std::string& path);      // file of the facets that belongs to a grid
 
-// nullptr if there is none.
+// Return nullptr if there is none.
 const Format* format_by_name(std::string_view name);
 const Format* format_by_extension(std::string_view path);
 
@@ -65,15 +67,15 @@ void write_peridigm(const NodeSource& nodes, SharedFile& file);
 void write_lammps(const NodeSource& nodes, SharedFile& file);
 void write_gadget(const NodeSource& nodes, SharedFile& file);
 
-// The file that names the pieces. Collective. like: what any of them holds.
+// Writes the file that lists the pieces. `like` has the contents of any of them. Collective.
 void write_pvtu(const std::vector<std::string>& pieces, const Contents& like, SharedFile& file);
 
-// Grids of the Model for Prediction Across Scales, the Voronoi cells of nodes on a sphere: in
-// NetCDF's 64-bit data format, with all that MPAS reads (MPAS mesh specification 1.0,
-// mpas-dev.github.io, and mesh quality as its converter writes it). Collective.
+// Writes the grid of the Model for Prediction Across Scales: the Voronoi cells of nodes on a sphere
+// in NetCDF's 64-bit data format, with all variables that MPAS reads (MPAS mesh specification 1.0,
+// mpas-dev.github.io) and the mesh quality that its converter adds. Collective.
 void write_mpas(const SphereGrid& grid, SharedFile& file);
 
-// The graph of the cells, for gpmetis: graph.info. Collective.
+// Writes the graph of the cells for gpmetis, graph.info. Collective.
 void write_cell_graph(const SphereGrid& grid, SharedFile& file);
 
 }  // namespace pnpbs::io

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Initial conditions of Gadget and SWIFT by HDF5 (https://swift.strw.leidenuniv.nl/docs, "Initial
-// Conditions"): all particles are gas, at rest and cold. There is no group of units: then numbers
-// are in the units that the program computes in, and these are not ours to know.
+// Conditions"). All particles are gas, at rest and cold. The file has no group of units, so numbers
+// are in the internal units of the program.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,18 +16,18 @@ namespace pnpbs::io {
 
 namespace {
 
-constexpr std::size_t kTypes = 6;  // of particles; gas is the first
+constexpr std::size_t kTypes = 6;  // number of particle types; gas is the first
 
-// SWIFT's smoothing length over the distance of particles, as a first guess.
+// First guess of SWIFT's smoothing length. [distance of particles]
 constexpr double kResolution = 1.2348;
 
-// From the volume and the density of each particle.
+// Returns an array of values that follow from the volume and density of each particle.
 GridArray computed_array(const Contents& all,
                          const std::function<double(double volume, double density)>& value) {
   const auto write = [value](const NodeSource& nodes, SharedFile& file) {
     const std::vector<double> densities = particle_values(nodes, kDensityField);
     const std::size_t volume = particle_field(*nodes.contents().fields, kVolumeField);
-    std::size_t before = 0;  // particles of windows that have been
+    std::size_t before = 0;  // particles of earlier windows
     nodes.for_field(volume, [&](const FieldRows& rows) {
       file.append([&](Sink& sink) {
         for (std::size_t i = 0; i < rows.values.size(); ++i) {
@@ -61,8 +61,8 @@ std::vector<std::int64_t> of_types(std::int64_t gas) {
   return numbers;
 }
 
-// From 0, where the box of the programs begins. If particles lie below, it has room for them once
-// they are shifted.
+// Returns the sides of a box from 0, where the programs' boxes begin. Along an axis with negative
+// coordinates, the box has room for the particles after a shift.
 std::vector<double> box_size(const ParticleExtent& extent) {
   std::vector<double> sizes;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -74,7 +74,7 @@ std::vector<double> box_size(const ParticleExtent& extent) {
 
 void add_header(hdf5::NewFile& made, const Contents& all, const std::vector<double>& size) {
   const std::string header = "/Header";
-  constexpr std::int64_t word = std::int64_t{1} << 32;  // Gadget has 32 bits, SWIFT adds the two
+  constexpr std::int64_t word = std::int64_t{1} << 32;  // counts are split into words of 32 bits
   made.add_group(header);
   made.set(header, "NumPart_ThisFile", of_types(all.nodes));
   made.set(header, "NumPart_Total", of_types(all.nodes % word));

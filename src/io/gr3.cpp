@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SCHISM's grid hgrid.gr3 (https://schism-dev.github.io/schism/master/input-output/hgrid.html),
-// the layout of ADCIRC's fort.14: nodes "number x y depth", elements "number 3 corner corner
-// corner", and the boundary as open and land segments, each a count of nodes and the nodes. Numbers
-// from 1. Counter-clockwise around the domain, clockwise around islands.
+// Writer of SCHISM's grid hgrid.gr3
+// (https://schism-dev.github.io/schism/master/input-output/hgrid.html), which has the layout of
+// ADCIRC's fort.14. It has nodes "number x y depth", elements "number 3 corner corner corner", and
+// open and land boundary segments, each a count and its nodes. Numbers start at 1. Segments are
+// counter-clockwise around the domain and clockwise around islands.
 #include "base/small_letters.hpp"
 #include "io/boundary_loops.hpp"
 #include "io/numbered_rows.hpp"
@@ -13,12 +14,13 @@ namespace {
 
 constexpr std::int32_t kLand = 0, kOpen = 1;
 
-// By the name of its tag.
+// Returns kOpen if the name of the tag begins with "open".
 std::int32_t kind_of(const Contents& all, std::int32_t tag) {
   const std::string* name = all.names ? all.names->find({1, tag}) : nullptr;
   return name && in_small_letters(*name).starts_with("open") ? kOpen : kLand;
 }
 
+// A boundary segment of the file.
 struct Segment {
   std::vector<std::int64_t> nodes;
   bool is_island = false;
@@ -28,8 +30,9 @@ struct Segments {
   std::vector<Segment> open, land;
 };
 
-// SCHISM stops at an open segment that ends where it begins, and its manual asks for two segments
-// where all of the boundary is land. It does not repeat the first node of an island.
+// Returns the boundary segments. Closed chains except land islands are split in two, because SCHISM
+// rejects an open segment that ends where it begins, and its manual requires two segments for a
+// boundary that is all land. Islands do not repeat their first node. Collective.
 Segments segments_of(const NodeSource& nodes, const Communicator& comm) {
   Segments segments;
   std::vector<Segment> islands;
@@ -47,7 +50,7 @@ Segments segments_of(const NodeSource& nodes, const Communicator& comm) {
       like.push_back({{half, chain.nodes.end()}});
     }
   }
-  // ADCIRC's manual wants islands behind all that is around the domain.
+  // ADCIRC's manual requires islands after all other segments.
   segments.land.insert(segments.land.end(), islands.begin(), islands.end());
   return segments;
 }
@@ -66,7 +69,7 @@ void append_elements(const NodeSource& nodes, SharedFile& file) {
   });
 }
 
-// The nodes of all ranks' segments are on each of them.
+// Appends the segments, which all ranks have; rank 0 writes them.
 void append_segments(const std::vector<Segment>& segments, const std::string& kind,
                      SharedFile& file) {
   std::size_t nodes = 0;

@@ -17,7 +17,7 @@ void append_array(SharedFile& file, const std::vector<Value>& values) {
   file.append([&](Sink& sink) { sink.array(std::span<const Value>(values)); });
 }
 
-// An array of the nodes, as `member` of their rows has it.
+// Returns an array of a member of the node rows.
 template <typename Value>
 GridArray of_nodes(const std::string& name, const Contents& all,
                    std::vector<Value> NodeRows::*member) {
@@ -27,7 +27,8 @@ GridArray of_nodes(const std::string& name, const Contents& all,
           }};
 }
 
-// The same of the elements, and of the facets, so many values each.
+// Returns an array of a member of the element rows, or the facet rows, with `values` values per
+// row.
 template <typename Value>
 GridArray of_elements(const std::string& name, const Contents& all,
                       std::vector<Value> ElementRows::*member, int values) {
@@ -46,7 +47,7 @@ GridArray of_facets(const std::string& name, const Contents& all,
           }};
 }
 
-// Values that follow from their number alone; the ranks take turns.
+// Returns an array of values that follow from their index. Ranks write blocks in turn.
 template <typename Value, typename At>
 GridArray computed(const std::string& name, std::int64_t count, At at) {
   return {name, number_type<Value>(), count, 1, [count, at](const NodeSource&, SharedFile& file) {
@@ -79,7 +80,8 @@ GridArray field_array(const Contents& all, std::size_t field) {
 
 }  // namespace
 
-// Beside a grid of the elements, which has the rest.
+// Returns the arrays of nodes. A grid of facets has the ids only, since the grid of the elements
+// has the other arrays.
 std::vector<GridArray> point_data(const Contents& all) {
   std::vector<GridArray> data{of_nodes("id", all, &NodeRows::ids)};
   if (!all.is_beside) {
@@ -91,7 +93,8 @@ std::vector<GridArray> point_data(const Contents& all) {
   return data;
 }
 
-// The tag comes first, where DOLFINx expects it, and so does that of regions.
+// Returns the arrays of cells. The tag of facets, or the region of elements, comes first, where
+// DOLFINx expects it.
 std::vector<GridArray> cell_data(const Contents& all) {
   if (all.cells == Cells::nodes) return {};
   if (all.cells == Cells::elements) {

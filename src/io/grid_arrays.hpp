@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file of an unstructured grid holds of the nodes: its arrays, and how each is written.
+// Arrays of an unstructured grid in a file, with the function that writes each.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,13 @@
 
 namespace pnpbs::io {
 
+// An array of the file.
 struct GridArray {
   std::string name;
   NumberType type;
-  std::int64_t rows;  // of all ranks
-  int columns;        // 1: a plain list
-  // Appends the rows. Collective.
+  std::int64_t rows;  // over all ranks
+  int columns;        // 1: a one-dimensional list
+  // Appends all rows to the file. Collective.
   std::function<void(const NodeSource&, SharedFile&)> write;
 
   std::uint64_t bytes() const { return static_cast<std::uint64_t>(rows * columns) * size_of(type); }
@@ -27,18 +28,19 @@ struct GridArray {
 
 std::vector<GridArray> point_data(const Contents& all);
 std::vector<GridArray> cell_data(const Contents& all);
-// x, y and z, or so many of them.
+// Returns the positions with this number of coordinates.
 GridArray point_array(const Contents& all, int coordinates = 3);
 
-// What the nodes are called in a file that numbers them from 1, and zeros for each.
+// Return the node numbers of a file that counts from 1, and an array of zeros.
 GridArray number_array(const Contents& all);
 GridArray zero_array(const Contents& all, int columns);
 
-// The numbers of the cells' corners, one cell behind the other.
+// Returns the node numbers of the corners of all cells.
 GridArray corner_array(const Contents& all);
-// Where in them each cell ends; or, with one more, where each begins and the last one ends.
+// Return the index in the corner array at which each cell ends, or begins; cell_bounds() has the
+// end of the last cell, too.
 GridArray cell_ends(const Contents& all);
 GridArray cell_bounds(const Contents& all);
-GridArray cell_types(const Contents& all);  // by VTK's numbers
+GridArray cell_types(const Contents& all);  // VTK's cell types
 
 }  // namespace pnpbs::io

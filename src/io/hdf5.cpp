@@ -43,7 +43,8 @@ std::string cannot_write(const std::string& name) {
   return "cannot write " + name + ": HDF5 has failed; is the disk full?";
 }
 
-// How something is made: without the time of it.
+// A property list for creating objects without time stamps, so that equal contents give equal
+// files.
 struct Creation : Owned {
   Creation(const Use& use, hid_t kind, const std::string& failure)
       : Owned(use->H5Pcreate(kind), use->H5Pclose, failure) {
@@ -72,8 +73,8 @@ void require_hdf5() { const Use use; }
 
 // ------------------------------------------------------------------ writing --------------------
 
-// In the format since HDF5 1.8, which every reader of today knows, and in which all that tells
-// where things lie has checksums.
+// Uses the file format of HDF5 1.8, which current readers support and whose metadata have
+// checksums.
 NewFile::NewFile(const std::string& path, const std::string& name) : name_(name) {
   const Use use;
   const std::string failure = cannot_write(name_);
@@ -226,10 +227,10 @@ bool OldFile::has(const std::string& path) const {
 
 namespace {
 
-// One that is there, of one value.
+// An existing attribute with a single value.
 class Attribute {
  public:
-  // kind: of its value, for messages.
+  // Throws unless there is such an attribute. `kind` names the kind of its value in messages.
   Attribute(hid_t file, const std::string& name, const char* kind, const std::string& object,
             const std::string& attribute)
       : failure_(damaged(name, std::string("it has no ") + kind + " \"" + attribute + "\" at \"" +
@@ -275,7 +276,7 @@ void OldFile::get(const std::string& object, const std::string& attribute, doubl
 
 void OldFile::get(const std::string& object, const std::string& attribute,
                   std::string& text) const {
-  constexpr std::size_t kMax = 60000;  // what HDF5 has room for in an attribute
+  constexpr std::size_t kMax = 60000;  // largest attribute in HDF5. [bytes]
   const Attribute found(file_, name_, "text", object, attribute);
   const std::size_t size = found.use->H5Tget_size(found.type());
   found.expect(found.use->H5Tget_class(found.type()) == H5T_STRING &&

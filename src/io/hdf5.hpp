@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files by HDF5, as one process lays them out and finds its way in them. The rows of large arrays
-// are not written or read here: an array lies in one piece in the file, and its place is told, so
-// that every rank can write or read its own rows by itself. No function here communicates.
+// HDF5 files, used by one process. It creates and finds arrays, but does not write or read the rows
+// of large ones: an array is contiguous, and its offset in the file is returned, so that every rank
+// can access its own rows directly. No function here communicates.
 //
-// Every function throws Error(ErrorKind::file) if the file is at fault, and
-// Error(ErrorKind::unsupported) if there is no HDF5.
+// Every function throws Error(ErrorKind::file) if the file has an error, and
+// Error(ErrorKind::unsupported) if HDF5 is not available.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace pnpbs::io::hdf5 {
 
 using Type = NumberType;
 
-// An array of rows; with 0 columns it has one dimension, otherwise two.
+// An array in the file. It is one-dimensional if columns is 0, else two-dimensional.
 struct Array {
   std::string path;
   Type type;
@@ -32,11 +32,12 @@ struct Array {
 };
 
 void require_hdf5();
-// Throws unless a regular file is there that begins as HDF5 files do.
+// Throws unless `path` is a regular file that begins with the signature of HDF5. `name` is its name
+// in messages.
 void require_signature(const std::string& path, const std::string& name);
 
-// A file in the making, in place of one that is there. What it is made of decides its bytes, and
-// not the time.
+// A new file, which replaces an existing one. Its bytes depend on its contents only, not on the
+// time.
 class NewFile {
  public:
   NewFile(const std::string& path, const std::string& name);  // name: for messages
@@ -52,7 +53,7 @@ class NewFile {
            const std::vector<std::int64_t>& values);
   void set(const std::string& object, const std::string& attribute,
            const std::vector<double>& values);
-  // Room for an array; returns where in the file it begins, of one without rows 0.
+  // Allocates an array. Returns its offset in the file, or 0 if it has no rows. [bytes]
   std::int64_t add(const Array& array);
   void add(const std::string& path, const std::vector<std::int64_t>& values);
   void add_reals(const std::string& path, const std::vector<double>& values);
@@ -63,6 +64,7 @@ class NewFile {
   std::int64_t file_ = -1;
 };
 
+// An existing file, opened for reading.
 class OldFile {
  public:
   OldFile(const std::string& path, const std::string& name);
@@ -74,9 +76,10 @@ class OldFile {
   void get(const std::string& object, const std::string& attribute, std::int64_t& value) const;
   void get(const std::string& object, const std::string& attribute, double& value) const;
   void get(const std::string& object, const std::string& attribute, std::string& text) const;
-  // Where in the file the array begins, if it is just this one.
+  // Returns the offset of the array in the file. Throws unless its type and shape are as given.
+  // [bytes]
   std::int64_t place_of(const Array& array) const;
-  // Of an array with one dimension.
+  // Returns the number of rows of a one-dimensional array.
   std::int64_t rows_of(const std::string& path) const;
 
  private:

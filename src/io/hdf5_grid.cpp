@@ -17,8 +17,8 @@ namespace {
   throw Error(ErrorKind::file, "cannot write " + name + ": " + std::strerror(error));
 }
 
-// Whether the file may have its size, and HDF5 room for what it writes: where it has none, some
-// versions end the process when that exits.
+// Writes the header space and extends the file to its size, to find out whether the disk has room.
+// If HDF5 lacks room, some versions abort when the process exits.
 void reserve(const char* path, const std::string& name, std::int64_t rows_size) {
   constexpr std::size_t kLayout = std::size_t{1} << 16;
   const std::vector<char> zeros(kLayout);
@@ -47,7 +47,7 @@ std::vector<std::int64_t> lay_out(const OutputFile& output, const std::string& n
   for (const hdf5::Array& array : arrays) places.push_back(file.add(array));
   file.close();
   if (!output.removed()) return places;
-  ::unlink(output.name_aside());  // a signal has removed it before HDF5 made it anew
+  ::unlink(output.name_aside());  // HDF5 has created it again after a signal removed it
   fail_to_lay_out(name, EINTR);
 }
 

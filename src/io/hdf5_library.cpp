@@ -48,7 +48,8 @@ Library opened_library() {
                                             ", not the " PNPBS_HDF5_TEXT
                                             " that PNPBS was built "
                                             "with: install that one");
-  // Identifiers that HDF5 has given its own types when it was opened.
+  // Global variables with the identifiers of HDF5's types and property lists. H5open() has set
+  // them.
   const auto identifier = [&](const char* name) {
     return *static_cast<const hid_t*>(symbol(library, name));
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The HDF5 that is opened at run time: its functions, one thread at a time, and what it has opened
-// for us. Only in builds with HDF5.
+// Access to the HDF5 library, which is opened at run time: its functions, a lock for one thread at
+// a time, and owners of its objects. Only in builds with HDF5.
 #pragma once
 
 #include <hdf5.h>
@@ -12,7 +12,7 @@
 #include "base/error.hpp"
 #include "io/hdf5.hpp"
 
-// HDF5's constants call it by its name, which we do not link.
+// HDF5's macros for constants call H5open() and H5check(), to which the library is not linked.
 #undef H5OPEN
 #define H5OPEN
 #undef H5CHECK
@@ -69,16 +69,18 @@ namespace pnpbs::io::hdf5 {
   X(H5Tget_class)               \
   X(H5Tis_variable_str)
 
+// The functions and identifiers of the opened library.
 struct Library {
 #define PNPBS_HDF5_MEMBER(name) decltype(&::name) name;
   PNPBS_HDF5_FUNCTIONS(PNPBS_HDF5_MEMBER)
 #undef PNPBS_HDF5_MEMBER
-  std::array<hid_t, 6> types;  // by Type
+  std::array<hid_t, 6> types;  // indexed by Type
   hid_t text, file_access, file_creation, group_creation, dataset_creation;
 };
 
-// One thread at a time: few builds of HDF5 stand more. It tells us what fails by what it returns,
-// and prints nothing of it; a host that has opened the same library finds its handler again.
+// Exclusive use of HDF5 by one thread, since few builds are thread-safe. Errors are reported by
+// return values. The error handler, which prints, is disabled, and restored in the end for a host
+// program that uses the same library.
 class Use {
  public:
   Use() : lock_(mutex()), h_(library()) {
@@ -100,7 +102,8 @@ class Use {
   void* data_ = nullptr;
 };
 
-// What HDF5 has opened for us, to be closed again; fails if it has opened nothing.
+// An HDF5 object that is closed with this object. The constructor throws if the identifier is
+// invalid.
 class Owned {
  public:
   Owned(hid_t id, herr_t (*close)(hid_t), const std::string& failure) : id_(id), close_(close) {

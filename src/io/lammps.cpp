@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LAMMPS' data file (https://docs.lammps.org/read_data.html) with atom_style peri: "id type volume
-// density x y z", a particle of a body a line. Ids are numbers from 1, types from 1 to the largest.
+// Writer of LAMMPS' data file (https://docs.lammps.org/read_data.html) with atom_style peri: "id
+// type volume density x y z", one line for each particle of a body. Ids start at 1. Types run from
+// 1 to the largest tag of a region.
 #include "base/error.hpp"
 #include "io/formats.hpp"
 #include "io/particle_fields.hpp"
@@ -9,7 +10,7 @@ namespace pnpbs::io {
 
 namespace {
 
-// With room between the particles and the walls of the box: it need not be periodic.
+// Returns the header. The box has a margin around the particles, since it need not be periodic.
 std::string header(const Contents& all, std::int32_t types, const ParticleExtent& extent) {
   std::string text = "particles placed by pnpbs\n\n" + std::to_string(all.nodes) + " atoms\n" +
                      std::to_string(types) + " atom types\n\n";
@@ -28,7 +29,7 @@ void write_lammps(const NodeSource& nodes, SharedFile& file) {
   const std::vector<double> densities = particle_values(nodes, kDensityField);
   const ParticleExtent extent = extent_of_particles(nodes, volumes, file.ranks());
   file.append_text(header(nodes.contents(), largest_block(nodes, "lammps"), extent));
-  std::size_t before = 0;  // nodes of windows that have been
+  std::size_t before = 0;  // nodes of earlier windows
   nodes.for_nodes([&](const NodeRows& rows) {
     file.append([&](Sink& sink) {
       std::int64_t id = rows.first;

@@ -25,41 +25,46 @@
 namespace pnpbs::io {
 namespace {
 
-// Values of the cells, edges and vertices of a grid on a sphere, in the order of their numbers over
-// all ranks: a window at a time, so that writing takes hardly any memory beside the grid itself.
+// MPAS writer. Values of cells, edges and vertices are written in the order of their global
+// numbers, one window at a time, so that writing needs little memory.
 enum class Entity { cell, edge, vertex };
 
-// One of them, by the node that leads it: the edge to the neighbour at a place of the node's ring,
-// the vertex between that neighbour and the next one. Of a cell the place does not count.
+// A cell, edge or vertex, given by its leading node and a place in the ring of neighbours of that
+// node. The edge leads to the neighbour at this place. The vertex lies between that neighbour and
+// the next one. A cell has an arbitrary place.
 struct EntityPlace {
   std::int32_t node;
   std::int64_t place;
 };
 
-// Sets so many values of an entity, which are 0 before.
+// Sets the values of an entity in `row`, which are 0 initially.
 template <class Value>
 using RowFill = std::function<void(const EntityPlace&, std::span<Value> row)>;
 
+// An iteration over the cells, edges or vertices in the order of their numbers.
 class EntityRows {
  public:
   explicit EntityRows(const SphereGrid& grid);
 
-  // Calls visit(values of the rows that are this rank's part of a window, by number) for each
-  // window; the parts are in the order of the ranks. Collective.
+  // Calls visit(rows) for each window, with the rows of this rank's part in the order of their
+  // numbers. The parts of a window are in the order of the ranks. Collective.
   template <class Value, class Visit>
   void for_windows(Entity of, int columns, const RowFill<Value>& fill, const Communicator& comm,
                    const Visit& visit) const;
 
  private:
   std::int64_t number(Entity of, const EntityPlace& at) const;
-  // Those led by own nodes whose cells have numbers from begin up to end, by number.
+  // Returns the entities whose leading node is owned and has a cell with a number from `begin` up
+  // to, but without, `end`. They are in the order of the entities' numbers.
   std::vector<EntityPlace> led(Entity of, std::int64_t begin, std::int64_t end) const;
+  // Sends each row to the rank whose part of the window contains the leading cell. Returns the rows
+  // received, in the order of their numbers. Collective.
   template <class Value>
   std::vector<Value> brought(Entity of, int columns, const std::vector<EntityPlace>& places,
                              const std::vector<Value>& rows, const Communicator& comm) const;
 
   const SphereGrid& grid_;
-  std::vector<std::int32_t> leaders_;  // own nodes with a cell, by number
+  std::vector<std::int32_t> leaders_;  // owned nodes with a cell, in the order of cells
 };
 
 template <class Value, class Visit>
@@ -79,7 +84,6 @@ void EntityRows::for_windows(Entity of, int columns, const RowFill<Value>& fill,
   }
 }
 
-// To the rank that has the cell of their leader in its part of the window.
 template <class Value>
 std::vector<Value> EntityRows::brought(Entity of, int columns,
                                        const std::vector<EntityPlace>& places,
@@ -155,31 +159,33 @@ using Place = EntityPlace;
 using Integers = std::span<std::int32_t>;
 using Reals = std::span<double>;
 
-// Places in the list of dimensions.
+// Indices in the list of dimensions.
 enum Dimension : std::size_t { nCells, nEdges, nVertices, maxEdges, maxEdges2, two, vertexDegree };
 
+// A variable of the file.
 struct Variable {
   std::string name;
   Entity of;
   int columns;
-  std::size_t second;              // dimension of the columns, if there are more than one
-  RowFill<std::int32_t> integers;  // or
+  std::size_t second;              // dimension of the columns if there are several
+  RowFill<std::int32_t> integers;  // set for an integer variable, else `reals`
   RowFill<double> reals;
 
   NumberType type() const { return integers ? NumberType::int32 : NumberType::real; }
 };
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
-// In the file they count from 1, and 0 is none.
+// Converts a number to the file's convention: numbers start at 1, and 0 means none.
 std::int32_t in_file(std::int64_t number) { return static_cast<std::int32_t>(number + 1); }
 
-// The nodes of the triangle at a place, counter-clockwise from the leader.
+// Returns the nodes of the triangle, counter-clockwise from the leading node.
 std::array<std::int32_t, 3> corners_at(const SphereGrid& grid, const Place& at) {
   return {at.node, grid.rings.neighbour(at.place),
           grid.rings.neighbour(grid.rings.next(at.node, at.place))};
 }
 
-// Between the corner before each one and itself: so each corner lies between its edge and the next.
+// Returns the sides of the triangle. Side k ends at corner k, so each corner lies between its side
+// and the next.
 std::array<std::array<std::int32_t, 2>, 3> sides_of(const std::array<std::int32_t, 3>& corners) {
   return {{{corners[2], corners[0]}, {corners[0], corners[1]}, {corners[1], corners[2]}}};
 }
@@ -195,7 +201,7 @@ std::array<double, 3> side_lengths(const SphereGrid& grid, const Place& at) {
   return lengths;
 }
 
-// Of a triangle with straight sides of these lengths.
+// Returns the angles of a plane triangle with these sides.
 std::array<double, 3> angles_of(const std::array<double, 3>& lengths) {
   std::array<double, 3> angles;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -205,13 +211,14 @@ std::array<double, 3> angles_of(const std::array<double, 3>& lengths) {
   return angles;
 }
 
-// The part of the corner's cell at the vertex; 0 if it has none.
+// Returns the area of the corner's cell in the triangle, on the unit sphere, or 0 if the corner has
+// no cell.
 double kite_at(const SphereGrid& grid, std::int32_t corner, std::int32_t triangle) {
   if (!grid.has_cell(corner)) return 0;
   return grid.kite[index(grid.rings.place_of_triangle(corner, triangle))];
 }
 
-// All variables, in the order of the file.
+// The variables in the order of the file.
 class Table {
  public:
   explicit Table(const SphereGrid& grid) : grid_(grid), r_(grid.radius) {
@@ -273,7 +280,7 @@ class Table {
   void integer_rows(const std::string& name, Entity of, Dimension second, const Fill& fill) {
     variables_.push_back({name, of, columns(second), second, fill, {}});
   }
-  // value(place in the ring) for the places around a cell.
+  // Adds a variable with value(place) for each place in the ring of a cell.
   template <class Value>
   void integers_around(const std::string& name, const Value& value) {
     integer_rows(name, Entity::cell, maxEdges, [&g = grid_, value](const Place& at, Integers row) {
@@ -340,7 +347,8 @@ void Table::add_edges() {
   });
 }
 
-// Calls visit(node, place of the edge in its ring, 1 or -1) for the cells at an edge.
+// Calls visit(node, place of the edge in its ring, sign) for the one or two cells at an edge. The
+// sign is 1 for the leading cell, else -1.
 template <class Visit>
 void for_cells_beside(const SphereGrid& grid, const Place& at, const Visit& visit) {
   visit(at.node, at.place, 1);
@@ -453,7 +461,7 @@ NetcdfContents contents_of(const SphereGrid& grid, const Table& table) {
   return contents;
 }
 
-// The numbers of each row up to a 0.
+// Appends a line for each row with its numbers up to the first 0.
 void append_lines(const std::vector<std::int32_t>& rows, int columns, SharedFile& file) {
   const auto n = static_cast<std::size_t>(columns);
   file.append([&](Sink& sink) {
@@ -467,7 +475,8 @@ void append_lines(const std::vector<std::int32_t>& rows, int columns, SharedFile
   });
 }
 
-// There is a cell (NetCDF takes 0 for no limit), and numbers in the file have 32 bits.
+// Throws unless there is a cell and all numbers fit into 32 bits. NetCDF would read 0 cells as an
+// unlimited dimension.
 void require_numbers(const SphereGrid& grid) {
   if (grid.cells == 0)
     throw Error(
@@ -502,11 +511,11 @@ void write_mpas(const SphereGrid& grid, SharedFile& file) {
   }
 }
 
-// One line per cell: the cells beside it.
+// Each line lists the neighbours of a cell.
 void write_cell_graph(const SphereGrid& grid, SharedFile& file) {
   require_numbers(grid);
   const EntityRows rows(grid);
-  std::int64_t inner = 0;  // edges between two cells
+  std::int64_t inner = 0;  // number of edges between two cells
   for (std::int32_t i = 0; i < grid.owned; ++i)
     for (std::int64_t p = grid.rings.begin(i); p < grid.rings.end(i); ++p)
       inner += grid.has_cell(grid.rings.neighbour(p)) && grid.leads(i, grid.rings.neighbour(p));

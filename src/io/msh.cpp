@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gmsh's format 4.1, as text: the one that Gmsh writes itself. The facets of each tag are an entity
-// and a physical group, and so are the elements of regions with each tag and the rest of the
-// inside; a node belongs to the entity of its tag, or to that of its region or the inside where no
-// facet has its tag. Without elements the nodes of each tag are points of a group.
-// All are numbered from 1, in the order of ids or corners.
+// Writer of Gmsh's format 4.1 as text. The facets of each tag form an entity and a physical group,
+// as do the elements of each tagged region and the remaining elements ("inside"). A node belongs to
+// the entity of its tag. If no facet has its tag, it belongs to that of its region or the inside.
+// Without elements, the nodes of each tag are point elements of a group.
+// Numbers start at 1, in the order of ids or corners.
 #include <algorithm>
 #include <vector>
 
@@ -16,19 +16,22 @@ namespace {
 
 enum Type { line = 1, triangle = 2, tetrahedron = 4, point = 15 };
 
-// Their tags are those of their blocks: see Writer::tag_of_block.
+// A node that is kept in memory until its block is written. Tags of nodes and cells are those of
+// Writer::tag_of_block().
 struct HeldNode {
   std::int32_t tag;
   std::int64_t number;
   std::array<double, 3> x;
 };
 
+// A facet or element that is kept in memory.
 struct HeldCell {
   std::int32_t tag;
   std::int64_t number;
   std::array<std::int64_t, 4> corners;
 };
 
+// The writer of one file.
 class Writer {
  public:
   Writer(const NodeSource& nodes, SharedFile& file)
@@ -61,7 +64,7 @@ class Writer {
   }
 
   // ------------------------------------------------------------ blocks
-  // Those of tags, then those of regions.
+  // Groups of tags come first, then groups of regions.
   std::size_t group_count() const { return groups_.tagged.size() + groups_.regions.size(); }
   const MshGroup& group(std::size_t g) const {
     const std::size_t tagged = groups_.tagged.size();
@@ -69,7 +72,8 @@ class Writer {
   }
   static std::int32_t tag_of_block(std::size_t g) { return static_cast<std::int32_t>(g) + 1; }
 
-  // Of a node. Those inside, and without elements the inner ones, are too many to be kept.
+  // Returns the block of a node. kInside also stands for inner nodes in general, which are too many
+  // to keep in memory and are streamed.
   std::int32_t block_of(const NodeRows& rows, std::size_t i) const {
     const MshGroup* tagged = groups_.of(rows.tags[i]);
     if (tagged)
@@ -84,7 +88,7 @@ class Writer {
                         static_cast<std::size_t>(group - groups_.regions.data()));
   }
 
-  // How many of them belong to each group, and the box around all.
+  // Counts the nodes of each group and computes the bounding box of all nodes.
   void count_nodes() {
     TagGroup& box = groups_.inside.rows;
     bool first = true;
@@ -206,7 +210,7 @@ class Writer {
     if (!of_regions.empty()) count_nodes_of_regions(std::move(of_regions));
   }
 
-  // So far they count as inside.
+  // Moves the counts of nodes in regions from the inside to their groups. Collective.
   void count_nodes_of_regions(std::vector<std::int64_t> counts) {
     file_.ranks().allreduce_sum(counts);
     for (std::size_t r = 0; r < counts.size(); ++r) {
@@ -273,7 +277,8 @@ class Writer {
       write_cells(g, type, all_.facet_corners(), facets);
   }
 
-  // Kept, since there may be too many regions to go through all elements for each.
+  // Keeps the elements of regions in memory, because one pass over all elements for each region
+  // could be slow.
   void write_regions() {
     RowsByTag<HeldCell> elements;
     nodes_.for_elements([&](const ElementRows& rows) {
@@ -291,7 +296,7 @@ class Writer {
       write_cells(g, type_of_elements(), all_.element_corners(), elements);
   }
 
-  // Row i of the facets or elements.
+  // Returns facet or element i of the rows.
   template <class Rows>
   static HeldCell cell(std::int32_t block, const Rows& rows, int corners, std::size_t i) {
     HeldCell cell{block, rows.first + static_cast<std::int64_t>(i) + 1, {}};
@@ -334,8 +339,8 @@ class Writer {
   const Contents& all_;
   SharedFile& file_;
   MshGroups groups_;
-  std::vector<std::int64_t> node_counts_;  // of the groups
-  std::int64_t inside_nodes_ = 0;          // of none of them
+  std::vector<std::int64_t> node_counts_;  // nodes of each group
+  std::int64_t inside_nodes_ = 0;          // nodes of no group
   RowsByTag<HeldNode> held_nodes_;
   NodeDataByBlock node_data_;
 };

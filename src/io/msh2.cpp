@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gmsh's format 2.2, as text, which programs read that know no later one. Numbers from 1. Facets of
-// the boundary have their tag as physical group, elements that of their region or of the inside.
-// Without elements every node is a point of its tag's group, since Gmsh forgets nodes that belong
-// to nothing.
+// Writer of Gmsh's format 2.2 as text, for programs that do not read later versions. Numbers start
+// at 1. Facets have their tag as physical group, and elements that of their region or of the
+// inside. Without elements every node becomes a point element in the group of its tag, since Gmsh
+// drops nodes without elements.
 #include <cmath>
 #include <cstdlib>
 
@@ -13,7 +13,7 @@
 namespace pnpbs::io {
 namespace {
 
-// Kinds of elements, and that two tags follow.
+// Element types, followed by the number of tags, 2.
 constexpr std::string_view point_code = " 15 2 ";
 constexpr std::string_view line_code = " 1 2 ";
 constexpr std::string_view triangle_code = " 2 2 ";
@@ -85,7 +85,7 @@ void write_elements(const NodeSource& nodes, const MshGroups& groups, SharedFile
   });
 }
 
-// Names belong to groups with positive numbers.
+// Writes the names of the groups with positive numbers.
 void write_names(const MshGroups& groups, bool with_inside, SharedFile& file) {
   std::vector<const MshGroup*> named;
   for (const MshGroup& group : groups.tagged)

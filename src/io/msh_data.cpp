@@ -10,7 +10,8 @@ namespace pnpbs::io {
 
 namespace {
 
-// Gmsh knows scalars, vectors and tensors of space; what is missing is 0.
+// Returns the number of components in the file. Gmsh has scalars, vectors and tensors in space;
+// missing components are written as 0.
 std::int64_t components_of_gmsh(std::int64_t components) {
   return components == 1 ? 1 : components <= 3 ? 3 : 9;
 }
@@ -19,13 +20,13 @@ std::size_t components_of(const Contents& all, std::size_t field) {
   return static_cast<std::size_t>((*all.fields)[field].components);
 }
 
-// Its name, its time, and its time step, components and rows.
+// Returns the head of the section: name, time, time step, number of components and number of rows.
 std::string heading(const OutputField& field, std::int64_t nodes) {
   return "$NodeData\n1\n\"" + field.name + "\"\n1\n0\n3\n0\n" +
          std::to_string(components_of_gmsh(field.components)) + "\n" + std::to_string(nodes) + "\n";
 }
 
-// The number of a node, and its values, as many as Gmsh has.
+// Writes the number of a node and its values.
 void write_row(std::int64_t number, std::span<const double> values, Sink& sink) {
   const std::size_t components = values.size();
   const auto written = components_of_gmsh(static_cast<std::int64_t>(components));
@@ -37,13 +38,14 @@ void write_row(std::int64_t number, std::span<const double> values, Sink& sink) 
   sink.text("\n");
 }
 
+// The values of a node that is kept in memory.
 struct HeldValues {
   std::int32_t tag;
   std::int64_t number;
   std::array<double, 9> values;
 };
 
-// Calls visit(i, number, values) for each node in this rank's part of a window.
+// Calls visit(i, number, values) for each node of this rank in a window.
 template <class Visit>
 void for_rows(const FieldRows& rows, std::size_t components, const Visit& visit) {
   for (std::size_t i = 0; i * components < rows.values.size(); ++i)
@@ -51,13 +53,13 @@ void for_rows(const FieldRows& rows, std::size_t components, const Visit& visit)
           std::span(rows.values).subspan(i * components, components));
 }
 
-// The rows of nodes for which wanted(place) is true: place counts the nodes in this rank's parts of
-// all windows. Collective.
+// Appends the rows of nodes with wanted(place). `place` counts the nodes of this rank over all
+// windows. Collective.
 template <class Wanted>
 void append_rows(const NodeSource& nodes, std::size_t field, const Wanted& wanted,
                  SharedFile& file) {
   const std::size_t components = components_of(nodes.contents(), field);
-  std::size_t before = 0;  // nodes of windows that have been
+  std::size_t before = 0;  // nodes of earlier windows
   nodes.for_field(field, [&](const FieldRows& rows) {
     file.append([&](Sink& sink) {
       for_rows(rows, components, [&](std::size_t i, std::int64_t number, const auto& values) {
@@ -68,7 +70,7 @@ void append_rows(const NodeSource& nodes, std::size_t field, const Wanted& wante
   });
 }
 
-// Around the rows of each field, which append_rows_of(field) writes. Collective.
+// Appends the head and the end of each field around append_rows_of(field). Collective.
 template <class AppendRows>
 void append_fields(const Contents& all, SharedFile& file, const AppendRows& append_rows_of) {
   for (std::size_t k = 0; k < all.field_count(); ++k) {
@@ -101,7 +103,7 @@ void NodeDataByBlock::append_field(std::size_t field, const std::vector<std::int
                                    SharedFile& file) const {
   const std::size_t components = components_of(nodes_.contents(), field);
   RowsByTag<HeldValues> held;
-  std::size_t before = 0;  // nodes of windows that have been
+  std::size_t before = 0;  // nodes of earlier windows
   nodes_.for_field(field, [&](const FieldRows& rows) {
     std::vector<HeldValues> own;
     for_rows(rows, components, [&](std::size_t i, std::int64_t number, const auto& values) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields of the caller's in Gmsh's files: a view of values at nodes each.
+// Output fields in Gmsh's files, one view of nodal values for each.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,14 @@
 
 namespace pnpbs::io {
 
-// Rows of tagged nodes or facets, to be written tag by tag: each rank keeps those of its parts of
-// the windows, which are few beside the nodes inside. Row: has a tag.
+// Rows of tagged nodes or facets that are kept in memory, to be written tag by tag. Each rank keeps
+// the rows of its parts of the windows, which are few compared with inner nodes. `Row` must have a
+// member `tag`.
 template <class Row>
 class RowsByTag {
  public:
-  // Of one window after the other, on all ranks. One rank alone has them in order anyway.
+  // Adds the rows of a window; all ranks must add the same windows. A single rank joins all
+  // windows, since they are already in order.
   void add_window(std::vector<Row> rows, const Communicator& comm) {
     if (comm.size() == 1 && !windows_.empty())
       windows_.front().insert(windows_.front().end(), rows.begin(), rows.end());
@@ -28,8 +30,8 @@ class RowsByTag {
     for (std::vector<Row>& window : windows_) std::ranges::stable_sort(window, {}, &Row::tag);
   }
 
-  // Calls write(row, sink) for the rows with this tag, in their order over all ranks. Collective,
-  // after sort().
+  // Calls write(row, sink) for the rows with this tag, in their order over all ranks. sort() must
+  // have been called. Collective.
   template <class Write>
   void append(std::int32_t tag, SharedFile& file, const Write& write) const {
     for (const std::vector<Row>& window : windows_) {
@@ -45,19 +47,18 @@ class RowsByTag {
   std::vector<std::vector<Row>> windows_;
 };
 
-// In the order of the nodes' numbers. Collective.
+// Appends all fields in the order of the nodes' numbers. Collective.
 void append_node_data(const NodeSource& nodes, SharedFile& file);
 
-// In the order of blocks of nodes: rows have numbers, but not all readers look at them (meshio 5
-// takes a row for the node that stands in its place).
+// The output fields in the order of the blocks of nodes. The rows have numbers, but meshio 5
+// ignores them and assigns rows to nodes by position.
 class NodeDataByBlock {
  public:
   explicit NodeDataByBlock(const NodeSource& nodes) : nodes_(nodes) {}
 
-  // Of each node of a window of for_nodes, the tag whose block it is in; kInside: that of the
-  // inside.
+  // Adds the block of each node of a window of for_nodes(); kInside for nodes that are streamed.
   void add_window(const std::vector<std::int32_t>& blocks);
-  // `order`: of the blocks in the file. Collective.
+  // Appends the fields. `order` lists the blocks in the order of the file. Collective.
   void append(const std::vector<std::int32_t>& order, SharedFile& file) const;
 
   static constexpr std::int32_t kInside = 0;
@@ -67,7 +68,7 @@ class NodeDataByBlock {
                     SharedFile& file) const;
 
   const NodeSource& nodes_;
-  std::vector<std::int32_t> blocks_;  // of the nodes in this rank's parts of all windows
+  std::vector<std::int32_t> blocks_;  // by node of this rank, over all windows
 };
 
 }  // namespace pnpbs::io

@@ -8,9 +8,9 @@ namespace pnpbs::io {
 
 namespace {
 
-constexpr std::size_t kLongestName = 127;  // Gmsh's
+constexpr std::size_t kLongestName = 127;  // limit of Gmsh
 
-// In quotation marks, as Gmsh can read it.
+// Returns the name in quotation marks, without characters that Gmsh cannot read.
 std::string quoted_name(const std::string& name) {
   std::string text = name.substr(0, kLongestName);
   for (char& c : text) {
@@ -20,7 +20,8 @@ std::string quoted_name(const std::string& name) {
   return '"' + text + '"';
 }
 
-// That of facets with this tag or, for nodes alone, of whatever else has it.
+// Returns the name of the tag of facets. For nodes without elements, a name of the tag in any
+// dimension is used as well.
 std::string name_of(const Contents& all, std::int32_t tag) {
   if (tag == 0) return "inner";
   std::vector<int> dimensions{all.dimension - 1};
@@ -40,7 +41,7 @@ bool has_number(const std::vector<MshGroup>& groups, std::int64_t number) {
   return std::ranges::find(groups, number, &MshGroup::number) != groups.end();
 }
 
-// name_of: by tag.
+// Returns groups with positive numbers. `name_of` maps a tag to a name.
 template <class NameOf>
 std::vector<MshGroup> numbered_groups(int dimension, const std::vector<TagGroup>& tags,
                                       const NameOf& name_of) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Physical groups of Gmsh's files: the facets of each tag, the elements of regions with each tag,
-// and those of the rest of the inside; or, without elements, the nodes of each tag.
+// Physical groups of Gmsh's files: the facets of each tag, the elements of each tagged region and
+// the remaining elements; or, without elements, the nodes of each tag.
 #pragma once
 
 #include <cstdint>
@@ -12,39 +12,43 @@
 
 namespace pnpbs::io {
 
+// A physical group and the entity with the same number.
 struct MshGroup {
   int dimension;
-  std::int64_t number;  // of the group, and of its entity: positive
+  std::int64_t number;  // positive
   std::string name;
   TagGroup rows;
 };
 
-// Of facets, or of nodes without elements. Tags that are not positive, which Gmsh's groups must be,
-// get numbers that are free.
+// Returns the groups of facets or, without elements, of nodes. Gmsh requires positive numbers, so
+// other tags get free ones.
 std::vector<MshGroup> tagged_groups(const Contents& all, const std::vector<TagGroup>& tags);
-// The same of elements in regions that have a tag.
+// Returns the groups of elements in tagged regions.
 std::vector<MshGroup> region_groups(const Contents& all, std::vector<TagGroup> tags);
-// The inside without these regions: called as the domain's is, if that has one name.
+// Returns the group of the elements outside these regions. It has the name of the domain if there
+// is exactly one.
 MshGroup inside_group(const Contents& all, const std::vector<MshGroup>& regions);
-// In groups by tag; nullptr if there is none.
+// Returns the group of this tag, or nullptr. The groups must be sorted by tag.
 const MshGroup* group_of(const std::vector<MshGroup>& groups, std::int32_t tag);
 
+// All groups of a file.
 struct MshGroups {
-  std::vector<MshGroup> tagged;   // of facets, or of nodes; by tag
-  std::vector<MshGroup> regions;  // by tag
-  MshGroup inside;                // its rows: elements without a region
+  std::vector<MshGroup> tagged;   // of facets or nodes, sorted by tag
+  std::vector<MshGroup> regions;  // sorted by tag
+  MshGroup inside;                // its rows are the elements without region
 
   const MshGroup* of(std::int32_t tag) const { return group_of(tagged, tag); }
 };
 
-// Collective.
+// Returns the groups of the nodes. Collective.
 MshGroups msh_groups(const NodeSource& nodes);
 
-// The section of the file.
+// Returns the section $PhysicalNames.
 std::string physical_names(const std::vector<const MshGroup*>& groups);
 
-// Its box, of a point the place of that; its group; nothing of what bounds it. head: its number,
-// and what stands before the box of a part of it.
+// Writes an entity: its bounding box, or the position of a point, and its physical group. Bounding
+// entities are not listed. `head` has its number and, for a part of an entity, what precedes the
+// box.
 void write_entity(const std::string& head, const MshGroup& group, bool is_physical, Sink& sink);
 
 }  // namespace pnpbs::io

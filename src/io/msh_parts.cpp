@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gmsh's format 4.1, as text, as Gmsh writes the parts of a partitioned mesh itself. Elements and
-// facets of each tag are an entity and a physical group (io/msh.cpp), of which each rank has a
-// part: an entity of its own, with the same number in all files. A node is in the part of its tag
-// and owner, and all ghost elements are in an entity of ghosts. Nodes and elements have their
-// numbers in the mesh, from 1; facets follow behind all elements, and only the file of a facet's
-// owner has it.
+// Writer of partitioned meshes in Gmsh's format 4.1 as text, with the layout that Gmsh uses for
+// them. Elements and facets of each tag form an entity and a physical group (io/msh.cpp). The part
+// of an entity on each rank is an entity of its own, with the same number in all files. A node is
+// in the part of its tag and owner. All ghost elements are in a ghost entity. Nodes and elements
+// have their numbers in the mesh, from 1. Facets have the numbers after those of all elements, and
+// only the owner of a facet writes it.
 #include "io/msh_parts.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 
 enum MshKind { kMshFacets, kMshElements };
 
-// What one rank owns of an entity.
+// The part of an entity that one rank owns.
 struct EntityPart {
   MshKind kind;
   std::size_t group;
@@ -31,19 +31,20 @@ struct EntityPart {
   auto operator<=>(const EntityPart&) const = default;
 };
 
-// Indices of nodes, facets or elements of this rank.
+// Indices of nodes, facets or elements of this rank, by part.
 using RowsByPart = std::map<EntityPart, std::vector<std::int32_t>>;
 
+// The file of one rank.
 class MshPart {
  public:
-  // Collective.
+  // Finds groups and numbers of all ranks. Collective.
   MshPart(const Communicator& comm, const DistributedMesh& mesh) : comm_(comm), mesh_(mesh) {
     find_groups();
     collect_rows();
     number_facets();
   }
 
-  // Local.
+  // Writes the file. Local.
   void write(Sink& sink) const {
     sink.text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
     sink.text(physical_names(pointers_to_groups()));
@@ -66,7 +67,8 @@ class MshPart {
   const std::vector<std::int32_t>& owners_of(MshKind kind) const {
     return kind == kMshFacets ? mesh_.facet_owners : mesh_.element_owners;
   }
-  // Elements: there are no more than indices (require_fits_rank).
+  // Returns the index of the first ghost element. Indices fit into 32 bits, see
+  // require_fits_rank().
   std::int32_t first_ghost() const { return static_cast<std::int32_t>(mesh_.owned_elements); }
   std::int32_t ghosts() const {
     return static_cast<std::int32_t>(mesh_.element_numbers.size()) - first_ghost();
@@ -82,7 +84,7 @@ class MshPart {
   }
 
   // ------------------------------------------------------------ groups
-  // Those of all ranks, on each of them.
+  // Finds the groups of all ranks. Collective.
   void find_groups() {
     groups_[kMshFacets] = tagged_groups(contents(mesh_.corners - 1), boxes_by_tag(kMshFacets));
     if (mesh_.kind == GeometryKind::surface) {
@@ -96,7 +98,7 @@ class MshPart {
     }
   }
 
-  // Those of elements with tags, and of the rest if there is one.
+  // Finds the groups of elements with tags, and of the other elements if there are any.
   void find_regions() {
     const std::vector<TagGroup> tags = boxes_by_tag(kMshElements);
     std::vector<MshGroup>& groups = groups_[kMshElements];
@@ -108,7 +110,7 @@ class MshPart {
     std::ranges::sort(groups, {}, [](const MshGroup& group) { return group.rows.tag; });
   }
 
-  // As of what has this dimension, and facets of one less with tags.
+  // Returns contents with elements of this dimension, for the functions that build groups.
   Contents contents(int dimension) const {
     Contents all;
     all.dimension = dimension;
@@ -152,13 +154,13 @@ class MshPart {
     parts_.erase(std::unique(parts_.begin(), parts_.end()), parts_.end());
   }
 
-  // The tag is that of a group.
+  // Returns the part of a row. `tag` must be that of a group.
   EntityPart part(MshKind kind, std::int32_t tag, std::int32_t owner) const {
     const std::vector<MshGroup>& groups = groups_[kind];
     return {kind, static_cast<std::size_t>(group_of(groups, tag) - groups.data()), owner};
   }
 
-  // Of nodes inside, that of their elements.
+  // Assigns inner nodes to the region of one of their elements.
   void find_regions_of_nodes() {
     node_regions_.assign(mesh_.numbers.size(), 0);
     if (mesh_.kind == GeometryKind::surface) return;
@@ -170,7 +172,7 @@ class MshPart {
       }
   }
 
-  // Of a tag that only the node has: inside.
+  // Returns the part of a node. A node whose tag no facet or element has belongs to the inside.
   EntityPart part_of_node(std::size_t i) const {
     const std::int32_t tag = mesh_.tags[i], owner = mesh_.owners[i];
     const std::int32_t tag_within = mesh_.kind == GeometryKind::surface ? tag : node_regions_[i];
@@ -186,7 +188,8 @@ class MshPart {
   }
 
   // ------------------------------------------------------------ numbers of entities
-  // The `index`-th one, from 1, that no group of this kind has.
+  // Returns the free number of this index, counted from 0: a number from 1 that no group of this
+  // kind has.
   std::int64_t free_number(MshKind kind, std::size_t index) const {
     std::int64_t number = static_cast<std::int64_t>(index) + 1;
     for (const std::int64_t taken : taken_[kind]) number += taken <= number;
@@ -196,14 +199,14 @@ class MshPart {
   std::int64_t number_of(const EntityPart& part) const {
     return free_number(part.kind, part.group * ranks() + static_cast<std::size_t>(part.owner));
   }
-  // Behind the elements' parts.
+  // Returns the number of the ghost entity, which comes after the parts of elements.
   std::int64_t ghost_entity() const {
     return free_number(kMshElements, groups_[kMshElements].size() * ranks() +
                                          static_cast<std::size_t>(comm_.rank()));
   }
 
   // ------------------------------------------------------------ sections
-  // One line: how many there are of each dimension.
+  // Writes the number of entities of each dimension.
   void write_counts(std::size_t of_facets, std::size_t of_elements, Sink& sink) const {
     for (int dimension = 0; dimension < 4; ++dimension) {
       sink.number(dimension == dimension_of(kMshFacets)     ? of_facets
@@ -221,7 +224,7 @@ class MshPart {
     sink.text("$EndEntities\n");
   }
 
-  // The parts that are here, with the boxes of the whole entities.
+  // Writes the parts on this rank, with the boxes of the whole entities.
   void write_parts(Sink& sink) const {
     const std::string partition = std::to_string(comm_.rank() + 1);
     sink.text("$PartitionedEntities\n" + std::to_string(comm_.size()) + "\n");
@@ -241,14 +244,14 @@ class MshPart {
     sink.text("$EndPartitionedEntities\n");
   }
 
-  // How many blocks and rows there are, the least number and the largest one.
+  // Writes the numbers of blocks and rows, and the smallest and largest number.
   static void begin_section(const char* name, std::size_t blocks, std::size_t rows,
                             std::pair<std::int64_t, std::int64_t> range, Sink& sink) {
     sink.text(std::string("$") + name + "\n" + std::to_string(blocks) + " " + std::to_string(rows) +
               " " + std::to_string(range.first) + " " + std::to_string(range.second) + "\n");
   }
 
-  // type: of the elements, or 0.
+  // Writes the first line of a block. `type`: element type, or 0 for nodes.
   static void begin_block(int dimension, std::int64_t entity, int type, std::size_t rows,
                           Sink& sink) {
     sink.text(std::to_string(dimension) + " " + std::to_string(entity) + " " +
@@ -289,7 +292,8 @@ class MshPart {
   }
 
   int type_of(MshKind kind) const {
-    constexpr std::array<int, 5> kTypeByCorners{0, 15, 1, 2, 4};  // points, lines, ...
+    // Gmsh's types by corners: none, point, line, triangle, tetrahedron
+    constexpr std::array<int, 5> kTypeByCorners{0, 15, 1, 2, 4};
     return kTypeByCorners[static_cast<std::size_t>(corners_of(kind))];
   }
 
@@ -325,7 +329,7 @@ class MshPart {
     sink.text("\n");
   }
 
-  // Each with the partition it belongs to, and the one that has it as a ghost: ours.
+  // Writes each ghost element with the partition that owns it and ours, which has it as a ghost.
   void write_ghosts(Sink& sink) const {
     sink.text("$GhostElements\n" + std::to_string(ghosts()) + "\n");
     const std::string ours = " 1 " + std::to_string(comm_.rank() + 1) + "\n";
@@ -340,14 +344,14 @@ class MshPart {
 
   const Communicator& comm_;
   const DistributedMesh& mesh_;
-  std::array<std::vector<MshGroup>, 2> groups_;     // by kind; by tag
-  std::array<std::vector<std::int64_t>, 2> taken_;  // their numbers, sorted
-  std::vector<std::int32_t> node_regions_;          // tags, 0 for none
+  std::array<std::vector<MshGroup>, 2> groups_;     // by kind; sorted by tag
+  std::array<std::vector<std::int64_t>, 2> taken_;  // numbers of the groups, sorted
+  std::vector<std::int32_t> node_regions_;          // tag of the region of each node; 0: none
   RowsByPart node_rows_;
-  RowsByPart rows_;                // of elements and facets that this rank owns
-  std::vector<EntityPart> parts_;  // those of either
+  RowsByPart rows_;                // elements and facets that this rank owns
+  std::vector<EntityPart> parts_;  // parts with nodes, elements or facets
   std::int64_t own_facets_ = 0;
-  std::int64_t first_facet_ = 0;  // the number before that of this rank's first facet
+  std::int64_t first_facet_ = 0;  // number before that of this rank's first facet
 };
 
 }  // namespace
@@ -358,7 +362,7 @@ std::string msh_part_path(const std::string& prefix, int rank) {
 
 void write_msh_parts(const Communicator& comm, const DistributedMesh& mesh,
                      const std::string& prefix) {
-  // What one rank cannot do at any step of it, all give up.
+  // If one rank fails in any step, all ranks throw.
   collective_try(comm, [&] {
     const MshPart part(comm, mesh);
     OutputFile file(msh_part_path(prefix, comm.rank()));

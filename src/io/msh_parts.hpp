@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A distributed mesh in Gmsh's partitioned files, one of each rank.
+// Output of a distributed mesh to Gmsh's partitioned files, one for each rank.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace pnpbs::io {
 
-// The name that Gmsh gives the file of a rank: its partitions count from 1.
+// Returns Gmsh's name for the file of a rank. Partitions count from 1.
 std::string msh_part_path(const std::string& prefix, int rank);
 
-// All ranks' files appear, or none. Collective, and agreed.
+// Writes the files of all ranks, or none. Collective; if one rank throws, all ranks throw.
 void write_msh_parts(const Communicator& comm, const DistributedMesh& mesh,
                      const std::string& prefix);
 

@@ -27,12 +27,13 @@ void turn_over(std::vector<Value>& values) {
   }
 }
 
+// The text of a header.
 class Head {
  public:
-  // begin: where the first array does.
+  // Composes the header. `begin`: offset of the first array. [bytes]
   Head(const NetcdfContents& contents, std::int64_t begin) {
     text_ = std::string("CDF\005", 4);
-    number(std::int64_t{0});  // records
+    number(std::int64_t{0});  // number of records
     list(kDimensions, contents.dimensions, [&](const NetcdfDimension& dimension) {
       name(dimension.name);
       number(dimension.size);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The head of a NetCDF file in 64-bit data format (CDF-5, which NetCDF 4.4 and PnetCDF read): what
-// arrays follow it, each behind the other, without records (The NetCDF classic format
-// specification, docs.unidata.ucar.edu/netcdf-c). Numbers are big-endian.
+// Headers of NetCDF files in 64-bit data format (CDF-5, which NetCDF 4.4 and PnetCDF read), without
+// record variables (The NetCDF classic format specification, docs.unidata.ucar.edu/netcdf-c). The
+// arrays of the variables follow the header without gaps, in big-endian byte order.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct NetcdfAttribute {
 struct NetcdfVariable {
   std::string name;
   NumberType type;                      // int32, real or real32
-  std::vector<std::size_t> dimensions;  // their places in the list of all
+  std::vector<std::size_t> dimensions;  // indices in the list of dimensions
   std::vector<NetcdfAttribute> attributes;
 };
 
@@ -36,9 +36,10 @@ struct NetcdfContents {
   std::vector<NetcdfVariable> variables;
 };
 
+// Returns the header.
 std::string netcdf_head(const NetcdfContents& contents);
 
-// Turns them over where the processor is little-endian.
+// Reverse the bytes of each value on a little-endian processor.
 void make_big_endian(std::vector<std::int32_t>& values);
 void make_big_endian(std::vector<double>& values);
 void make_big_endian(std::vector<float>& values);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangle's and TetGen's .node format, "nodes dimension attributes markers", then "number x y
-// marker" or "number x y z marker"; their .ele format, "elements corners attributes", then "number
-// corner corner ...", and the region where any has a tag; and TetGen's .face format, "faces
-// markers", then "number corner corner corner marker". From 1.
+// Writers of Triangle's and TetGen's formats: .node ("nodes dimension attributes markers", then
+// "number x y marker" or "number x y z marker"), .ele ("elements corners attributes", then "number
+// corner corner ..." and the region if any has a tag) and TetGen's .face ("faces markers", then
+// "number corner corner corner marker"). Numbers start at 1.
 #include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the writers write: nodes, elements and the facets of boundary and inner surfaces, a window
-// at a time, so that writing takes hardly any memory beside the nodes themselves. Elements are
-// triangles in the plane and tetrahedra in space; facets are edges, and triangles.
+// The interface between results and writers. A source delivers nodes, elements, and facets of
+// boundary and inner surfaces one window at a time, so that writing needs little memory. Elements
+// are triangles in the plane and tetrahedra in space; facets are edges and triangles.
 #pragma once
 
 #include <array>
@@ -15,22 +15,22 @@
 
 namespace pnpbs::io {
 
-// What the cells of a grid are. Those of one file are all of one kind, since many programs read no
-// others.
+// The kind of the cells of a grid. A file has cells of one kind only, since many programs do not
+// read mixed ones.
 enum class Cells { nodes, elements, facets };
 
-// What all ranks hold together. Nodes, elements and facets are numbered through, from 0.
+// Properties of all nodes, elements and facets together. Their numbers start at 0.
 struct Contents {
-  int dimension = 2;           // of elements
-  int coordinates = 2;         // of nodes: 3 on a sphere, too
-  bool is_piece = false;       // one of many, which stands for itself and knows ghosts
-  bool with_elements = false;  // and facets?
-  Cells cells = Cells::nodes;  // of surfaces alone, which have no elements, the facets
-  bool with_regions = false;   // have elements tags, of the regions that they lie in?
-  bool is_beside = false;      // a grid of the facets beside that of the elements
+  int dimension = 2;           // dimension of the elements
+  int coordinates = 2;         // number of coordinates of the nodes; 3 on a sphere, too
+  bool is_piece = false;       // one of several pieces, which is numbered by itself and has ghosts
+  bool with_elements = false;  // with elements and facets
+  Cells cells = Cells::nodes;  // facets for surface meshes, which have no elements
+  bool with_regions = false;   // elements have tags of regions
+  bool is_beside = false;      // a grid of the facets that belongs to a grid of the elements
   std::int64_t nodes = 0, elements = 0, facets = 0;
-  const GroupNames* names = nullptr;                 // of tags; none of pieces
-  const std::vector<OutputField>* fields = nullptr;  // none: no field of the caller's
+  const GroupNames* names = nullptr;                 // names of tags; nullptr for pieces
+  const std::vector<OutputField>* fields = nullptr;  // nullptr: no output fields
 
   std::size_t field_count() const { return fields ? fields->size() : 0; }
 
@@ -44,76 +44,80 @@ struct Contents {
   int facet_corners() const { return dimension; }
 };
 
+// Nodes of a window.
 struct NodeRows {
-  std::int64_t first = 0;             // number of the first one here
-  std::vector<double> x;              // [nodes][coordinates]
-  std::vector<std::int64_t> ids;      // [nodes]
-  std::vector<std::int32_t> tags;     // [nodes], 0: inner node
-  std::vector<std::int32_t> regions;  // [nodes], where they lie; with_regions only, not of pieces
-  std::vector<double> spacing;        // [nodes], d at the node
-  std::vector<std::uint8_t> ghosts;   // [nodes], 1: another rank's; pieces only
+  std::int64_t first = 0;          // number of the first node
+  std::vector<double> x;           // [nodes][coordinates]
+  std::vector<std::int64_t> ids;   // [nodes]
+  std::vector<std::int32_t> tags;  // [nodes], 0: inner node
+  // [nodes], tag of the region; only if with_regions, not for pieces
+  std::vector<std::int32_t> regions;
+  std::vector<double> spacing;       // [nodes], d at the node
+  std::vector<std::uint8_t> ghosts;  // [nodes], 1 for ghosts; for pieces only
 };
 
-// Of one field of the caller's.
+// Values of an output field in a window.
 struct FieldRows {
   std::int64_t first = 0;
   std::vector<double> values;  // [nodes][components]
 };
 
+// Elements of a window.
 struct ElementRows {
   std::int64_t first = 0;
-  std::vector<std::int64_t> corners;  // [elements][dimension + 1], numbers
-  std::vector<float> quality;         // [elements], 2 r_in / R, in space 3 r_in / R
-  std::vector<std::int32_t> regions;  // [elements], 0: without a tag; with_regions only
+  std::vector<std::int64_t> corners;  // [elements][dimension + 1], numbers of nodes
+  std::vector<float> quality;  // [elements], 2 r_in / R of triangles, 3 r_in / R of tetrahedra
+  std::vector<std::int32_t> regions;  // [elements], 0: no tag; only if with_regions
 };
 
-// Of an edge, from its first corner to its second. both: it is on an inner curve.
+// Side of an edge, seen from its first corner to its second. both: the edge is on an inner curve.
 enum class Side : std::uint8_t { left, right, both };
 
-struct FacetRows {  // on inner curves and surfaces, too
+// Facets of a window, including those on inner curves and surfaces.
+struct FacetRows {
   std::int64_t first = 0;
-  std::vector<std::int64_t> corners;  // [facets][dimension], numbers
+  std::vector<std::int64_t> corners;  // [facets][dimension], numbers of nodes
   std::vector<std::int32_t> tags;     // [facets]
   std::vector<float> quality;         // [facets], 2 r_in / R; in space only
-  std::vector<Side> domain;           // [facets], where it is; in the plane only, not of pieces
+  std::vector<Side> domain;  // [facets], side of the domain; in the plane only, not for pieces
 };
 
-// All nodes, all facets, or all elements of regions, with one tag.
+// All nodes, facets or elements with one tag.
 struct TagGroup {
   std::int32_t tag;
   std::int64_t count = 0;
-  std::array<double, 3> low, high;  // the box around them; z is 0 in the plane
+  std::array<double, 3> low, high;  // bounding box; z is 0 in the plane
 };
 
+// A source of nodes, elements and facets for writers.
 class NodeSource {
  public:
   virtual ~NodeSource() = default;
 
   const Contents& contents() const { return contents_; }
 
-  // Each call goes through all of them once: visit gets this rank's part of one window after the
-  // other, empty ones included, and may do collective work. The parts of a window are in the order
-  // of the ranks. Collective.
+  // Each function iterates over all rows once. It calls visit() with this rank's part of each
+  // window, even if the part is empty. The parts of a window are in the order of the ranks. visit()
+  // may communicate. Collective.
   virtual void for_nodes(const std::function<void(const NodeRows&)>& visit) const = 0;
   virtual void for_field(std::size_t field,
                          const std::function<void(const FieldRows&)>& visit) const = 0;
   virtual void for_elements(const std::function<void(const ElementRows&)>& visit) const = 0;
   virtual void for_facets(const std::function<void(const FacetRows&)>& visit) const = 0;
 
-  // By tag, of all ranks; none of pieces. Collective.
+  // Return the groups of all ranks, sorted by tag; none for pieces. Collective.
   virtual std::vector<TagGroup> node_groups() const { return {}; }
   virtual std::vector<TagGroup> facet_groups() const { return {}; }
-  virtual std::vector<TagGroup> region_groups() const { return {}; }  // with_regions only
+  virtual std::vector<TagGroup> region_groups() const { return {}; }  // only if with_regions
 
  protected:
   Contents contents_;
 };
 
-// The facets of another source, for a grid beside that of its elements; their corners are numbered
-// as there.
+// The facets of another source as a grid of their own. Nodes keep their numbers.
 class FacetsBeside : public NodeSource {
  public:
-  // That outlives this.
+  // `of` must outlive this object.
   explicit FacetsBeside(const NodeSource& of) : of_(of) {
     contents_ = of.contents();
     contents_.cells = Cells::facets;

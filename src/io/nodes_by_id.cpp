@@ -14,30 +14,32 @@ namespace pnpbs::io {
 
 namespace {
 
+// A node, as ranks exchange it.
 template <int Dim>
 struct NodeRow {
   std::int64_t id;
-  Point<3> x;  // of which `coordinates` count
+  Point<3> x;  // the first `coordinates` of them are valid
   double d;
   std::int32_t tag, region;
 };
 
+// A component of a field at a node.
 struct FieldValue {
   std::int64_t id, component;
   double value;
 };
 
-// Nodes by their labels: see NodesById::label.
+// An element. Its nodes are given by labels, see NodesById::label().
 template <int Dim>
 struct ElementRow {
-  std::array<std::int64_t, Dim + 1> corners;  // the least first
+  std::array<std::int64_t, Dim + 1> corners;  // smallest label first
   float quality;
   std::int32_t region;
 };
 
 template <int Dim>
 struct FacetRow {
-  std::array<std::int64_t, Dim> corners;  // in space the least first
+  std::array<std::int64_t, Dim> corners;  // smallest label first in space
   std::int32_t tag;
   float quality;
   Side domain;  // in the plane only
@@ -131,7 +133,7 @@ NodesById<Dim>::NodesById(Results<Dim>& results, bool elements,
 
 // ------------------------------------------------------------------ windows --------------------
 
-// The place of this rank's first node in this part or in one behind it.
+// Returns the index of this rank's first node in this part or a later one.
 template <int Dim>
 std::int64_t NodesById<Dim>::first_place_in(std::size_t part) const {
   if (!blocks_) return std::min(static_cast<std::int64_t>(part) * kWindow, owned_);
@@ -152,7 +154,7 @@ void NodesById<Dim>::for_windows(const Visit& visit) const {
                  static_cast<std::int64_t>(part + rank) * kWindow});
 }
 
-// Brings each row to the rank that has its first node in its part of the window.
+// Sends each row to the rank whose part of the window contains its first node. Collective.
 template <int Dim>
 template <class Row, class Label>
 std::vector<Row> NodesById<Dim>::brought(std::vector<Row> rows, const Label& first_label) const {
@@ -220,7 +222,7 @@ void NodesById<Dim>::for_field(std::size_t field,
   });
 }
 
-// Labels become numbers, and the rows get theirs, behind those of the windows before.
+// Replaces labels by numbers, and numbers the rows after those of earlier windows. Collective.
 template <int Dim>
 template <class Rows>
 void NodesById<Dim>::number_rows(Rows& rows, std::size_t count, std::int64_t& before) const {
@@ -258,7 +260,7 @@ void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& vis
     visit(rows);
   };
   if constexpr (Dim == 2) {
-    // All at once: the boundary is in every rank's memory anyway.
+    // All edges are one window, since every rank has the whole boundary in memory.
     results_.for_boundary_edges([&](const auto& places, const BoundaryEdge& edge) {
       own.push_back({labels(places), edge.tag, 0, side_of_domain(edge)});
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All nodes of a placement in the order of their ids, elements and facets of the boundary in the
-// order of their corners: the same whole for any number of ranks.
+// All nodes of a placement in the order of their ids, with elements and facets in the order of
+// their corners. The result does not depend on the number of ranks.
 #pragma once
 
 #include <array>
@@ -13,10 +13,11 @@
 
 namespace pnpbs::io {
 
+// The source for all files that are not in pieces.
 template <int Dim>
 class NodesById : public NodeSource {
  public:
-  // Collective.
+  // Prepares the results; `fields` must outlive this object. Collective.
   NodesById(Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
 
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
@@ -29,9 +30,9 @@ class NodesById : public NodeSource {
   std::vector<TagGroup> region_groups() const override;
 
  private:
-  // Each rank has one part of it, of kWindow nodes.
+  // A window, of which each rank has one part with kWindow nodes.
   struct Window {
-    std::int64_t begin, end;  // places of this rank's nodes that are in it
+    std::int64_t begin, end;  // indices in the results of this rank's nodes in the window
     std::int64_t first;       // number of the first node of this rank's part
   };
   template <class Visit>
@@ -48,12 +49,12 @@ class NodesById : public NodeSource {
 
   const Results<Dim>& results_;
   const Communicator& comm_;
-  std::int64_t owned_ = 0;                                // nodes of this rank
-  mutable std::optional<ElementRegions<Dim>> region_of_;  // with_regions only
-  // More ranks than one know nodes of others by their ids; one alone by their places, which are
-  // the numbers.
+  std::int64_t owned_ = 0;                                // number of owned nodes
+  mutable std::optional<ElementRegions<Dim>> region_of_;  // set if with_regions
+  // With several ranks, the label of a node is its id. A single rank uses indices, which are the
+  // numbers already.
   std::optional<IdBlocks> blocks_;
-  std::vector<std::int64_t> bounds_;  // ids that parts of windows begin with
+  std::vector<std::int64_t> bounds_;  // first id of each part of a window
 };
 
 extern template class NodesById<2>;

@@ -25,7 +25,7 @@ constexpr std::size_t size_of(NumberType type) {
   return 0;
 }
 
-// The one of a C++ type.
+// Returns the type for a C++ type.
 template <typename Value>
 constexpr NumberType number_type() {
   if constexpr (std::is_same_v<Value, double>) return NumberType::real;

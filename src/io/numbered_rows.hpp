@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows that mesh formats have for nodes, "number x y ...", and the corners that follow the
-// number of an element: all numbered from 1.
+// Rows of mesh formats that are numbered from 1: nodes "number x y ...", and the corners of
+// elements.
 #pragma once
 
 #include <string_view>
@@ -12,7 +12,8 @@
 
 namespace pnpbs::io {
 
-// rest(rows, i, sink) writes what follows the coordinates of a node, and ends the line.
+// Appends all nodes. rest(rows, i, sink) writes what follows the coordinates and ends the line.
+// Collective.
 template <class Rest>
 void append_numbered_points(const NodeSource& nodes, SharedFile& file, const Rest& rest) {
   const auto coordinates = static_cast<std::size_t>(nodes.contents().coordinates);
@@ -31,7 +32,7 @@ void append_numbered_points(const NodeSource& nodes, SharedFile& file, const Res
   });
 }
 
-// Those of row i, each after a space.
+// Writes the corners of row i, each after a space.
 inline void write_corners(const std::vector<std::int64_t>& corners, std::size_t i, int each,
                           Sink& sink) {
   const auto n = static_cast<std::size_t>(each);
@@ -41,12 +42,12 @@ inline void write_corners(const std::vector<std::int64_t>& corners, std::size_t 
   }
 }
 
-// Name of a field with one component: how far down the bottom is.
+// Name of the output field with the depth of the bottom, which has one component.
 inline constexpr std::string_view kDepthField = "depth";
 
-// Calls write(number, place, depth, sink) for each node, numbered from 1, with what models of seas
-// and rivers read: x and y in the plane, longitude and latitude in degrees on a sphere. Without the
-// field the depth is 0. Collective.
+// Calls write(number, position, depth, sink) for each node, with numbers from 1. The position is x
+// and y in the plane, and longitude and latitude in degrees on a sphere, as models of seas and
+// rivers read it. Without the field the depth is 0. Collective.
 template <class Write>
 void append_map_places(const NodeSource& nodes, SharedFile& file, const Write& write) {
   const Contents& all = nodes.contents();
@@ -54,7 +55,7 @@ void append_map_places(const NodeSource& nodes, SharedFile& file, const Write& w
   std::vector<double> depths;
   if (all.fields && has_particle_field(*all.fields, kDepthField))
     depths = particle_values(nodes, kDepthField);
-  std::size_t before = 0;  // nodes of windows that have been
+  std::size_t before = 0;  // nodes of earlier windows
   nodes.for_nodes([&](const NodeRows& rows) {
     file.append([&](Sink& sink) {
       std::int64_t number = rows.first;

@@ -14,7 +14,8 @@ namespace pnpbs::io {
 namespace {
 
 constexpr std::size_t kLongestFieldName = 63;
-constexpr std::int64_t kMaxComponents = 9;  // of a tensor in space: Gmsh's largest, too
+// Components of a tensor in space, which is also the largest in Gmsh.
+constexpr std::int64_t kMaxComponents = 9;
 
 [[noreturn]] void refuse_field(const std::string& what) { throw Error(ErrorKind::argument, what); }
 
@@ -23,7 +24,8 @@ bool is_allowed(char c) {
          c == '-';
 }
 
-// What means the same in XML, in paths of HDF5 and in quotation marks.
+// Throws unless the name is valid in XML, in HDF5 paths and in quotation marks, and is not used by
+// the library.
 void require_name(const std::string& name) {
   if (name.empty() || name.size() > kLongestFieldName || !std::ranges::all_of(name, is_allowed))
     refuse_field("argument name = \"" + name + "\"; an output field has a name of 1 to " +
@@ -35,7 +37,7 @@ void require_name(const std::string& name) {
                  "another");
 }
 
-// Of ids and coordinates of this rank's nodes, in their order.
+// Returns a hash of the ids and positions of this rank's nodes, in their order.
 std::uint64_t hash_of_nodes(NodalResults& results) {
   results.prepare_order();
   const NodeColumns nodes = results.nodes();

@@ -26,14 +26,15 @@
 namespace pnpbs::io {
 namespace {
 
-// Files that a killed process has left unfinished. They are removed when the file is written next.
+// Output files, and the cleanup of unfinished files that a killed process has left. They are
+// removed when the file is written again.
 
 std::uint64_t hash_of(std::string_view text, std::uint64_t hash = 0) {
   for (const char letter : text) hash = mixed(hash ^ static_cast<unsigned char>(letter));
   return mixed(hash ^ text.size());
 }
 
-// Where numbers of processes mean the same: this machine, since it was started, and this container.
+// Returns a hash of the machine, its boot and the container, in which process ids are unique.
 std::uint64_t process_space() {
   char host[256] = "";
   ::gethostname(host, sizeof host - 1);
@@ -44,13 +45,13 @@ std::uint64_t process_space() {
   return hash_of(container, hash_of(start, hash_of(host)));
 }
 
-// What names for this target begin with; behind it come process and a number at random.
+// Returns the prefix of temporary names for this target. The process id and a random number follow.
 std::string prefix_of(const std::filesystem::path& target) {
   static const std::uint64_t space = process_space();
   return ".pnpbs-" + std::to_string(hash_of(target.filename().string(), space)) + "-";
 }
 
-// A number that nobody has is one of a process that has ended.
+// Returns whether the process in the name has ended, i.e. no process has this id.
 bool has_ended(std::string_view rest_of_name) {
   pid_t process = 0;
   const char* const end = rest_of_name.data() + rest_of_name.size();
@@ -59,8 +60,8 @@ bool has_ended(std::string_view rest_of_name) {
   return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-// A name in the folder of `target` for a file that this process writes and nobody has: it tells
-// target, machine and process.
+// Returns an unused name in the folder of `target`. It identifies the target, the machine and this
+// process.
 std::string unfinished_name_beside(const std::string& target) {
   static std::random_device random;
   const std::filesystem::path path(target);
@@ -69,9 +70,9 @@ std::string unfinished_name_beside(const std::string& target) {
       .string();
 }
 
-// Removes the files of such names for this target whose processes have ended, on this machine since
-// it was started. Others stay: nobody here can tell whether they are still written.
-// By calls of the system: the iterators of std::filesystem end the process where memory is lacking.
+// Removes the temporary files for this target whose processes have ended on this machine since its
+// boot. Other files stay, because their processes may still be running elsewhere.
+// Uses system calls, since the iterators of std::filesystem abort if memory is exhausted.
 void remove_abandoned_beside(const std::string& target) noexcept {
   DIR* folder = nullptr;
   try {
@@ -86,7 +87,7 @@ void remove_abandoned_beside(const std::string& target) noexcept {
         ::unlinkat(::dirfd(folder), entry->d_name, 0);
     }
   } catch (...) {
-    // They may stay; the new file counts.
+    // The files may stay; writing the new file is more important.
   }
   if (folder) ::closedir(folder);
 }
@@ -95,7 +96,8 @@ void remove_abandoned_beside(const std::string& target) noexcept {
   throw Error(ErrorKind::file, "cannot write " + what + ": " + std::strerror(error));
 }
 
-// Renaming onto a symbolic link would replace the link: find the file it means, there or not yet.
+// Returns the file to which symbolic links lead, existing or not. Renaming onto a link would
+// replace the link.
 std::string behind_links(const std::string& path) {
   constexpr int kMaxLinks = 40;
   std::error_code error;
@@ -107,7 +109,8 @@ std::string behind_links(const std::string& path) {
   return std::filesystem::is_symlink(target, error) ? path : target.string();
 }
 
-// For what may be the only copy of a file: nobody removes it but who has made it.
+// Returns a name for the old file, which may be the only copy. The cleanup does not remove files of
+// such names.
 std::string name_for_old_beside(const std::string& target) {
   static std::random_device random;
   const std::filesystem::path folder = std::filesystem::path(target).parent_path();
@@ -116,7 +119,7 @@ std::string name_for_old_beside(const std::string& target) {
   return (folder / name).string();
 }
 
-// A file that is replaced keeps its permissions.
+// Copies the permissions of a file that will be replaced.
 void copy_permissions(const std::string& from, int to) {
   struct stat status;
   if (::stat(from.c_str(), &status) == 0) ::fchmod(to, status.st_mode & 07777);
@@ -154,14 +157,14 @@ void OutputFile::check() const {
 }
 
 int OutputFile::open_aside(std::unique_ptr<Temporary>& temporary) const {
-  // Listed before it is created, so that no signal finds it unlisted.
+  // The name is registered before the file is created, so that a signal always finds it.
   temporary = std::make_unique<Temporary>(unfinished_name_beside(target_));
   const int descriptor = ::open(temporary->path(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
-    temporary->keep();  // it is not ours
+    temporary->keep();  // the file belongs to another process
     fail(quoted(), errno);
   }
-  if (temporary->removed()) {  // before it was there
+  if (temporary->removed()) {  // a signal came before it was created
     ::close(descriptor);
     ::unlink(temporary->path());
     fail(quoted(), EINTR);
@@ -200,20 +203,20 @@ void OutputFile::write(const std::function<void(Sink&)>& writer,
   close(descriptor);
 }
 
-// ------------------------------------------------------------------ giving names ---------------
+// ------------------------------------------------------------------ publishing -----------------
 
 void OutputFile::seal() {
   if (temporary_ && !temporary_->seal()) fail(quoted(), EINTR);
 }
 
-// By a second link, so that its name never stands for nothing; where the file system has no links,
-// by another name.
+// Renames the old file by a second link, so that its name always refers to a file. On file systems
+// without links it is renamed.
 void OutputFile::set_old_aside() {
   const std::string aside = name_for_old_beside(target_);
   old_is_linked_ = ::link(target_.c_str(), aside.c_str()) == 0;
   if (!old_is_linked_ && std::rename(target_.c_str(), aside.c_str()) != 0) {
     if (errno != ENOENT) fail(quoted(), errno);
-    return;  // there was none
+    return;  // there was no old file
   }
   old_ = aside;
 }

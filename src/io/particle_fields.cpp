@@ -33,7 +33,8 @@ std::vector<double> particle_values(const NodeSource& nodes, std::string_view na
 
 namespace {
 
-// No program takes an empty box.
+// Returns the side of a square or cube of this volume, or 1 if it is 0, since no program accepts an
+// empty box.
 double size_of_particle(double volume, int dimension) {
   if (!(volume > 0)) return 1;
   return dimension == 2 ? std::sqrt(volume) : std::cbrt(volume);
@@ -41,7 +42,7 @@ double size_of_particle(double volume, int dimension) {
 
 }  // namespace
 
-// All of it by largest and least values alone, which no order changes.
+// Uses minima and maxima only, so that the result does not depend on the order of ranks.
 ParticleExtent extent_of_particles(const NodeSource& nodes, const std::vector<double>& volumes,
                                    const Communicator& comm) {
   double largest = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of Peridigm's TextFileDiscretization: "x y z block volume", a particle of a body a line.
+// Writer for Peridigm's TextFileDiscretization: "x y z block volume", one line for each particle of
+// a body.
 #include "io/formats.hpp"
 #include "io/particle_fields.hpp"
 
@@ -7,8 +8,8 @@ namespace pnpbs::io {
 
 void write_peridigm(const NodeSource& nodes, SharedFile& file) {
   const std::vector<double> volumes = particle_values(nodes, kVolumeField);
-  largest_block(nodes, "peridigm");  // refuses tags below 1
-  std::size_t before = 0;            // nodes of windows that have been
+  largest_block(nodes, "peridigm");  // throws for negative tags
+  std::size_t before = 0;            // nodes of earlier windows
   file.append_text("# x y z block volume\n");
   nodes.for_nodes([&](const NodeRows& rows) {
     file.append([&](Sink& sink) {

@@ -13,9 +13,9 @@ float as_written(double quality) {
   return std::isfinite(quality) ? static_cast<float>(quality) : 0.0F;
 }
 
-// Of a triangle with these sides.
+// Returns the quality of a triangle from its side lengths and twice its area.
 float quality_of(double a, double b, double c, double twice_area) {
-  // In ratios, so that no product leaves the range of doubles.
+  // Uses ratios, so that no product overflows.
   const double height = twice_area / a;
   return as_written(4 * (height / b) * (height / c) * (a / (a + b + c)));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps that all sources of nodes have in common.
+// Helper functions that all node sources share.
 #pragma once
 
 #include <array>
@@ -9,18 +9,18 @@
 
 namespace pnpbs::io {
 
-// Nodes of one rank in a window: large enough that a window's messages and writes are, small
-// against the nodes of any rank that has many.
+// Number of nodes of one rank in a window. It is large enough for efficient messages and writes,
+// and small compared with the nodes of a rank.
 constexpr std::int64_t kWindow = 8192;
 
-// Of a triangle 2 r_in / R, of a tetrahedron 3 r_in / R: 1 for an equilateral one, 0 for a flat
-// one.
-inline float quality_of(const std::array<Point<2>, 2>&) { return 0; }  // edges have none
+// Returns the quality, 2 r_in / R of a triangle and 3 r_in / R of a tetrahedron. It is 1 for
+// regular and 0 for flat ones.
+inline float quality_of(const std::array<Point<2>, 2>&) { return 0; }  // edges have no quality
 float quality_of(const std::array<Point<2>, 3>& triangle);
 float quality_of(const std::array<Point<3>, 3>& triangle);
 float quality_of(const std::array<Point<3>, 4>& tetrahedron);
 
-// Where the nodes at these places are.
+// Returns the positions of nodes by their indices in the results, in the coordinates of the level.
 template <int Dim, std::size_t n>
 std::array<Point<Dim>, n> positions_at(const Results<Dim>& results,
                                        const std::array<std::int64_t, n>& places) {
@@ -30,7 +30,7 @@ std::array<Point<Dim>, n> positions_at(const Results<Dim>& results,
   return x;
 }
 
-// As they are handed out.
+// Returns the positions in the coordinates of the user, with three components.
 template <int Dim, std::size_t n>
 std::array<Point<3>, n> places_in_space(const Results<Dim>& results,
                                         const std::array<std::int64_t, n>& places) {
@@ -39,14 +39,14 @@ std::array<Point<3>, n> places_in_space(const Results<Dim>& results,
   return x;
 }
 
-// Of an element, see ElementRows.
+// Returns the quality of an element, see ElementRows.
 template <int Dim, std::size_t n>
 float element_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {
   if (results.embedding().is_sphere()) return quality_of(places_in_space(results, places));
   return quality_of(positions_at(results, places));
 }
 
-// Of a facet: see FacetRows.
+// Returns the quality of a facet, see FacetRows.
 template <int Dim, std::size_t n>
 float facet_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {
   return quality_of(positions_at(results, places));
@@ -58,7 +58,7 @@ Cells cells_of(const Results<Dim>& results, bool elements) {
   return results.kind() == GeometryKind::surface ? Cells::facets : Cells::elements;
 }
 
-// Makes ready what for_elements and for_facets need, or only the order. Collective.
+// Prepares the stars if `elements`, else only the order of the nodes. Collective.
 void prepare(NodalResults& results, bool elements);
 
 }  // namespace pnpbs::io

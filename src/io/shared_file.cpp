@@ -32,7 +32,7 @@ void SharedFile::create() {
   });
 }
 
-// Rank 0 tells the others where the file is; nowhere: it is a stream.
+// Opens the file on all ranks, if it is not a stream. Rank 0 sends its name. Collective.
 void SharedFile::open() {
   opened_ = true;
   Bytes aside;
@@ -82,7 +82,8 @@ void SharedFile::append_text(std::string_view text) {
   });
 }
 
-// One rank alone knows its place, and drains its sink when that is full.
+// Appends to a regular file. Several ranks measure their bytes first to find their offsets. A
+// single rank writes at once.
 void SharedFile::append_at_places(const std::function<void(Sink&)>& write) {
   if (comm_->size() == 1) return write(places_);
   std::int64_t size = 0;
@@ -106,8 +107,8 @@ void SharedFile::write_at_place(std::span<const char> bytes) {
   place_ += std::ssize(bytes);
 }
 
-// The bytes of the ranks go to rank 0 part by part, one rank after the other. All ranks take part
-// in each step, so that all of them learn of a failure.
+// Appends to a stream. The ranks send their bytes to rank 0 in parts, one rank after the other. All
+// ranks take part in each step, so that all of them notice a failure.
 void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
   collective_try(*comm_, [&] {
     Sink stream(to_descriptor(stream_, output_.quoted(), before_write_));
@@ -129,7 +130,7 @@ void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
   });
 }
 
-// Brings a part of one rank to the stream of rank 0, and returns whether there was one. Collective.
+// Sends a part of one rank to the stream of rank 0. Returns false if no rank has bytes. Collective.
 bool SharedFile::pass_to_first(std::span<const char> bytes, Sink& stream) {
   if (comm_->allreduce_sum(static_cast<std::uint64_t>(bytes.size())) == 0) return false;
   std::vector<Message> part;

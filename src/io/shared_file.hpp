@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file that all ranks write together, one part behind the other, none of them holding it all.
-// It appears under its name only when it is complete.
+// Files that all ranks write together, one rank's part after the other, without collecting them on
+// one rank. A file appears under its name only when complete.
 #pragma once
 
 #include <functional>
@@ -13,33 +13,32 @@
 
 namespace pnpbs::io {
 
-// All members are collective; what fails on one rank is thrown on all of them, and then nothing is
-// left of the file.
+// A shared output file. All members are collective unless marked; if one rank throws, all ranks
+// throw, and the file is removed.
 class SharedFile {
  public:
-  // path "-" is standard output of rank 0. before_write: see to_descriptor.
+  // Path "-" is standard output of rank 0. `before_write`: see to_descriptor().
   SharedFile(std::shared_ptr<const Communicator> comm, const std::string& path,
              std::function<void()> before_write);
   ~SharedFile();
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;
 
-  // Has rank 0 make the file, which is empty, as it is to be before anything is appended, and
-  // return what the others shall know of it. Not for streams and devices.
+  // Calls work(file) on rank 0, which writes the initial contents of the file, and returns its
+  // result on all ranks. Throws for streams and devices.
   std::vector<std::int64_t> make(
       const std::function<std::vector<std::int64_t>(const OutputFile&)>& work);
-  // What is appended next goes here, in a file that has been made.
+  // Sets the offset of the next append() in a file whose contents make() has written. [bytes]
   void go_to(std::int64_t place);
 
-  // Every rank's bytes, those of rank 0 first. write fills its sink; it may be called twice, to
+  // Appends the bytes of all ranks in the order of the ranks. write(sink) may be called twice, to
   // measure and to write, and must not communicate.
   void append(const std::function<void(Sink&)>& write);
-  // This text once.
+  // Appends the text once.
   void append_text(std::string_view text);
   void close();
 
-  // The file itself, on the rank that has made it and gives it its name; nullptr on the others.
-  // Local.
+  // Returns the file on rank 0, which publishes it, and nullptr on other ranks. Local.
   OutputFile* own() { return is_first() ? &output_ : nullptr; }
 
   const std::string& path() const { return output_.path(); }
@@ -47,7 +46,8 @@ class SharedFile {
   bool is_first() const { return comm_->rank() == 0; }
 
  private:
-  static constexpr std::size_t kPartSize = std::size_t{1} << 20;  // bytes written or sent at a time
+  // Size of a write or message. [bytes]
+  static constexpr std::size_t kPartSize = std::size_t{1} << 20;
 
   void create();
   void open();
@@ -58,14 +58,14 @@ class SharedFile {
 
   std::shared_ptr<const Communicator> comm_;
   std::function<void()> before_write_;
-  OutputFile output_;  // rank 0's
-  // A regular file is written by all ranks at once, each at its place; what is none, such as a
-  // pipe, by rank 0, to which the others send their bytes in turn.
+  OutputFile output_;  // used on rank 0
+  // Set for a regular file, which all ranks write at their offsets. Other files, such as pipes, are
+  // written by rank 0, and the other ranks send their bytes to it.
   std::unique_ptr<SharedWriter> file_;
   bool opened_ = false;
-  int stream_ = -1;         // rank 0's
-  std::int64_t end_ = 0;    // of what all ranks have appended
-  std::int64_t place_ = 0;  // of this rank's next byte
+  int stream_ = -1;         // file descriptor on rank 0, -1: none
+  std::int64_t end_ = 0;    // end of the bytes of all ranks
+  std::int64_t place_ = 0;  // offset of this rank's next byte
   Sink places_{[this](std::span<const char> bytes) { write_at_place(bytes); }, kPartSize};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where writers put their bytes: a buffer that is drained when it is full.
+// A buffer for the bytes of writers, which is drained when full.
 #pragma once
 
 #include <charconv>
@@ -13,6 +13,7 @@
 
 namespace pnpbs::io {
 
+// A buffered output. The owner must call flush() at the end.
 class Sink {
  public:
   using Drain = std::function<void(std::span<const char>)>;
@@ -22,7 +23,7 @@ class Sink {
 
   void bytes(const void* data, std::size_t size);
   void text(std::string_view characters) { bytes(characters.data(), characters.size()); }
-  // Shortest text that reads back as the same number, in every locale.
+  // Writes the shortest text that is read back as the same number, in any locale.
   template <typename Number>
   requires std::integral<Number> || std::floating_point<Number>
   void number(Number value) {
@@ -45,8 +46,8 @@ class Sink {
   std::size_t used_ = 0;
 };
 
-// Writes to an open file. name: for messages. before_write: called before every write, may be
-// empty, may throw to give up.
+// Returns a drain that writes to an open file. `name` is its name in messages. `before_write` is
+// called before every write; it may be empty, and may throw to cancel.
 Sink::Drain to_descriptor(int descriptor, std::string name, std::function<void()> before_write);
 
 }  // namespace pnpbs::io

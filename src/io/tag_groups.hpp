@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts of what has each tag, and the boxes around it.
+// Counts and bounding boxes of nodes, facets or elements by tag.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace pnpbs::io {
 
-// Of this rank, then of all.
+// The groups of a rank by tag, and their sum over all ranks.
 class TagGroups {
  public:
   void add(std::int32_t tag, std::span<const Point<3>> corners) {
@@ -29,7 +29,7 @@ class TagGroups {
       }
   }
 
-  // Collective.
+  // Returns the groups of all ranks, sorted by tag. Collective.
   std::vector<TagGroup> of_all(const Communicator& comm) const {
     Bytes mine;
     for (const auto& [tag, group] : groups_) pack(mine, group);

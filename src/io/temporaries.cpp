@@ -7,12 +7,13 @@
 
 namespace pnpbs::io {
 
-// Entries are never freed: a signal may come while the list is being walked or changed. Those that
-// no object has any more are taken again, but not if the walk has touched them.
+// An entry of the list. Entries are never freed, because a signal may arrive while the list is read
+// or changed. Entries of destroyed objects are reused, unless the signal handler has removed their
+// files.
 struct Temporary::Entry {
   std::string path;
   std::atomic<bool> taken{true};
-  std::atomic<bool> live{false};  // only then is the path read
+  std::atomic<bool> live{false};  // `path` is read only if this is set
   Entry* next = nullptr;
   static std::atomic<Entry*> first;
 };
@@ -37,7 +38,7 @@ Temporary::Temporary(const std::string& path) : entry_(free_entry()) {
 
 Temporary::~Temporary() {
   seal();
-  if (state_ == State::open) return;  // removed by the walk
+  if (state_ == State::open) return;  // remove_temporaries() has removed it
   if (state_ == State::sealed) ::unlink(path());
   entry_->taken = false;
 }

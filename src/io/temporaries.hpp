@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that must not outlive the process unless they are published: a list that a signal
-// handler can walk.
+// Temporary files that are removed when the process ends, unless published. Their list can be read
+// by a signal handler.
 #pragma once
 
 #include <string>
 
 namespace pnpbs::io {
 
-// The name of a file that is removed when this object, or the process, ends.
+// The name of a file that is removed with this object, or by a signal handler.
 class Temporary {
  public:
   explicit Temporary(const std::string& path);
@@ -16,10 +16,10 @@ class Temporary {
   Temporary& operator=(const Temporary&) = delete;
 
   const char* path() const;
-  // From here on remove_temporaries leaves it alone. False if that has removed it already.
+  // Protects the file from remove_temporaries(). Returns false if that has removed it already.
   bool seal();
-  void keep();           // it has its final name now
-  bool removed() const;  // by remove_temporaries
+  void keep();           // the file has its final name and stays
+  bool removed() const;  // true if remove_temporaries() has removed it
 
  private:
   struct Entry;
@@ -31,7 +31,7 @@ class Temporary {
   friend void remove_temporaries();
 };
 
-// Removes every file still on the list, but those sealed. Async-signal-safe.
+// Removes all files on the list that are not sealed. Async-signal-safe.
 void remove_temporaries();
 
 }  // namespace pnpbs::io

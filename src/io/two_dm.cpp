@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 2DM file of Aquaveo's SMS (https://www.xmswiki.com/wiki/SMS:2D_Mesh_Files_*.2dm), a card a
-// line: triangles "E3T number corner corner corner material", nodes "ND number x y z", and node
-// strings "NS node node ... -node number", of the boundary, each of one tag. Numbers from 1.
+// Writer of the 2DM format of Aquaveo's SMS (https://www.xmswiki.com/wiki/SMS:2D_Mesh_Files_*.2dm),
+// one card per line: triangles "E3T number corner corner corner material", nodes "ND number x y z",
+// and node strings "NS node node ... -node number" of the boundary, one tag each. Numbers start at
+// 1.
 #include "base/error.hpp"
 #include "io/boundary_loops.hpp"
 #include "io/numbered_rows.hpp"
@@ -29,7 +30,8 @@ void append_triangles(const NodeSource& nodes, SharedFile& file) {
   });
 }
 
-// The last node with a minus, and behind it the tag as the string's number.
+// Writes a node string. The last node has a minus sign, and the tag follows as the number of the
+// string.
 void write_string(const BoundaryChain& chain, Sink& sink) {
   const std::size_t n = chain.nodes.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -42,7 +44,7 @@ void write_string(const BoundaryChain& chain, Sink& sink) {
   sink.text("\n");
 }
 
-// Each rank has all of them.
+// Returns the node strings, the same ones on all ranks. Throws for tags below 1. Collective.
 std::vector<BoundaryChain> strings_of(const NodeSource& nodes, const Communicator& comm) {
   std::vector<BoundaryChain> chains =
       chains_of(boundary_loops(nodes, comm), [](std::int32_t tag) { return tag; });
@@ -64,11 +66,11 @@ void append_strings(const std::vector<BoundaryChain>& chains, SharedFile& file) 
 }  // namespace
 
 void write_2dm(const NodeSource& nodes, SharedFile& file) {
-  largest_block(nodes, "2dm", "materials");  // refuses tags below 1
+  largest_block(nodes, "2dm", "materials");  // throws for negative tags
   const std::vector<BoundaryChain> strings = strings_of(nodes, file.ranks());
   file.append_text("MESH2D\nMESHNAME \"pnpbs\"\nNUM_MATERIALS_PER_ELEM 1\n");
   append_triangles(nodes, file);
-  // z points up.
+  // The file has heights: z points up, so it is minus the depth.
   append_map_places(nodes, file,
                     [](std::int64_t number, const Point<2>& x, double depth, Sink& sink) {
                       sink.text("ND ");

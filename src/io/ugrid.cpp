@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh of triangles by the conventions of UGRID 1.0 (ugrid-conventions.github.io) as NetCDF:
-// nodes, triangles and the edges that bound the domain, with what is known at them. Numbers count
-// from 0, and triangles turn counter-clockwise.
+// UGRID writer: a mesh of triangles by the conventions of UGRID 1.0 (ugrid-conventions.github.io)
+// in NetCDF. It has nodes, triangles and the boundary edges of the domain, with their properties.
+// Numbers start at 0; triangles are counter-clockwise.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -16,6 +16,7 @@ namespace pnpbs::io {
 
 namespace {
 
+// The writer of one file.
 class UgridWriter {
  public:
   UgridWriter(const NodeSource& nodes, SharedFile& file)
@@ -37,7 +38,7 @@ class UgridWriter {
   }
 
  private:
-  // Fields have names of their own: in NetCDF there is one variable of a name.
+  // Throws if a field has the name of another variable, since NetCDF requires unique names.
   void require_other_names() const {
     constexpr std::array<std::string_view, 10> taken{
         "mesh",          "mesh_node_x",     "mesh_node_y",         "mesh_node_lon",
@@ -53,12 +54,12 @@ class UgridWriter {
     }
   }
 
-  // Places in the list of dimensions; those of fields with several components follow.
+  // Indices in the list of dimensions. Dimensions of fields with several components follow.
   static constexpr std::size_t kNodes = 0, kFaces = 1, kThree = 2, kEdges = 3, kTwo = 4;
   using Attributes = std::vector<NetcdfAttribute>;
 
-  // Of all there is: how it is called, and what writes it. A whole sphere has no boundary, and in
-  // NetCDF no dimension is 0 (it would have no limit).
+  // Declares all variables and the functions that write them. A whole sphere has no boundary. Its
+  // dimension is omitted, since NetCDF would read 0 as unlimited.
   void declare(std::int64_t edges) {
     contents_.dimensions = {
         {"nMesh_node", all_.nodes}, {"nMesh_face", all_.elements}, {"Three", 3}};
@@ -171,7 +172,7 @@ class UgridWriter {
     appends_.push_back(append);
   }
 
-  // A curve inside bounds nothing.
+  // Calls visit(rows, e) for edges that bound the domain. Edges of inner curves do not.
   template <class Visit>
   void for_bounding_edges(const Visit& visit) const {
     nodes_.for_facets([&](const FacetRows& rows) {
@@ -209,7 +210,7 @@ class UgridWriter {
   const Contents& all_;
   SharedFile& file_;
   NetcdfContents contents_;
-  std::vector<std::function<void()>> appends_;  // of the variables
+  std::vector<std::function<void()>> appends_;  // writers of the variables, in their order
 };
 
 }  // namespace

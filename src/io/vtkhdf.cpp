@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// VTK's file by HDF5 (https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format), version
-// 1.0, which every reader of it knows: the arrays of the .vtu file, each in one piece, so that all
-// ranks write their rows at the same time.
+// VTKHDF writer (https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format), version 1.0,
+// which every reader supports. It has the arrays of a .vtu file. Each is contiguous, so that all
+// ranks write their rows concurrently.
 #include <utility>
 
 #include "io/formats.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// VTK's XML unstructured grid. The arrays follow the XML part as raw binary, each after its
-// length in bytes, so a million nodes cost no text conversion and no copy. The .pvtu file names
-// pieces of that kind.
+// Writers of VTK's XML unstructured grids and of the .pvtu file that lists pieces. The arrays
+// follow the XML part as raw binary data, each after its length in bytes, so they need no text
+// conversion.
 #include <bit>
 #include <cstdint>
 #include <filesystem>
@@ -15,6 +15,7 @@
 namespace pnpbs::io {
 namespace {
 
+// A section of the file.
 struct Part {
   std::string name;
   std::vector<GridArray> arrays;
@@ -46,7 +47,7 @@ std::string name_of(NumberType type) {
   return "";
 }
 
-// The array that viewers show first.
+// Returns the attribute that names the array which viewers show first.
 std::string scalars_of(const Part& part) {
   if (part.name != "PointData" && part.name != "CellData") return "";
   for (const GridArray& array : part.arrays)
@@ -103,7 +104,7 @@ void write_vtu(const NodeSource& nodes, SharedFile& file) {
 void write_pvtu(const std::vector<std::string>& pieces, const Contents& like, SharedFile& file) {
   std::string text = opening("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
   for (const Part& part : parts_of(like)) {
-    if (part.name == "Cells") continue;  // a reader knows what they look like
+    if (part.name == "Cells") continue;  // readers do not need its declaration
     text += "    <P" + part.name + scalars_of(part) + ">\n";
     for (const GridArray& array : part.arrays)
       text += "      <PDataArray type=\"" + name_of(array.type) + "\" Name=\"" + array.name +

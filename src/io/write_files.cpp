@@ -18,14 +18,16 @@
 namespace pnpbs::io {
 namespace {
 
-// One rank's own nodes, elements and facets, with the ghosts that these need; numbered by itself.
+// A source with this rank's nodes, elements and facets and the ghosts that these refer to. It is
+// numbered by itself.
 template <int Dim>
 class OwnPiece : public NodeSource {
  public:
-  // Local, after rows.hpp's prepare. fields: with values at ghosts.
+  // Includes the ghosts that elements and facets refer to. prepare() of rows.hpp must have been
+  // called. `fields` need values at ghosts. Local.
   OwnPiece(const Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
 
-  // Local.
+  // The iterations are local.
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
   void for_field(std::size_t field,
                  const std::function<void(const FieldRows&)>& visit) const override;
@@ -33,6 +35,7 @@ class OwnPiece : public NodeSource {
   void for_facets(const std::function<void(const FacetRows&)>& visit) const override;
 
  private:
+  // Includes the node if it is a ghost that has no number yet.
   void know(std::int64_t place);
   std::int64_t number(std::int64_t place) const {
     return place < owned_ ? place : number_[static_cast<std::size_t>(place - owned_)];
@@ -40,15 +43,15 @@ class OwnPiece : public NodeSource {
   std::int64_t place_of_number(std::int64_t number) const {
     return number < owned_ ? number : ghosts_[static_cast<std::size_t>(number - owned_)];
   }
-  // Calls visit(begin, end) for windows of the own nodes.
+  // Calls visit(begin, end) for windows of the owned nodes.
   template <class Visit>
   void for_windows(const Visit& visit) const;
 
   const Results<Dim>& results_;
   std::int64_t owned_;
-  // Ghosts in the order in which elements and facets ask for them.
-  std::vector<std::int64_t> ghosts_;  // places
-  std::vector<std::int64_t> number_;  // of each ghost, by its place among them; -1: not needed
+  // Included ghosts, in the order in which elements and facets refer to them.
+  std::vector<std::int64_t> ghosts_;  // indices in the results
+  std::vector<std::int64_t> number_;  // number of each ghost of the level; -1: not included
 };
 
 template <int Dim>
@@ -185,7 +188,7 @@ std::string with_extension(const std::string& path, const char* extension) {
   return std::filesystem::path(path).replace_extension(extension).string();
 }
 
-// Its parts are written at their places, by all ranks at once.
+// Throws unless the path can be a regular file, which all ranks write concurrently.
 void require_places(const std::string& path, const Format& format) {
   const std::string what = std::string("a .") + format.name + " file ";
   std::error_code error;
@@ -194,8 +197,9 @@ void require_places(const std::string& path, const Format& format) {
     refuse(what + "is a file of its own, no stream and no device: '" + path + "'");
 }
 
-// XDMF names a file and what is in it with a colon between.
-// DOLFINx takes the file of arrays for one of the same name.
+// Adds the request for the file of arrays of a .xdmf file. Throws if its name has a colon, which
+// separates file and array in XDMF.
+// The name differs only in the extension, as DOLFINx expects.
 void add_heavy_data(const FileRequest& of, std::vector<FileRequest>& requests) {
   const std::string& path = of.path;
   const std::string heavy = heavy_data_path(path);
@@ -221,13 +225,13 @@ void require_possible(const std::string& path, const Format& format, bool elemen
     refuse("elements would go to a second file beside standard output: ask for ele there");
 }
 
-// Not for streams and devices, which have no files beside them.
+// Returns whether a second file can be placed beside this path: not for streams and devices.
 bool has_room_beside(const std::string& path) {
   std::error_code error;
   return path != "-" && !path.starts_with("/dev/") && !std::filesystem::is_other(path, error);
 }
 
-// The files of one call.
+// The files of one call of write_files().
 template <int Dim>
 class Writing {
  public:
@@ -247,7 +251,7 @@ class Writing {
     ++done_;
   }
 
-  // All ranks' files or none.
+  // Publishes the files of all ranks, or none.
   void publish() {
     collective_try(*comm(), [&] { give_up_if_asked(); });
     io::publish(*comm(), files_);
@@ -281,7 +285,7 @@ class Writing {
     }
   }
 
-  // Each rank alone; what fails on one is told to all.
+  // Writes the piece of each rank. If one rank throws, all ranks throw.
   void add_piece(const FileRequest& request) {
     prepare(results_, request.elements);
     if (fields_with_ghosts_.empty()) fields_with_ghosts_ = fields_.with_ghosts(results_);
@@ -318,12 +322,12 @@ class Writing {
   const Monitoring& monitoring_;
   Results<Dim>& results_;
   const OutputFields& fields_;
-  std::vector<OutputField> fields_with_ghosts_;  // once a piece needs them
+  std::vector<OutputField> fields_with_ghosts_;  // computed for the first file in pieces
   const std::int64_t nodes_ = results_.global_count();
   std::size_t expected_, done_ = 0;
   std::optional<NodesById<Dim>> with_elements_, nodes_only_;
-  std::unique_ptr<SphereGrid> grid_;  // once a file needs it
-  Contents like_;                     // of this rank's piece
+  std::unique_ptr<SphereGrid> grid_;  // built for the first file of cells
+  Contents like_;                     // contents of this rank's piece
   std::vector<std::unique_ptr<SharedFile>> files_;
 };
 
@@ -343,7 +347,7 @@ void require_hdf5_for(const std::vector<FileRequest>& requests, const Communicat
                            [](const FileRequest& request) { return request.format->by_hdf5; }))
     return;
   collective_try(comm, [&] {
-    if (comm.rank() == 0) hdf5::require_hdf5();  // it will ask it
+    if (comm.rank() == 0) hdf5::require_hdf5();  // rank 0 creates the files
   });
 }
 
@@ -404,11 +408,12 @@ std::string piece_path(const std::string& path, int rank) {
 void write_files(Placement& placement, const OutputFields& fields,
                  const std::vector<FileRequest>& requests) {
   const Communicator& comm = placement.communicator();
-  // What one rank cannot do at any step of it, all give up.
+  // If one rank fails in any step, all ranks throw.
   collective_try(comm, [&] {
     require_hdf5_for(requests, comm);
     fields.require_current(placement.results());
-    placement.results().prepare_order();  // without nodes there is no field to ask for
+    // Throws if there are no nodes, which is reported before missing fields.
+    placement.results().prepare_order();
     require_fields_for(requests, fields.all());
     visit_dimension(placement.results(), [&]<int Dim>(Results<Dim>& results) {
       Writing<Dim> writing(placement.monitoring(), results, fields, requests.size());

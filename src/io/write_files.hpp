@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several files of one placement, which appear together.
+// Output of several files of one placement. They are published together.
 #pragma once
 
 #include <functional>
@@ -14,14 +14,15 @@
 
 namespace pnpbs::io {
 
+// A file to write.
 struct FileRequest {
   std::string path;
   const Format* format;
   bool elements;
-  bool facets = false;  // of a grid, in a file beside that of its elements
+  bool facets = false;  // the file has the facets of a grid, not its elements
 };
 
-// Of what files are wanted.
+// Properties of the results for which files are requested.
 struct Requested {
   int dimension = 2;
   bool has_elements = false;
@@ -30,30 +31,33 @@ struct Requested {
 
 Requested requested_of(const Placement& placement);
 
-// What is wanted of one file: in its format by name, or by extension if that is empty. Where
-// elements or facets are in files beside it, these are wishes of their own. Throws
+// Adds the request for a file, and for the files of elements or facets that belong to it. The
+// format is given by its name or, if that is empty, by the extension. Throws
 // Error(ErrorKind::argument).
 void add_request(const std::string& path, const std::string& format, bool elements,
                  const Requested& of, std::vector<FileRequest>& requests);
-// Throws unless HDF5 is there for those that need it. Collective, and agreed.
+// Throws if a format needs HDF5 and it is not available. Collective; if one rank throws, all ranks
+// throw.
 void require_hdf5_for(const std::vector<FileRequest>& requests, const Communicator& comm);
-// Asks the monitor, with the part of all files that is done: Monitoring::asks_to_stop.
+// Reports the finished fraction of the files to the monitor and returns whether to stop, see
+// Monitoring::asks_to_stop().
 using AsksToStop = std::function<bool(double fraction)>;
-// Throws Error(ErrorKind::stopped) if it stops; it may be empty. Local.
+// Throws Error(ErrorKind::stopped) if `asks_to_stop` is not empty and returns true. Local.
 void give_up_if_asked(const AsksToStop& asks_to_stop, std::size_t done, std::size_t files);
 
-// The files of all ranks appear together, or none. Collective, and agreed.
+// Publishes the files of all ranks, or none. Collective; if one rank throws, all ranks throw.
 void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFile>> files);
 
-// Throws Error(ErrorKind::argument) unless formats have the fields that they cannot do without.
-// Local; the fields are the same on all ranks.
+// Throws Error(ErrorKind::argument) if a format requires a field that is missing. Local; the fields
+// are the same on all ranks.
 void require_fields_for(const std::vector<FileRequest>& requests,
                         const std::vector<OutputField>& fields);
 
-// Names of the pieces of a .pvtu file.
+// Returns the name of a rank's piece of a .pvtu file.
 std::string piece_path(const std::string& path, int rank);
 
-// With these fields, in the formats that have room for any. Collective; the monitor may stop it.
+// Writes the files, with the fields if the format can store any. The monitor may stop it.
+// Collective.
 void write_files(Placement& placement, const OutputFields& fields,
                  const std::vector<FileRequest>& requests);
 

@@ -14,10 +14,11 @@
 namespace pnpbs::io {
 namespace {
 
-// All particles in the order of their ids, with fields: the same whole for any number of ranks.
+// A source with all particles in the order of their ids, with fields. The result does not depend on
+// the number of ranks.
 class ParticlesById : public NodeSource {
  public:
-  // All of it must outlive this. Collective.
+  // All arguments must outlive this object. Collective.
   ParticlesById(const Communicator& comm, const Particles& particles, const GroupNames& names,
                 const std::vector<OutputField>& fields);
 
@@ -70,7 +71,7 @@ ParticlesById::ParticlesById(const Communicator& comm, const Particles& particle
   contents_.fields = &fields;
 }
 
-// To the rank in whose block they are.
+// Sends each row to the rank whose block of ids contains it. Collective.
 template <class Row>
 std::vector<Row> ParticlesById::brought(const std::vector<Row>& rows) const {
   return redistribute<Row>(comm_, rows, [&](const Row& row) { return blocks_.rank_of(row.id); });
@@ -122,7 +123,7 @@ std::vector<TagGroup> ParticlesById::node_groups() const {
   return groups.of_all(comm_);
 }
 
-// Pieces are those of a placement, and these formats have nothing but elements.
+// Throws for formats that need a placement (pieces) or elements.
 void require_formats_of_points(const std::vector<FileRequest>& requests) {
   for (const FileRequest& request : requests)
     if (!request.format->write || request.format->elements == Elements::always)

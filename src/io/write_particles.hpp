@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several files of particles, which appear together.
+// Output of several files of particles. They are published together.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,8 @@
 
 namespace pnpbs::io {
 
-// With these fields, in the formats that have room for any. Collective, and agreed.
+// Writes the files, with the fields if the format can store any. Collective; if one rank throws,
+// all ranks throw.
 void write_particles(const std::shared_ptr<const Communicator>& comm, const Particles& particles,
                      const GroupNames& names, const std::vector<OutputField>& fields,
                      const std::vector<FileRequest>& requests, const AsksToStop& asks_to_stop);

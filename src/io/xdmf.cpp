@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// XDMF 3 (https://www.xdmf.org): a small file of XML that tells what the arrays mean which lie in a
-// file by HDF5 beside it, those of the .vtu file. Points of the plane have two coordinates, by
-// which DOLFINx knows it.
+// XDMF 3 writer (https://www.xdmf.org): a small XML file that describes arrays in an HDF5 file
+// beside it. They are the arrays of a .vtu file. Points of the plane have two coordinates, so that
+// DOLFINx recognises a plane mesh.
 #include <filesystem>
 
 #include "io/formats.hpp"
@@ -13,7 +13,7 @@ namespace pnpbs::io {
 
 namespace {
 
-// A row for each cell.
+// Returns the corners with one row for each cell.
 PlacedArray placed_cells(const Contents& all) {
   GridArray cells = corner_array(all);
   cells.columns = all.cell_corners();
@@ -59,7 +59,8 @@ std::string item(const std::string& heavy, const PlacedArray& placed) {
          "\" Format=\"HDF\">" + in_xml(heavy) + ":" + placed.path + "</DataItem>\n";
 }
 
-// A vector may have any number of components; VTK's reader does not take matrices.
+// Returns the XDMF type. Vectors may have any number of components; VTK's reader does not accept
+// matrices.
 std::string kind_of_attribute(int components) { return components == 1 ? "Scalar" : "Vector"; }
 
 std::string attributes(const std::string& heavy, const std::string& center,
@@ -85,8 +86,8 @@ std::string heavy_data_path(const std::string& path) {
   return std::filesystem::path(path).replace_extension("h5").string();
 }
 
-// DOLFINx finds grids by their names, takes the first attribute for the tags of facets, and PyVista
-// asks for a time.
+// Writes the XML file. DOLFINx finds grids by name and takes the first attribute as the tags of
+// facets. PyVista requires a time.
 void write_xdmf(const NodeSource& nodes, SharedFile& file) {
   const Contents& all = nodes.contents();
   const std::string heavy = std::filesystem::path(heavy_data_path(file.path())).filename().string();

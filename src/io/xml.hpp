@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text in files of XML.
+// Escaping of text for XML files.
 #pragma once
 
 #include <string>
 
 namespace pnpbs::io {
 
-// A file's name may have letters that mean something in XML.
+// Returns the text with the special characters of XML escaped.
 inline std::string in_xml(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

@@ -16,8 +16,8 @@
 namespace pnpbs {
 namespace {
 
-// Fills the arrays of a mesh: from the numbers of nodes and elements it finds the local indices
-// that a solver takes.
+// The arrays of a DistributedMesh while they are filled. It converts the global numbers of nodes
+// and elements to the local indices that solvers use.
 template <std::size_t Corners>
 class MeshArrays {
  public:
@@ -32,7 +32,8 @@ class MeshArrays {
     mesh.all_elements = elements.total();
   }
 
-  // To so many nodes and elements, owned ones included, that are then added.
+  // Sets the array lengths to these counts, owned nodes and elements included. The add() functions
+  // then fill the entries in order.
   void resize(std::size_t nodes, std::size_t elements) {
     mesh_.x.resize(nodes * static_cast<std::size_t>(mesh_.dimension));
     for (auto* array : {&mesh_.numbers, &mesh_.ids}) array->resize(nodes);
@@ -42,7 +43,7 @@ class MeshArrays {
     for (auto* array : {&mesh_.element_owners, &mesh_.element_tags}) array->resize(elements);
   }
 
-  // Owned ones first, then the others by number.
+  // Adds a node. Owned nodes come first, then the others by increasing number.
   void add(const MeshNode& node) {
     const std::size_t n = node_count_++, dim = static_cast<std::size_t>(mesh_.dimension);
     std::copy_n(node.x.begin(), dim, mesh_.x.begin() + static_cast<std::ptrdiff_t>(dim * n));
@@ -51,7 +52,7 @@ class MeshArrays {
     mesh_.owners[n] = nodes_.owner(node.number);
     mesh_.tags[n] = node.tag;
   }
-  // Likewise, after the nodes.
+  // Adds an element, in the same order. All nodes must have been added.
   void add(const MeshElement<Corners>& element) {
     const std::size_t e = element_count_++;
     for (std::size_t k = 0; k < Corners; ++k)
@@ -60,7 +61,7 @@ class MeshArrays {
     mesh_.element_owners[e] = elements_.owner(element.number);
     mesh_.element_tags[e] = element.tag;
   }
-  // After the elements.
+  // Adds a facet. All elements must have been added.
   void add(const MeshFacet<Corners>& facet) {
     const std::size_t here = element_index(facet.elements[0]) >= 0 ? 0 : 1;
     for (const std::int64_t corner : facet.corners)
@@ -72,6 +73,7 @@ class MeshArrays {
     mesh_.facet_owners.push_back(elements_.owner(facet.elements[0]));
     mesh_.facet_inner.push_back(facet.elements[1] != kNoElement);
   }
+  // Adds a rank that shares a node. Shares must come sorted by node and rank.
   void add(const NodeShare& share) {
     const std::int32_t node = node_index(share.node);
     if (mesh_.shared_nodes.empty() || mesh_.shared_nodes.back() != node) {
@@ -83,7 +85,7 @@ class MeshArrays {
   }
 
  private:
-  // -1: not here.
+  // Returns the local index of `number`, or -1 if this rank does not have it.
   static std::int32_t index(const RankRanges& ranges, const std::vector<std::int64_t>& numbers,
                             std::int64_t number) {
     if (ranges.has(number)) return static_cast<std::int32_t>(number - ranges.first());
@@ -102,10 +104,10 @@ class MeshArrays {
   DistributedMesh& mesh_;
   const RankRanges& nodes_;
   const RankRanges& elements_;
-  std::size_t node_count_ = 0, element_count_ = 0;  // added so far
+  std::size_t node_count_ = 0, element_count_ = 0;  // added up to now
 };
 
-// The nodes of elements that other ranks own, each once.
+// Returns the sorted numbers of those corners of `elements` that other ranks own.
 template <std::size_t Corners, class Elements>
 std::vector<std::int64_t> nodes_of_others(const RankRanges& nodes, const Elements& elements) {
   std::vector<std::int64_t> numbers;
@@ -116,9 +118,9 @@ std::vector<std::int64_t> nodes_of_others(const RankRanges& nodes, const Element
   return numbers;
 }
 
-// Layers of elements of other ranks around those of a rank, by their numbers. All elements at owned
-// nodes are known; those at other nodes, as far as the layers reach, are asked of the owners of
-// these nodes. front: those of the elements that this rank owns. Collective.
+// Returns `layers` layers of elements of other ranks around the elements of this rank, sorted by
+// number. `front` holds the nodes of owned elements that other ranks own; the next layer comes from
+// their owners. Elements at owned nodes are known already, from `at_nodes`. Collective.
 template <std::size_t Corners>
 std::vector<MeshElement<Corners>> ghost_elements(const Communicator& comm, const RankRanges& nodes,
                                                  const RankRanges& elements,
@@ -145,7 +147,8 @@ std::vector<MeshElement<Corners>> ghost_elements(const Communicator& comm, const
   }
 }
 
-// The facets of the rank's elements, and those of its ghost elements, which their owners have.
+// Adds the facets of ghost elements to `facets`, which holds the facets of owned elements. The
+// owners of the ghost elements send them. Collective.
 template <std::size_t Corners>
 void add_facets_of_ghosts(const Communicator& comm, const RankRanges& elements,
                           const std::vector<MeshElement<Corners>>& ghosts,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rank's part of a mesh: nodes, elements and facets that it owns, and those of others around
-// them, in arrays as solvers take them. Indices are local and count from 0; numbers are global,
-// and contiguous by rank.
+// The part of a distributed mesh that one rank holds, in the arrays that parallel solvers take. It
+// has the nodes, elements and facets that the rank owns and layers of ghosts around them. Indices
+// are local and start at 0. Numbers are global, and each rank owns a contiguous range of them.
 #pragma once
 
 #include <cstdint>
@@ -15,41 +15,44 @@
 namespace pnpbs {
 
 struct DistributedMesh {
-  int dimension = 0;  // of coordinates
-  int corners = 0;    // of an element
+  int dimension = 0;  // number of coordinates per node
+  int corners = 0;    // corners per element
   GeometryKind kind = GeometryKind::plane;
 
-  // Owned ones first, in the order of their ids, so that their numbers count up; then the others,
-  // by number.
-  std::int64_t owned_nodes = 0, first_node = 0, all_nodes = 0;  // all: over all ranks
+  // Nodes. Owned ones come first, in the order of their ids and so of their numbers. The ghosts
+  // follow by increasing number.
+  std::int64_t owned_nodes = 0, first_node = 0, all_nodes = 0;  // all_nodes: over all ranks
   std::vector<double> x;                                        // [nodes][dimension]
   std::vector<std::int64_t> numbers, ids;
   std::vector<std::int32_t> owners, tags;
 
-  // The same of elements; an element is owned where its node with the least id is.
+  // Elements, in the same order. The rank that owns the corner with the smallest id owns the
+  // element.
   std::int64_t owned_elements = 0, first_element = 0, all_elements = 0;
   std::vector<std::int32_t> element_corners;  // [elements][corners], indices of nodes
   std::vector<std::int64_t> element_numbers;
   std::vector<std::int32_t> element_owners, element_tags;
 
-  // Those of elements that are here.
-  std::vector<std::int32_t> facet_corners;   // [facets][corners - 1], indices of nodes
-  std::vector<std::int32_t> facet_elements;  // [facets][2], indices; -1: not here, or none
-  std::vector<std::int32_t> facet_opposite;  // in the first of them, the corner that it has not
+  // Facets of the elements of this rank, ghost elements included.
+  std::vector<std::int32_t> facet_corners;  // [facets][corners - 1], indices of nodes
+  // [facets][2], indices; -1: no element, or not on this rank
+  std::vector<std::int32_t> facet_elements;
+  // In the first of these elements, the corner opposite to the facet.
+  std::vector<std::int32_t> facet_opposite;
   std::vector<std::int32_t> facet_tags, facet_owners;
-  std::vector<std::int8_t> facet_inner;  // has it two elements, wherever they are?
+  std::vector<std::int8_t> facet_inner;  // 1 if two elements share the facet, on whatever ranks
 
-  // Nodes that more than one rank owns or has in an element it owns, and all other such ranks of
-  // each.
-  std::vector<std::int32_t> shared_nodes;  // indices, by number
+  // Nodes that several ranks own or have in an element that they own, with the other ranks of each.
+  std::vector<std::int32_t> shared_nodes;  // local indices, in the order of numbers
   std::vector<std::int64_t> sharing_offsets{0};
-  std::vector<std::int32_t> sharing_ranks;  // increasing, of each node
+  std::vector<std::int32_t> sharing_ranks;  // increasing for each node
 
-  GroupNames names;  // of the domain's tags
+  GroupNames names;  // names of the domain's tags
 };
 
-// layers: of ghost elements. Those of the first have a node in common with the nodes and elements
-// that a rank owns, those of the next with one of these. Collective.
+// Returns the mesh of `results` with `layers` layers of ghost elements. An element of the first
+// layer has a node in common with the nodes and elements that the rank owns; one of the next layer,
+// with those of the layer before. Collective.
 std::unique_ptr<DistributedMesh> make_distributed_mesh(NodalResults& results, int layers);
 
 }  // namespace pnpbs

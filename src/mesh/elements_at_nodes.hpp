@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All elements at the nodes that a rank owns, whoever owns these elements.
+// Elements at the nodes that a rank owns, including elements that other ranks own.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,14 @@
 
 namespace pnpbs {
 
+// The elements that a rank owns, those of other ranks at its owned nodes, and a map from each owned
+// node to all elements at it.
 template <std::size_t Corners>
 class ElementsAtNodes {
  public:
   using Element = MeshElement<Corners>;
 
-  // own: the elements of this rank, which tells the owners of their corners. Collective.
+  // Sends `own`, the elements of this rank, to the owners of their corners. Collective.
   ElementsAtNodes(const Communicator& comm, const RankRanges& nodes, std::vector<Element> own)
       : nodes_(nodes), elements_(std::move(own)), owned_(elements_.size()) {
     gather(comm);
@@ -27,9 +29,9 @@ class ElementsAtNodes {
 
   std::span<const Element> own() const { return std::span(elements_).first(owned_); }
   std::span<const Element> of_others() const { return std::span(elements_).subspan(owned_); }
-  // The nodes of own elements that other ranks own, each once.
+  // Returns the sorted numbers of those corners of owned elements that other ranks own.
   const std::vector<std::int64_t>& nodes_of_others() const { return nodes_of_others_; }
-  // Calls visit(element) for those at an owned node.
+  // Calls visit(element) for each element at `node`, which this rank must own.
   template <class Visit>
   void at(std::int64_t node, const Visit& visit) const {
     const std::size_t k = static_cast<std::size_t>(node - nodes_.first());
@@ -57,7 +59,7 @@ class ElementsAtNodes {
     elements_.insert(elements_.end(), arrived.begin(), arrived.end());
   }
 
-  // Compressed rows of elements by owned node.
+  // Builds the compressed rows of elements by owned node.
   void sort_by_node() {
     require_fits_rank(std::ssize(elements_), "elements");
     const auto for_own_corners = [&](const auto& visit) {
@@ -76,11 +78,11 @@ class ElementsAtNodes {
   }
 
   const RankRanges& nodes_;
-  std::vector<Element> elements_;  // own ones first
+  std::vector<Element> elements_;  // owned elements come first
   std::size_t owned_;
   std::vector<std::int64_t> nodes_of_others_;
-  std::vector<std::int64_t> offsets_;  // into entries_, by node
-  std::vector<std::int32_t> entries_;  // places in elements_
+  std::vector<std::int64_t> offsets_;  // first entry of each owned node in entries_
+  std::vector<std::int32_t> entries_;  // indices in elements_
 };
 
 }  // namespace pnpbs

@@ -7,7 +7,8 @@ namespace pnpbs {
 
 namespace {
 
-// The corner of the element that is none of the facet's, if all others are; or -1.
+// Returns the index of the corner of `element` that is not a corner of `facet`, or -1 if `facet` is
+// not a facet of the element.
 template <std::size_t Corners>
 int opposite_corner(const MeshElement<Corners>& element,
                     const std::array<std::int64_t, Corners - 1>& facet) {
@@ -21,14 +22,16 @@ int opposite_corner(const MeshElement<Corners>& element,
   return common == Corners - 1 ? opposite : -1;
 }
 
-// Collects facets, with the elements at them, for those who own these.
+// The facets of owned nodes with the elements on their sides, packed for the ranks that own these
+// elements.
 template <std::size_t Corners>
 class FacetFinder {
  public:
   FacetFinder(const RankRanges& elements, const ElementsAtNodes<Corners>& at_nodes)
       : elements_(elements), at_nodes_(at_nodes) {}
 
-  // node: one of its corners, which this rank owns, so that it knows the elements there.
+  // Adds a facet. `node` is one of its corners and owned by this rank, so that all elements at it
+  // are known.
   void add(std::int64_t node, const std::array<std::int64_t, Corners - 1>& corners,
            std::int32_t tag) {
     MeshFacet<Corners> facet{corners, {kNoElement, kNoElement}, {-1, -1}, tag};
@@ -63,12 +66,13 @@ class FacetFinder {
   Outbox outgoing_;
 };
 
-// At the node of the lesser number.
+// Adds the edges that belong to a single triangle. The owner of the end with the smaller number
+// adds an edge.
 void add_open_edges(const RankRanges& nodes, const ElementsAtNodes<3>& at_nodes,
                     FacetFinder<3>& finder) {
   struct Edge {
     std::int64_t end;
-    std::array<std::int64_t, 2> turning;  // as its triangle does
+    std::array<std::int64_t, 2> turning;  // in the orientation of its triangle
     std::int32_t tag;
   };
   std::vector<Edge> edges;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sides of elements are parts of the boundary, or of an inner curve or surface.
+// Facets of a distributed mesh: the sides of elements that lie on the boundary or on an inner curve
+// or surface.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,9 @@
 
 namespace pnpbs {
 
-// The facets of the elements that this rank owns. numbers: of the nodes, by their places. On
-// surfaces alone they are the edges of only one triangle, with its tag. Collective.
+// Returns the facets of the elements that this rank owns. `numbers` maps the index of a node in the
+// results to its number. On a surface mesh the facets are the edges with a single triangle, and
+// they have its tag. Collective.
 template <std::size_t Corners, int Dim>
 std::vector<MeshFacet<Corners>> facets_of_owned_elements(const Results<Dim>& results,
                                                          const std::vector<std::int64_t>& numbers,
@@ -19,7 +21,7 @@ std::vector<MeshFacet<Corners>> facets_of_owned_elements(const Results<Dim>& res
                                                          const RankRanges& elements,
                                                          const ElementsAtNodes<Corners>& at_nodes);
 
-// Triangles of the plane and of surfaces alone, and tetrahedra.
+// Instances: triangles of the plane, triangles of surface meshes, tetrahedra.
 #define PNPBS_FACETS_OF(Corners, Dim)                                                              \
   std::vector<MeshFacet<Corners>> facets_of_owned_elements<Corners, Dim>(                          \
       const Results<Dim>&, const std::vector<std::int64_t>&, const RankRanges&, const RankRanges&, \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ranks tell each other of a mesh: its nodes, elements and facets, all by their numbers.
+// Records of nodes, elements and facets of a distributed mesh that ranks exchange, and the global
+// numbers that identify them.
 #pragma once
 
 #include <algorithm>
@@ -20,26 +21,26 @@ struct MeshNode {
   std::int32_t tag;
 };
 
-// A triangle or a tetrahedron. The corners have positive orientation, and that of the least id
-// comes first.
+// A triangle or tetrahedron with positive orientation. The corner with the smallest id comes first.
 template <std::size_t Corners>
 struct MeshElement {
   std::int64_t number;
   std::array<std::int64_t, Corners> corners;
-  std::int32_t tag;  // of its region, 0 for none; on surfaces alone, of its surface
+  std::int32_t tag;  // of its region, 0 for none; on a surface mesh, of its patch
 };
 
-// A side of an element with a tag: a part of the boundary, of which there is one element, or of an
-// inner curve or surface, with two.
+// A tagged side of elements. It has one element on the boundary and two on an inner curve or
+// surface.
 template <std::size_t Corners>
 struct MeshFacet {
   std::array<std::int64_t, Corners - 1> corners;
-  std::array<std::int64_t, 2> elements;  // the lesser number first; kNoElement
-  std::array<std::int8_t, 2> opposite;   // the corner of each that the facet has not, 0 ..
+  std::array<std::int64_t, 2> elements;  // smaller number first; the second may be kNoElement
+  // Index of the corner opposite to the facet, in each element.
+  std::array<std::int8_t, 2> opposite;
   std::int32_t tag;
 };
 
-// Sorts by key(record) and keeps one of each.
+// Sorts `records` by key(record) and keeps one record of each key.
 template <class Record, class Key = std::identity>
 void sort_and_keep_one(std::vector<Record>& records, const Key& key = {}) {
   std::ranges::sort(records, {}, key);
@@ -47,10 +48,11 @@ void sort_and_keep_one(std::vector<Record>& records, const Key& key = {}) {
   records.erase(std::unique(records.begin(), records.end(), same), records.end());
 }
 
-// Numbers that are contiguous by rank: a rank has those from first() to end().
+// Contiguous number ranges of all ranks. This rank has the numbers from first() up to, but without,
+// end().
 class RankRanges {
  public:
-  // Of this many on this rank. Collective.
+  // Gives this rank `count` numbers. Collective.
   RankRanges(const Communicator& comm, std::int64_t count)
       : rank_(static_cast<std::size_t>(comm.rank())) {
     for (const std::int64_t n : of_all_ranks(comm, std::vector<std::int64_t>{count}))
@@ -63,7 +65,7 @@ class RankRanges {
   std::int64_t total() const { return first_.back(); }
   bool has(std::int64_t number) const { return first() <= number && number < end(); }
   int owner(std::int64_t number) const {
-    if (has(number)) return static_cast<int>(rank_);  // mostly
+    if (has(number)) return static_cast<int>(rank_);  // the most frequent case
     return static_cast<int>(std::ranges::upper_bound(first_, number) - first_.begin()) - 1;
   }
 
@@ -72,9 +74,9 @@ class RankRanges {
   std::vector<std::int64_t> first_{0};
 };
 
-// Sends questions about numbers to the ranks that own them, which answer:
-// give(number, rank that asks, answers) adds the answers to `answers`, at the owner; answers that
-// one rank gets from another are sorted by key, and come once. Collective.
+// Requests records about `numbers` from the ranks that own these numbers. At the owner,
+// give(number, requesting rank, answers) appends the records to `answers`. The records from one
+// owner are sorted by key without repetition. Collective.
 template <class Answer, class Give, class Key>
 std::vector<Answer> ask_owners(const Communicator& comm, const RankRanges& ranges,
                                const std::vector<std::int64_t>& numbers, const Give& give,

@@ -13,7 +13,7 @@ void sort(std::vector<NodeShare>& shares) {
   });
 }
 
-// At the owner: the nodes that others have, with all ranks that have them.
+// Returns, for owned nodes, the other ranks that have them in an owned element. Collective.
 std::vector<NodeShare> claims_on_owned(const Communicator& comm, const RankRanges& nodes,
                                        const std::vector<std::int64_t>& others) {
   Outbox outgoing;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which ranks share a node: its owner, and those that have it in an element they own.
+// Ranks that share a node: its owner, and the ranks that own an element at it.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 namespace pnpbs {
 
 struct NodeShare {
-  std::int64_t node;  // its number
-  std::int32_t rank;  // another one that has it
+  std::int64_t node;  // global number
+  std::int32_t rank;  // another rank that has the node
 };
 
-// For all nodes that this rank shares, by number and rank. others: the nodes of its elements that
-// other ranks own. Collective.
+// Returns the shares of all nodes that this rank has in common with others, sorted by node and
+// rank. `others`: the nodes of owned elements that other ranks own. Collective.
 std::vector<NodeShare> node_sharing(const Communicator& comm, const RankRanges& nodes,
                                     const std::vector<std::int64_t>& others);
 

@@ -21,11 +21,11 @@ std::vector<std::int64_t> node_numbers(NodalResults& results, const RankRanges& 
 
 namespace {
 
-// To a node, where there are no boundaries.
+// Expected number of elements per node where no boundary is near. It serves to reserve memory.
 template <std::size_t Corners>
 constexpr std::size_t kUsualElements = Corners == 3 ? 2 : 6;
 
-// They are compared often, and lie side by side here.
+// Returns the ids by index in the results. Sorting compares them often, so they are contiguous.
 template <int Dim>
 std::vector<std::int64_t> ids_by_place(const Results<Dim>& results) {
   const Nodes<Dim>& nodes = results.level().nodes;
@@ -35,7 +35,8 @@ std::vector<std::int64_t> ids_by_place(const Results<Dim>& results) {
   return ids;
 }
 
-// Calls visit(places, tag), the place of the least id first.
+// Calls visit(corners, tag) for each owned element; corners are indices in the results, the one
+// with the smallest id first.
 template <std::size_t Corners, int Dim, class Visit>
 void for_elements_and_tags(const Results<Dim>& results, const Visit& visit) {
   if constexpr (Corners == Dim + 1) {
@@ -46,7 +47,7 @@ void for_elements_and_tags(const Results<Dim>& results, const Visit& visit) {
   }
 }
 
-// Puts elements in the order of their corners' ids.
+// A list of elements that is sorted by the ids of their corners.
 template <std::size_t Corners, int Dim>
 class ElementsInOrder {
  public:
@@ -57,8 +58,9 @@ class ElementsInOrder {
     elements_.reserve(static_cast<std::size_t>(results.count()) * kUsualElements<Corners>);
   }
 
-  // By the places of its corners. Those that fill the domain come by the place of the least id
-  // already, so that only those of one such place are to be sorted.
+  // Adds an element by the indices of its corners in the results. Elements of the plane and of
+  // volumes come grouped by their first corner in the order of ids, so only each group needs
+  // sorting.
   void add(std::array<std::int64_t, Corners> places, std::int32_t tag) {
     if constexpr (Corners == Dim + 1)
       if (sorted_ < elements_.size() && elements_.back().corners[0] != places[0]) sort_last();
@@ -74,7 +76,8 @@ class ElementsInOrder {
  private:
   std::int64_t id(std::int64_t place) const { return ids_[static_cast<std::size_t>(place)]; }
 
-  // And has the numbers of their corners instead of the places.
+  // Sorts the elements added since the last call and replaces the indices of their corners by
+  // numbers.
   void sort_last() {
     const auto begin = elements_.begin() + static_cast<std::ptrdiff_t>(sorted_);
     std::sort(begin, elements_.end(), [&](const Element& a, const Element& b) {
@@ -91,7 +94,7 @@ class ElementsInOrder {
   const std::vector<std::int64_t>& numbers_;
   const std::vector<std::int64_t> ids_;
   std::vector<Element> elements_;
-  std::size_t sorted_ = 0;  // so many are
+  std::size_t sorted_ = 0;  // number of elements sorted
 };
 
 }  // namespace

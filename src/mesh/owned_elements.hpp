@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The elements that a rank owns, numbered.
+// Elements that a rank owns, and the global numbers of nodes.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace pnpbs {
 
-// The number of each node by its place, ghosts behind the owned ones. Collective.
+// Returns the number of each node by its index in the results. Ghosts come after the owned nodes.
+// Collective.
 std::vector<std::int64_t> node_numbers(NodalResults& results, const RankRanges& nodes);
 
-// Those whose node with the least id this rank owns, in the order of their corners' ids. They have
-// no numbers yet. After prepare_stars.
+// Returns the elements whose corner with the smallest id this rank owns, sorted by the ids of their
+// corners. Their numbers are not set. prepare_stars() must have been called.
 template <std::size_t Corners, int Dim>
 std::vector<MeshElement<Corners>> owned_elements(const Results<Dim>& results,
                                                  const std::vector<std::int64_t>& numbers);

@@ -15,7 +15,8 @@ std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cel
   for (const CellSum& entry : own) pack(counted.to(static_cast<int>(entry.cell / length)), entry);
   const std::vector<Message> asked = comm.sparse_all_to_all(counted.messages());
 
-  std::vector<std::int64_t> before(static_cast<std::size_t>(length), 0);  // in this rank's block
+  // Sums before each cell of this rank's block.
+  std::vector<std::int64_t> before(static_cast<std::size_t>(length), 0);
   const auto at = [&](const CellSum& entry) -> std::int64_t& {
     return before[static_cast<std::size_t>(entry.cell - first)];
   };
@@ -33,7 +34,7 @@ std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cel
     for_records<CellSum>({theirs.bytes}, [&](const CellSum& entry) {
       pack(answers.to(theirs.rank), wrapping_sum(before_block, at(entry)));
     });
-  // By rank, so in the order of the cells.
+  // The answers come by rank, so in the order of the cells.
   std::vector<std::int64_t> sums;
   sums.reserve(own.size());
   for (const Message& theirs : comm.sparse_all_to_all(answers.messages()))

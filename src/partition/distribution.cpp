@@ -14,14 +14,14 @@ namespace pnpbs {
 
 namespace {
 
-// Which ranks need the nodes of each leaf, spread hop by hop: a leaf is needed by all who need one
-// of its neighbours.
+// The ranks that need the nodes of each leaf as ghosts. Each call of spread() adds one hop: a rank
+// that needs a leaf needs its neighbours, too.
 template <int Dim>
 class Needs {
  public:
   Needs(const LeafGraph<Dim>& graph, const Distribution<Dim>& distribution, std::int32_t leaves)
       : graph_(graph), distribution_(distribution), others_(static_cast<std::size_t>(leaves)) {
-    // Two leaves with nodes of different ranks, or one of them with none: it is not ours.
+    // Start with the leaves that have a neighbour of another holder.
     std::vector<char> at_rim(others_.size(), 0);
     for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
       if (distribution.holds(leaf)) continue;
@@ -49,7 +49,7 @@ class Needs {
     front_ = std::move(next);
   }
 
-  // Besides its holder, in increasing order.
+  // Returns the ranks besides the holder that need the leaf, in increasing order.
   const std::vector<std::int32_t>& of(std::size_t leaf) {
     std::sort(others_[leaf].begin(), others_[leaf].end());
     return others_[leaf];
@@ -59,10 +59,10 @@ class Needs {
   const LeafGraph<Dim>& graph_;
   const Distribution<Dim>& distribution_;
   std::vector<std::vector<std::int32_t>> others_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> front_;  // leaf and rank that came last
+  std::vector<std::pair<std::int32_t, std::int32_t>> front_;  // leaf and rank of the last hop
 };
 
-// Leaves of a tree that are not found yet, by the cells that have some.
+// Leaves of a tree that a search has not found yet, counted for each cell that contains them.
 template <int Dim>
 class LeavesLeft {
  public:
@@ -92,13 +92,13 @@ class LeavesLeft {
   std::vector<std::int32_t> parent_, left_;
 };
 
-// The leaves within so many hops of these, and they themselves; marks them.
+// Returns `leaves` and the leaves within `hops` hops of them. Marks all of them in `reached`.
 template <int Dim>
 std::vector<std::int32_t> reached_from(const LeafGraph<Dim>& graph,
                                        std::vector<std::int32_t> leaves, int hops,
                                        std::vector<char>& reached) {
   for (std::int32_t leaf : leaves) reached[static_cast<std::size_t>(leaf)] = 1;
-  std::size_t first = 0;  // of those that the last hop reached
+  std::size_t first = 0;  // first leaf that the last hop reached
   for (int hop = 0; hop < hops; ++hop) {
     const std::size_t last = leaves.size();
     for (std::size_t k = first; k < last; ++k)
@@ -114,13 +114,13 @@ std::vector<std::int32_t> reached_from(const LeafGraph<Dim>& graph,
 
 }  // namespace
 
-// A graph of all cells would tell as well, but with many ranks it is far larger than what a rank
-// needs of it.
+// Searches in boxes and not in a graph of all cells, of which a rank needs only a small part if
+// there are many ranks.
 template <int Dim>
 std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) const {
   const BackgroundTree<Dim>& tree = cells_.tree();
   const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
-  // A hop goes as far as a bubble reaches and to the far side of the leaf it finds there.
+  // A hop reaches as far as a bubble does, and then to the far side of the leaf there.
   const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells_.max_spacing(c); };
   LeavesLeft<Dim> left(tree);
   for (std::int32_t c = 0; c < cells_.count(); ++c)
@@ -139,7 +139,7 @@ std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) cons
           if (squared_gap<Dim>(own, box(n)) <= way(c) * way(c)) left.find(n);
         });
   }
-  // Those with bubbles so much larger than ours that only they reach as far.
+  // Add the cells whose bubbles are so much larger than ours that only they reach as far.
   const std::vector<char> ours = cells_with_some_of(rank_);
   std::vector<char> found;
   for (std::int32_t c = 0; c < cells_.count(); ++c)
@@ -159,7 +159,8 @@ void Distribution<Dim>::take_leaves(const BackgroundTree<Dim>* tree,
     cell_of_leaf_.push_back(cells_.at(tree->cell_centre(tree->leaf_cell(leaf))));
 }
 
-// The largest reach of a bubble within so many hops of each of these leaves, at their places.
+// Returns for each leaf the largest reach of a bubble within `hops` hops. Only the entries of
+// `leaves` and of what lies within the hops around them are valid.
 template <int Dim>
 std::vector<double> Distribution<Dim>::reach_within(int hops,
                                                     std::vector<std::int32_t> leaves) const {
@@ -177,12 +178,13 @@ std::vector<double> Distribution<Dim>::reach_within(int hops,
   return max_reach;
 }
 
-// For a tree of cells: which of them have a leaf that the rank owns and that is not empty.
+// Marks the cells of the partition's tree that contain a leaf that `rank` owns and that is not
+// empty.
 template <int Dim>
 std::vector<char> Distribution<Dim>::cells_with_some_of(int rank) const {
   const BackgroundTree<Dim>& tree = cells_.tree();
   std::vector<char> some(static_cast<std::size_t>(tree.cell_count()), 0);
-  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {  // children stand behind their parent
+  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {  // children come after their parent
     const auto at = static_cast<std::size_t>(c);
     const auto& cell = tree.cell(c);
     if (cell.first_child < 0) some[at] = owner_of_cell(cell.leaf) == rank && !empty(cell.leaf);
@@ -192,7 +194,7 @@ std::vector<char> Distribution<Dim>::cells_with_some_of(int rank) const {
   return some;
 }
 
-// Is one of these cells as near as that? `some` is of cells_with_some_of().
+// Returns whether a cell marked in `some`, see cells_with_some_of(), is within `way` of the box.
 template <int Dim>
 bool Distribution<Dim>::near(const Box<Dim>& box, const std::vector<char>& some, double way) const {
   bool found = false;
@@ -237,7 +239,7 @@ const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
     if (!needs.of(static_cast<std::size_t>(leaf)).empty()) needed.push_back(leaf);
   const std::vector<double> reach = reach_within(hops, std::move(needed));
-  std::map<std::int32_t, std::vector<char>> cells_of;  // by rank
+  std::map<std::int32_t, std::vector<char>> cells_of;  // cells_with_some_of() for each rank
   const auto cells_with_some = [&](std::int32_t rank) -> const std::vector<char>& {
     std::vector<char>& some = cells_of[rank];
     if (some.empty()) some = cells_with_some_of(rank);
@@ -253,7 +255,7 @@ const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
         halo.ranks_.push_back(rank);
     halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
   }
-  // A leaf that is not ours alone disturbs itself and those around it.
+  // A leaf that another rank holds or needs is not interior, nor are its neighbours.
   halo.interior_.assign(static_cast<std::size_t>(leaves), 1);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const auto at = static_cast<std::size_t>(leaf);
@@ -277,7 +279,7 @@ std::vector<std::int64_t> Distribution<Dim>::prefix_sums(const Communicator& com
                                                          std::vector<std::int64_t> counts,
                                                          std::int64_t& start) const {
   const auto cell = [this](std::size_t leaf) { return owner_.empty() ? 0 : cell_of_leaf_[leaf]; };
-  // The leaves of a cell follow each other, and the cells are in the same order.
+  // The leaves of a cell are contiguous, in the order of the cells.
   std::vector<CellSum> own;
   for (std::size_t leaf = 0; leaf < counts.size(); ++leaf) {
     const bool ours = owner_.empty() || owner_of_cell(cell(leaf)) == rank_;

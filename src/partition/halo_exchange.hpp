@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A halo exchange plan: which owned nodes other ranks have as ghosts, and which ranks own our
-// ghosts. Until the plan is built anew, positions and velocities of ghosts are updated by one
-// message to and from each neighbour, in buffers that stay.
+// A halo exchange plan: the owned nodes that each neighbour has as ghosts, and the owner of each
+// ghost. Until the plan is built again, one message to and from each neighbour updates the ghosts'
+// positions and velocities, in persistent buffers.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ template <int Dim>
 class HaloExchange {
  public:
   HaloExchange() = default;
-  // Copies and moves the lists. The result exchanges nothing until it is built.
+  // Copies and moves keep the lists only. The result must be built before it can exchange.
   HaloExchange(const HaloExchange& other)
       : neighbours_(other.neighbours_),
         places_(other.places_),
@@ -41,7 +41,7 @@ class HaloExchange {
   }
   ~HaloExchange() = default;
 
-  // Begins a plan without nodes. The communicator must outlive it.
+  // Starts a plan for these neighbours without nodes. `comm` must outlive the plan.
   void start(const Communicator& comm, const std::vector<int>& neighbours) {
     comm_ = &comm;
     exchange_.reset();
@@ -51,7 +51,7 @@ class HaloExchange {
     send_.assign(neighbours.size(), {});
     receive_.assign(neighbours.size(), {});
   }
-  // Both sides of a pair of ranks must do so.
+  // Adds a neighbour unless it is one. The other rank must do the same.
   void add_neighbour(int rank) {
     if (knows(rank)) return;
     places_.add(rank);
@@ -61,9 +61,9 @@ class HaloExchange {
   }
   bool knows(int rank) const { return places_.of(rank) >= 0; }
   std::size_t place(int rank) const { return static_cast<std::size_t>(places_.of(rank)); }
-  // Owned nodes that the rank has as ghosts.
+  // Returns the owned nodes that `rank` has as ghosts.
   const std::vector<std::int32_t>& sent_to(int rank) const { return send_[place(rank)]; }
-  // Calls visit(rank) for the ranks that have that owned node as a ghost.
+  // Calls visit(rank) for each rank that has the owned node as a ghost.
   template <class Visit>
   void for_ranks_with(const Nodes<Dim>& nodes, std::int32_t node, const Visit& visit) const {
     const auto by_id = [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); };
@@ -84,12 +84,12 @@ class HaloExchange {
     for (const std::vector<std::int32_t>& list : send_) nodes += list.size();
     return static_cast<std::int64_t>(nodes);
   }
-  // Of a node's position and velocity; in space also of the facet that it may have moved to.
+  // Bytes of one node: its position and velocity; in space also the facet that it may have moved
+  // to.
   static constexpr std::size_t kRecordSize =
       2 * Dim * sizeof(double) + (Dim == 3 ? sizeof(std::int32_t) : 0);
 
-  // Completes the plan: sorts the lists by id on both sides, so that they match, and makes the
-  // buffers.
+  // Completes the plan: sorts the lists by id, so that both sides agree, and allocates the buffers.
   void build(const Nodes<Dim>& nodes) {
     for (auto* lists : {&send_, &receive_})
       for (std::vector<std::int32_t>& list : *lists)
@@ -100,11 +100,11 @@ class HaloExchange {
     exchange_ = comm_->persistent_exchange(neighbours_, outgoing_, incoming_);
   }
 
-  // Allocates memory for permute(), which then cannot fail.
+  // Allocates the memory of permute(), so that it cannot fail.
   void reserve_order(std::int64_t count) {
     if (!neighbours_.empty()) moved_to_.resize(static_cast<std::size_t>(count));
   }
-  // The nodes were put into another order: what was at from(i) is at i now.
+  // Updates the lists after a reordering of the nodes: the node with index from(i) has index i now.
   void permute(const View<std::int32_t>& from, std::int64_t count) {
     if (neighbours_.empty()) return;
     reserve_order(count);
@@ -115,8 +115,8 @@ class HaloExchange {
         for (std::int32_t& node : list) node = moved_to_[static_cast<std::size_t>(node)];
   }
 
-  // Fills the values at ghosts with those of their owners. Collective. Throws on a rank that lacks
-  // some of them.
+  // Copies values of owned nodes to the ghosts on other ranks. Collective; if one rank throws in
+  // the setup, all ranks throw. A rank that misses a message throws.
   void fill(const Communicator& comm, const View<double>& values) const {
     std::vector<Bytes> outgoing, incoming;
     std::unique_ptr<PersistentExchange> exchange;
@@ -128,8 +128,8 @@ class HaloExchange {
         [&](std::int32_t i, const auto& visit) { visit(values(i)); });
   }
 
-  // Updates positions and velocities of ghosts. All neighbours at the same time. Throws on a rank
-  // that lacks some of them, whose ghosts are then as before.
+  // Updates positions and velocities of ghosts. All neighbours must call it. A rank that misses a
+  // message throws and keeps its ghosts unchanged.
   void update(Nodes<Dim>& nodes) {
     run(*exchange_, outgoing_, incoming_, [&](std::int32_t i, const auto& visit) {
       for (int d = 0; d < Dim; ++d) {
@@ -141,7 +141,7 @@ class HaloExchange {
   }
 
  private:
-  // One buffer for each neighbour, with so many bytes for each node.
+  // Sizes one buffer for each neighbour, with `bytes_of_node` bytes for each node.
   void make_buffers(std::size_t bytes_of_node, std::vector<Bytes>& outgoing,
                     std::vector<Bytes>& incoming) const {
     outgoing.resize(neighbours_.size());
@@ -152,7 +152,7 @@ class HaloExchange {
     }
   }
 
-  // Sends the values that for_values(node, visit) visits. Allocates no memory.
+  // Exchanges the values that for_values(node, visit) visits. Allocates no memory.
   template <class ForValues>
   void run(PersistentExchange& exchange, std::vector<Bytes>& outgoing,
            const std::vector<Bytes>& incoming, const ForValues& for_values) const {
@@ -182,11 +182,11 @@ class HaloExchange {
 
   std::vector<int> neighbours_;
   RankPlaces places_;
-  std::vector<std::vector<std::int32_t>> send_, receive_;  // places in memory
+  std::vector<std::vector<std::int32_t>> send_, receive_;  // indices of nodes, by neighbour
   std::vector<std::int32_t> moved_to_;
   const Communicator* comm_ = nullptr;
   std::vector<Bytes> outgoing_, incoming_;
-  std::unique_ptr<PersistentExchange> exchange_;  // between the buffers, and gone before them
+  std::unique_ptr<PersistentExchange> exchange_;  // uses the buffers, so it is declared after them
 };
 
 }  // namespace pnpbs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a rank knows every node: in the leaves of the background tree whose nodes it holds, owned
-// or as ghosts, and in boxes it has asked the other ranks about.
+// The region in which a rank has every node, owned or as a ghost. It consists of leaves of the
+// background tree and of boxes whose nodes other ranks have sent.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,22 @@
 
 namespace pnpbs {
 
+// A known region. The default is the whole domain.
 template <int Dim>
 class KnownRegion {
  public:
   KnownRegion() = default;  // everywhere
-  // Known leaves: those whose nodes are held, and those outside the domain, which have none.
+  // Marks as known the leaves whose nodes this rank has, and the leaves outside the domain, which
+  // have no nodes.
   KnownRegion(const BackgroundTree<Dim>& tree, const std::vector<char>& known_leaves);
 
   bool is_everywhere() const { return unknown_in_.empty(); }
-  // Is there anything in this cell of the tree, boxes apart, that is not known?
+  // Returns whether a leaf in this cell of the tree is unknown. Leaves that are covered by several
+  // boxes together count as unknown.
   bool unknown_in(std::int32_t cell) const {
     return !is_everywhere() && unknown_in_[static_cast<std::size_t>(cell)] != 0;
   }
-  // All nodes in this box are known, too, and so are those of the leaves that lie in it.
+  // Adds a box in which all nodes are known. The leaves inside the box become known.
   void add(const BackgroundTree<Dim>& tree, const Box<Dim>& box) {
     boxes_.push_back(box);
     if (is_everywhere()) return;
@@ -33,8 +36,8 @@ class KnownRegion {
     });
   }
 
-  // Calls visit(leaf) for the leaves that are not known and for which meets(box) holds, as it does
-  // for the boxes of all cells around them.
+  // Calls visit(leaf) for each unknown leaf whose box fulfils meets(box). If meets() holds for a
+  // box, it must hold for the boxes of all cells around it.
   template <class Meets, class Visit>
   void for_unknown_leaves(const BackgroundTree<Dim>& tree, const Meets& meets,
                           const Visit& visit) const {
@@ -44,11 +47,11 @@ class KnownRegion {
     if (!is_everywhere()) tree.for_leaves_in(tree.cell_box(0), look, visit);
   }
 
-  // Is all of the box known?
+  // Returns whether the whole box is known.
   bool covers(const BackgroundTree<Dim>& tree, const Box<Dim>& box) const {
     return covers(tree, box, [](std::int32_t) { return true; });
   }
-  // Or all of it that lies in cells of the tree for which matters(cell) holds?
+  // Returns whether the part of the box is known that lies in cells with matters(cell).
   template <class Matters>
   bool covers(const BackgroundTree<Dim>& tree, const Box<Dim>& box, const Matters& matters) const {
     if (is_everywhere()) return true;
@@ -70,8 +73,8 @@ class KnownRegion {
     return true;
   }
 
-  // Of each cell of the tree, is any leaf (or was one before boxes were added)? Empty: all are
-  // known.
+  // For each cell of the tree, whether it contains an unknown leaf. Cells above leaves that a box
+  // covers stay marked. Empty if everything is known.
   std::vector<char> unknown_in_;
   std::vector<Box<Dim>> boxes_;
 };
@@ -80,7 +83,7 @@ template <int Dim>
 KnownRegion<Dim>::KnownRegion(const BackgroundTree<Dim>& tree,
                               const std::vector<char>& known_leaves)
     : unknown_in_(static_cast<std::size_t>(tree.cell_count()), 0) {
-  // Children come behind their parents.
+  // Children come after their parents in the tree.
   for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
     const typename BackgroundTree<Dim>::Cell& cell = tree.cell(c);
     char& unknown = unknown_in_[static_cast<std::size_t>(c)];

@@ -19,7 +19,8 @@ namespace pnpbs {
 
 namespace {
 
-// By its path first: by its name alone, the linker would give us a host's of the same name.
+// Opens METIS. The path comes first, because the name alone could resolve to another METIS of the
+// host program.
 void* open_metis() {
   if (void* library = open_library({PNPBS_METIS_PATH, PNPBS_METIS_NAME})) return library;
   const char* reason = dlerror();
@@ -38,8 +39,8 @@ void look_up(void* library, const char* name, Function& function) {
                                             ": PNPBS was built with \"" PNPBS_METIS_PATH "\"");
 }
 
-// METIS fills as many of its integers as there are options: more or fewer of ours are filled if
-// they are of another width.
+// Throws if the opened METIS has integers of another width. METIS writes a fixed number of options,
+// so with another width it overwrites more or fewer of our entries.
 void require_our_width(const MetisFunctions& functions) {
   constexpr idx_t kUntouched = 12345;
   std::array<idx_t, 2 * METIS_NOPTIONS> options;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// METIS, of which this process may hold another: a program linked with its own, perhaps with
-// integers of another width, exports the same names, and the dynamic linker would give us those.
+// Access to the METIS that PNPBS was built with. The host program may be linked with another METIS,
+// perhaps with integers of another width. It exports the same names, and the dynamic linker would
+// resolve our calls to it.
 #pragma once
 
 #include "base/build_config.hpp"
@@ -16,9 +17,9 @@ struct MetisFunctions {
   decltype(&METIS_PartGraphKway) part_graph_kway;
 };
 
-// Those of the METIS that PNPBS was built with: linked into the library where that one is static,
-// otherwise opened here, once, with names that nobody else sees and that nobody else's replace.
-// Throws where it cannot be opened.
+// Returns the functions of METIS. A static METIS is linked into the library. A shared one is opened
+// at the first call, with local symbols, so that neither side sees the other's. Throws if it cannot
+// be opened.
 const MetisFunctions& metis();
 
 }  // namespace pnpbs

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes on their way between ranks: to the owners of the leaves they have drifted into, and as
-// ghosts to those who need them. Every rank packs what others get, keeps what it owns or has as a
-// ghost, and appends what comes; the plan of the halo exchange is made on the way.
+// Exchange of nodes between ranks. Nodes that have drifted into leaves of other ranks migrate, and
+// copies go to the ranks that need them as ghosts. The exchange also builds the halo exchange plan.
 #pragma once
 
 #include <cstdint>
@@ -16,28 +15,28 @@
 
 namespace pnpbs {
 
+// One exchange: the tree, its distribution, the halo and the plan that is filled.
 template <int Dim>
 struct NodeExchange {
   const BackgroundTree<Dim>& tree;
   const Distribution<Dim>& distribution;
   const Halo& halo;
   int rank;
-  HaloExchange<Dim>& plan;  // started with the neighbours of the halo
+  HaloExchange<Dim>& plan;  // must be started with the neighbours of the halo
 
-  // Of the nodes, which may have drifted: packs into outgoing[plan.place(r)] those that rank r
-  // gets, writes the places of those that stay here to `stay`, in increasing order, and returns how
-  // many these are. `known_leaf(i)`: the leaf that node i was in when that was last asked, -1 if it
-  // never was. The plan counts the places as they are once the others are dropped. Changes no node.
+  // Packs the nodes for rank r into outgoing[plan.place(r)]. Writes the indices of the nodes that
+  // this rank keeps, as owner or as ghost, to `stay` in increasing order and returns their number.
+  // `known_leaf(i)`: the last known leaf of node i, or -1. The plan gets the indices that the nodes
+  // have once the others are removed. Does not change the nodes.
   template <class KnownLeaf>
   std::int64_t pack_leaving(const Nodes<Dim>& nodes, const KnownLeaf& known_leaf,
                             std::vector<Bytes>& outgoing, View<std::int32_t>& stay) const;
 
-  // Allocates memory for the nodes that have arrived, besides those that stay.
+  // Reserves memory for the nodes that have arrived after the first `kept`.
   static void reserve(Nodes<Dim>& nodes, std::int64_t kept, const std::vector<Bytes>& incoming);
 
-  // Once the nodes that do not stay are dropped: marks those that have drifted to other ranks as
-  // ghosts, appends the ghosts that have arrived and the nodes that have drifted to us, and
-  // completes the plan. If it throws, the nodes are right all the same.
+  // Marks migrated nodes as ghosts, appends the nodes and ghosts that have arrived, and builds the
+  // plan. Nodes that do not stay must have been removed. If it throws, the nodes are still valid.
   void append_arriving(Nodes<Dim>& nodes, const std::vector<Bytes>& incoming) const;
 };
 
@@ -87,7 +86,7 @@ void NodeExchange<Dim>::append_arriving(Nodes<Dim>& nodes,
   plan.for_received([&](std::int32_t i) { nodes.owned(i) = false; });
   const std::int64_t kept = nodes.count;
   reserve(nodes, kept, incoming);
-  std::int32_t leaf = -1;  // nodes of the same one come together
+  std::int32_t leaf = -1;  // start of the search, because consecutive nodes often share a leaf
   for_records<PackedNode<Dim>>(incoming, [&](const PackedNode<Dim>& node) {
     leaf = tree.leaf_at(node.x, leaf);
     append(nodes, node, distribution.owns(leaf));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A node on its way to another rank.
+// A node as ranks send it to each other: a plain record of all its fields.
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ std::vector<idx_t> as_metis(const std::vector<std::int32_t>& values) {
   return {values.begin(), values.end()};
 }
 
-constexpr int kMaxBisected = 32, kMaxTried = 8;  // ranks
+constexpr int kMaxBisected = 32, kMaxTried = 8;  // numbers of ranks
 
 bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector<idx_t>& part) {
   idx_t vertices = static_cast<idx_t>(graph.cell.size()), constraints = 1, parts = ranks, cut = 0;
@@ -45,8 +45,8 @@ bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector
   metis().set_default_options(options);
   options[METIS_OPTION_SEED] = static_cast<idx_t>(seed);
   options[METIS_OPTION_UFACTOR] = 15;  // allows an imbalance of 1.015
-  // Bisection cuts a fifth less than k-way partitioning at few parts, and the best of several
-  // tries less still; its cost grows with the parts.
+  // With few parts, recursive bisection cuts a fifth less than k-way partitioning, and the best of
+  // several tries even less. Its cost grows with the number of parts.
   const bool bisect = ranks <= kMaxBisected;
   if (ranks <= kMaxTried) options[METIS_OPTION_NCUTS] = 10;
   part.resize(graph.cell.size());
@@ -86,7 +86,7 @@ std::vector<std::int32_t> cut_by_metis(const PartitionCells<Dim>& cells, int ran
   std::vector<std::int32_t> cut = owner;
   for (std::size_t v = 0; v < part.size(); ++v)
     cut[static_cast<std::size_t>(graph.cell[v])] = static_cast<std::int32_t>(part[v]);
-  // Worse than the plain cut by far: an empty or swollen part.
+  // METIS has left a part empty or much too large.
   if (imbalance(cut, cells.work(), ranks) > 1.1 * imbalance(owner, cells.work(), ranks))
     return owner;
   return cut;
@@ -96,8 +96,8 @@ std::vector<std::int32_t> cut_by_metis(const PartitionCells<Dim>& cells, int ran
 #endif
 }
 
-// The pair of part and rank with the most work in common first, then the next of those left. Parts
-// that have nothing in common with a rank that is left get these in their order.
+// Matches parts and ranks greedily, the pair with the most common work first. Parts without common
+// work get the remaining ranks in increasing order.
 std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner, std::vector<KeptWork> kept,
                                      int ranks) {
   std::sort(kept.begin(), kept.end(), [](const KeptWork& a, const KeptWork& b) {
@@ -128,8 +128,8 @@ template std::vector<std::int32_t> cut_by_metis(const PartitionCells<3>&, int, s
 
 namespace {
 
-// Length of the side (area of the face) that two touching cells share, 0 if they have none in
-// common: the product of their common lengths but the shortest, which is that across the face.
+// Returns the length of the side (area of the face) that two touching cells share, 0 if they share
+// none. The shortest of the common extents is the one across the face and is left out.
 template <int Dim>
 double shared_face(const Box<Dim>& a, const Box<Dim>& b) {
   std::array<double, Dim> common;
@@ -139,19 +139,20 @@ double shared_face(const Box<Dim>& a, const Box<Dim>& b) {
   return std::accumulate(common.begin() + 1, common.end(), 1.0, std::multiplies<>());
 }
 
-// Nodes along a unit of length where there are so many in a unit of area (volume).
+// Returns the number of nodes per unit of length for a number per unit of area (volume).
 template <int Dim>
 double nodes_per_length(double density) {
   return Dim == 2 ? std::sqrt(density) : std::cbrt(density);
 }
 
-// A common face is the whole face of the smaller cell; anything less is rounding.
+// Returns whether cells are linked. A common face is the whole face of the smaller cell; a smaller
+// value is a rounding error.
 template <int Dim>
 bool is_linked(double face, double smaller_side) {
   return Dim == 2 || face > 0.5 * std::pow(smaller_side, Dim - 1);
 }
 
-// What is known of a cell for the links to its neighbours.
+// Extent of a cell and density of its work, for the links to its neighbours.
 template <int Dim>
 struct CellExtent {
   Box<Dim> box;
@@ -178,7 +179,7 @@ CellGraph cell_graph(const PartitionCells<Dim>& cells) {
     vertex[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(result.cell.size());
     result.cell.push_back(c);
   }
-  // Weights must add up within the integers of METIS.
+  // Scale the weights so that their sum fits into the integers of METIS.
   const std::int64_t total =
       std::accumulate(cells.work().begin(), cells.work().end(), std::int64_t{0});
   const std::int64_t scale = std::max<std::int64_t>(1, total / 1000000000);
@@ -187,7 +188,7 @@ CellGraph cell_graph(const PartitionCells<Dim>& cells) {
     touching.for_neighbours(c, [&](std::int32_t other) {
       if (other == c || vertex[static_cast<std::size_t>(other)] < 0) return;
       const CellExtent<Dim> near(cells, other);
-      // Pairs across the common face: as many as bubbles lie in it.
+      // The number of pairs across the common face is about the number of bubbles in it.
       double pairs = shared_face<Dim>(own.box, near.box);
       if (!is_linked<Dim>(pairs, std::min(own.side, near.side))) return;
       const double per_length = nodes_per_length<Dim>(std::max(own.density, near.density));

@@ -13,18 +13,18 @@ namespace pnpbs {
 
 namespace {
 
-// METIS balances 100 cells per rank to 3 %.
+// Cells per rank. With 100, METIS balances to 3 %.
 constexpr std::int64_t kCellsPerRank = 250;
 
-// Depth and index there.
+// Depth of a cell and its index among the cells of that depth.
 template <int Dim>
 using CellKey = std::pair<std::int32_t, std::array<std::uint32_t, Dim>>;
 
-// What a rank knows of the cells of the tree above its own leaves.
+// Work and spacing of all cells of the tree, accumulated from the leaves of this rank.
 struct OwnCells {
   std::vector<std::int64_t> work;
   std::vector<double> max_spacing;
-  std::vector<char> own;  // are all leaves in it this rank's?
+  std::vector<char> own;  // 1 if this rank owns all leaves of the cell
 
   template <int Dim>
   OwnCells(const BackgroundTree<Dim>& tree, const LeafFunctions& leaves) {
@@ -51,6 +51,7 @@ struct OwnCells {
   }
 };
 
+// Appends to `found` the largest cells of this rank with at most `share` of work, below cell c.
 template <int Dim>
 void put_together(const BackgroundTree<Dim>& tree, const OwnCells& known, std::int64_t share,
                   std::int32_t c, Bytes& found) {
@@ -70,7 +71,7 @@ void put_together(const BackgroundTree<Dim>& tree, const OwnCells& known, std::i
 template <int Dim>
 PartitionCells<Dim>::PartitionCells(const Box<Dim>& bounds,
                                     const std::vector<PartitionCell<Dim>>& cells) {
-  std::set<CellKey<Dim>> above;  // the cells that one of these lies in
+  std::set<CellKey<Dim>> above;  // all ancestors of the given cells
   for (const PartitionCell<Dim>& cell : cells) {
     CellKey<Dim> key{cell.depth, cell.index};
     while (key.first > 0) {
@@ -102,7 +103,7 @@ std::vector<PartitionCell<Dim>> cells_of_equal_work(const Communicator& comm,
                                                     const BackgroundTree<Dim>& tree,
                                                     const LeafFunctions& leaves) {
   const OwnCells known(tree, leaves);
-  const auto mine = static_cast<std::uint64_t>(known.work[0]);  // the root's
+  const auto mine = static_cast<std::uint64_t>(known.work[0]);  // work of the root
   const auto total = static_cast<std::int64_t>(comm.allreduce_sum(mine));
   Bytes found;
   put_together<Dim>(tree, known, total / (kCellsPerRank * comm.size()), 0, found);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells that the partition distributes whole: disjoint cells of the background tree that cover
-// it, some hundreds per rank, the same on every rank. Which ones they are depends on the number of
-// ranks; no node does.
+// Partition cells: disjoint cells of the background tree that cover it and that the partition
+// distributes as a whole. There are some hundreds per rank, the same ones on all ranks. The choice
+// of cells depends on the number of ranks; the nodes do not.
 #pragma once
 
 #include <array>
@@ -16,16 +16,17 @@ namespace pnpbs {
 
 template <int Dim>
 struct PartitionCell {
-  std::array<std::uint32_t, Dim> index;  // among the cells of its depth
+  std::array<std::uint32_t, Dim> index;  // index among the cells of its depth
   std::int32_t depth;
-  std::int64_t work;   // that its nodes cost
-  double max_spacing;  // of the samples of d in it
+  std::int64_t work;   // cost of its nodes
+  double max_spacing;  // largest sample of d in the cell; 0: outside the domain
 };
 
+// The partition cells, as the leaves of a tree of their own.
 template <int Dim>
 class PartitionCells {
  public:
-  // One cell: the root, which has all the work.
+  // Creates a single cell, the root, which has all the work.
   PartitionCells() : PartitionCells(Box<Dim>{}, {}) {}
   PartitionCells(const Box<Dim>& bounds, const std::vector<PartitionCell<Dim>>& cells);
 
@@ -34,7 +35,7 @@ class PartitionCells {
   std::int64_t work(std::int32_t c) const { return work_[static_cast<std::size_t>(c)]; }
   const std::vector<std::int64_t>& work() const { return work_; }
   double max_spacing(std::int32_t c) const { return max_spacing_[static_cast<std::size_t>(c)]; }
-  // The tree whose leaves they are.
+  // Tree with the partition cells as leaves.
   const BackgroundTree<Dim>& tree() const { return tree_; }
 
  private:
@@ -43,16 +44,16 @@ class PartitionCells {
   std::vector<double> max_spacing_;
 };
 
-// What a rank tells of the leaves of its tree.
+// Properties of the leaves of a rank's tree.
 struct LeafFunctions {
   std::function<bool(std::int32_t leaf)> owned;
-  std::function<std::int64_t(std::int32_t leaf)> work;   // asked for own ones
-  std::function<double(std::int32_t leaf)> max_spacing;  // 0: nothing of the domain is in it
+  std::function<std::int64_t(std::int32_t leaf)> work;   // called for owned leaves only
+  std::function<double(std::int32_t leaf)> max_spacing;  // 0: the leaf is outside the domain
 };
 
-// Cells with equal shares of the work, as far as leaves allow. Each rank knows the leaves that it
-// owns and their work, and puts together the largest cells of its own with no more than its share.
-// Collective; of all ranks.
+// Returns partition cells with about equal work. Each rank combines the leaves that it owns into
+// the largest cells whose work is at most the target share. Returns the cells of all ranks.
+// Collective.
 template <int Dim>
 std::vector<PartitionCell<Dim>> cells_of_equal_work(const Communicator& comm,
                                                     const BackgroundTree<Dim>& tree,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes and tetrahedra of a body, or the triangles of surfaces alone, for pictures.
+// The body or the surfaces that pictures show.
 #pragma once
 
 #include <array>
@@ -10,13 +10,14 @@
 
 namespace pnpbs::picture {
 
+// Nodes with the tetrahedra of a body, or with the triangles of a surface mesh.
 struct Body {
   std::vector<Point<3>> positions;                      // of nodes
   std::vector<double> spacing;                          // d at the nodes
-  std::vector<std::array<std::int64_t, 4>> tetrahedra;  // corners
-  std::vector<std::array<std::int64_t, 3>> boundary;    // triangles, by their corners
+  std::vector<std::array<std::int64_t, 4>> tetrahedra;  // corners, as indices of nodes
+  std::vector<std::array<std::int64_t, 3>> boundary;    // triangles, as indices of their corners
 
-  // Nothing is inside: its boundary is all there is.
+  // Returns whether there are no tetrahedra: the boundary is a surface mesh.
   bool surfaces_alone() const { return tetrahedra.empty(); }
   std::size_t size() const { return positions.size(); }
   const Point<3>& at(std::int64_t node) const { return positions[static_cast<std::size_t>(node)]; }

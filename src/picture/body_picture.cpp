@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A body cut open, or surfaces alone: faces painted from the farthest to the nearest.
+// Pictures of a body that is cut open, and of surface meshes. Faces are painted from the farthest
+// to the nearest.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,12 +29,12 @@ namespace {
 
 class TetrahedronValues {
  public:
-  // body must outlive this; by: not none.
+  // `body` must outlive this object. `by` must not be `none`.
   TetrahedronValues(const Body& body, ElementColour by);
 
   double at(std::size_t tetrahedron) const;
   const ColourScale& scale() const { return scale_.colours; }
-  std::string title() const;  // what the numbers are, and from where to where they go in the body
+  std::string title() const;  // quantity and range of the values in the body
 
  private:
   const Body& body_;
@@ -77,22 +78,25 @@ std::string TetrahedronValues::title() const {
   return title_of(by_, "quality 3 r_in / R", "tetrahedra", scale_, body_.tetrahedra.size());
 }
 
+// A face that the picture shows.
 struct VisibleFace {
   std::array<std::int64_t, 3> corners;  // in no particular order
-  std::size_t tetrahedron;  // whose face it is: one behind the plane; 0 if there is none
-  bool cut;                 // its other side has been taken away; else the boundary
+  // The tetrahedron behind the cut plane that has the face; 0 for surface meshes.
+  std::size_t tetrahedron;
+  bool cut;  // true if the tetrahedron on the other side is removed, false on the boundary
 };
 
 using Corners = std::array<std::int64_t, 3>;
-using Marks = std::vector<bool>;  // of nodes
+using Marks = std::vector<bool>;  // by node or tetrahedron
 
+// Returns whether the centroid of the tetrahedron lies behind the plane.
 bool is_kept(const TetrahedronCorners& x, const CutPlane& plane) {
   double sum = 0;
   for (const Point<3>& corner : x) sum += plane.height(corner);
   return sum <= 0;
 }
 
-// Ascending, so that a face is the same from both sides.
+// Returns the corners in ascending order, so that both tetrahedra at a face have the same key.
 Corners face_of(const std::array<std::int64_t, 4>& tetrahedron, std::size_t opposite) {
   Corners face{tetrahedron[(opposite + 1) % 4], tetrahedron[(opposite + 2) % 4],
                tetrahedron[(opposite + 3) % 4]};
@@ -109,8 +113,8 @@ void mark(Marks& marks, const auto& corners) {
   for (const std::int64_t node : corners) marks[static_cast<std::size_t>(node)] = true;
 }
 
-// Sorting all faces would take far more time and memory than the few that can be seen: their
-// corners are on the boundary, or in a tetrahedron that is taken away.
+// The faces that can be visible. Sorting all faces would take far more time and memory, so only
+// faces are sorted whose corners all lie on the boundary or in removed tetrahedra.
 class Shell {
  public:
   Shell(const Body& body, const CutPlane& plane)
@@ -159,13 +163,14 @@ class Shell {
   }
 
   const Body& body_;
-  Marks kept_;              // of tetrahedra
-  Marks outside_, inside_;  // nodes of tetrahedra that are taken away, and of those that are kept
+  Marks kept_;              // by tetrahedron
+  Marks outside_, inside_;  // nodes of removed tetrahedra, and of kept ones
   std::vector<Face> faces_;
 };
 
-// The faces between the tetrahedra whose centroids lie behind the plane and all that does not: the
-// cut, and what is left of the boundary. All triangles of surfaces alone, which are not cut.
+// Returns the faces that the kept tetrahedra have in common with removed ones (the cut) or with the
+// boundary. A tetrahedron is kept if its centroid lies behind the plane. Returns all triangles of a
+// surface mesh, which is not cut.
 std::vector<VisibleFace> visible_faces(const Body& body, const CutPlane& plane) {
   if (body.surfaces_alone()) {
     std::vector<VisibleFace> all;
@@ -175,6 +180,7 @@ std::vector<VisibleFace> visible_faces(const Body& body, const CutPlane& plane) 
   return Shell(body, plane).visible();
 }
 
+// Orthographic view of a body, from above and to the right of the normal of the cut plane.
 class BodyView {
  public:
   explicit BodyView(const CutPlane& plane);
@@ -183,22 +189,24 @@ class BodyView {
   double nearness(const Point<3>& x) const { return dot(x, toward_); }
   bool shows(const Point<3>& normal) const { return dot(normal, toward_) > 0; }
 
-  // How bright a surface is, 0 to 1; its normal has length 1.
+  // Returns the brightness of a surface with this unit normal, from 0 to 1.
   double light(const Point<3>& normal) const;
   double light_on_plane() const { return on_plane_; }
 
  private:
-  Point<3> right_, up_, toward_;  // toward us
+  Point<3> right_, up_, toward_;  // directions in the picture; toward_: towards the viewer
   double on_plane_ = 1;
 };
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double turned = 26 * degree;  // to the right
+constexpr double turned = 26 * degree;  // rotation of the view to the right. [rad]
+// Elevation of the view. [rad]
 constexpr double raised = 22 * degree;
-constexpr Point<3> lamp{-0.46, 0.56, 0.69};  // right, up, toward us
-constexpr double flat_lying = 0.8;           // z of a plane that is rather a floor than a wall
+constexpr Point<3> lamp{-0.46, 0.56, 0.69};  // direction to the light: right, up, toward the viewer
+// |z| of the unit normal above which a plane is a floor and not a wall
+constexpr double flat_lying = 0.8;
 
-// Of length 1; that of 0 is 0.
+// Returns v scaled to length 1, or 0 for the vector 0.
 Point<3> unit_vector(const Point<3>& v) {
   const double length = std::sqrt(dot(v, v));
   return length > 0 ? Point<3>{v[0] / length, v[1] / length, v[2] / length} : Point<3>{};
@@ -207,7 +215,7 @@ Point<3> unit_vector(const Point<3>& v) {
 BodyView::BodyView(const CutPlane& plane) {
   const Point<3> normal = unit_vector(plane.normal);
   const bool floor = std::fabs(normal[2]) > flat_lying;
-  // z is up on a wall. On a floor y is, and we stand before it.
+  // On a wall, z points up. On a floor, y does, and the viewer is on the side of -y.
   const Point<3> right = unit_vector(cross(floor ? Point<3>{0, 1, 0} : Point<3>{0, 0, 1}, normal));
   const Point<3> up = cross(normal, right);
   const double rise = floor ? -raised : raised;
@@ -226,23 +234,25 @@ double BodyView::light(const Point<3>& normal) const {
 
 constexpr PictureSize body_picture_size{18, 1400, 2400};
 
-constexpr Colour skin = colour(0xb9cadb);   // the boundary
-constexpr Colour flesh = colour(0xf0dcae);  // tetrahedra that have no colour of their own
+constexpr Colour skin = colour(0xb9cadb);  // colour of the boundary
+// Colour of cut tetrahedra if they are not coloured by a value.
+constexpr Colour flesh = colour(0xf0dcae);
 
-// How much darker it is where no light falls.
+// Loss of brightness where no light falls. [1]
 constexpr double shade_of_skin = 0.6;
 constexpr double shade_of_cut = 0.4;
 
-// Circumcentres that are nearer to each other along the line of sight, as a part of the body's
-// depth, are one but for rounding.
+// Circumcentres whose depths differ by less than this are treated as equal, because they may differ
+// by rounding only. [depth of the body]
 constexpr double one_sphere = 1e-9;
 
+// A triangle of the picture with its colour and the keys of the painting order.
 struct PaintedFace {
   double x[3], y[3];
   Colour colour;
   std::size_t tetrahedron;
-  double nearness;  // of the tetrahedron
-  double depth;     // of the face
+  double nearness;  // of the circumcentre of the tetrahedron; 0 for surface meshes
+  double depth;     // nearness of the face's centroid
 };
 
 Colour shaded(const Colour& colour, double shade, double light) {
@@ -286,7 +296,7 @@ class BodyPainter {
 
 Point<3> opposite(const Point<3>& x) { return {-x[0], -x[1], -x[2]}; }
 
-// The normal of a face at one of its corners, away from the inside of its tetrahedron.
+// Returns the normal turned to the outside of the tetrahedron `of`. `at` is a corner of the face.
 Point<3> turned_away(const Point<3>& normal, const Point<3>& at, const TetrahedronCorners& of) {
   double inward = 0;
   for (const Point<3>& corner : of) inward += dot(normal, difference(corner, at));
@@ -300,7 +310,8 @@ void BodyPainter::add(const VisibleFace& face) {
   painted.tetrahedron = face.tetrahedron;
   Point<3> normal = unit_vector(cross(difference(b, a), difference(c, a)));
   if (body_.surfaces_alone()) {
-    if (!view_.shows(normal)) normal = opposite(normal);  // of an open one both sides are seen
+    // Both sides of an open surface are visible.
+    if (!view_.shows(normal)) normal = opposite(normal);
   } else {
     const TetrahedronCorners corners = body_.corners(face.tetrahedron);
     normal = turned_away(normal, a, corners);
@@ -319,7 +330,7 @@ void BodyPainter::add(const VisibleFace& face) {
     const ColourScale& scale = values_->scale();
     colour = scale.colour(scale.class_of(values_->at(face.tetrahedron)));
   }
-  // Colours that mean numbers are themselves where the cut is even.
+  // Scale colours must match the legend where the cut is flat, so light is relative to the plane.
   const double light = view_.light(normal);
   painted.colour = face.cut
                        ? shaded(colour, shade_of_cut, std::min(1.0, light / view_.light_on_plane()))
@@ -328,7 +339,7 @@ void BodyPainter::add(const VisibleFace& face) {
 }
 
 void BodyPainter::round_nearness() {
-  double low = 0, high = 0;  // from the first node
+  double low = 0, high = 0;  // relative to the first node
   for (const Point<3>& x : body_.positions) {
     const double nearness = view_.nearness(difference(x, body_.positions.front()));
     low = std::min(low, nearness);
@@ -339,9 +350,9 @@ void BodyPainter::round_nearness() {
   for (PaintedFace& face : faces_) face.nearness = std::round(face.nearness / grain);
 }
 
-// Of two Delaunay tetrahedra with a common face the one before it has its circumcentre before the
-// other's: along every line of sight they follow each other in this order. Those on one sphere are
-// told apart by the face.
+// Sorts faces from far to near. Of two Delaunay tetrahedra with a common face, the nearer one has
+// the nearer circumcentre, so this order is right along every line of sight. If circumspheres
+// coincide, the centroids of the faces decide.
 void BodyPainter::sort() {
   round_nearness();
   std::ranges::sort(faces_, [](const PaintedFace& a, const PaintedFace& b) {
@@ -364,7 +375,7 @@ void BodyPainter::paint(cairo_t* cairo, const PaintedFace& face) const {
   cairo_close_path(cairo);
   set_colour(cairo, face.colour);
   cairo_fill_preserve(cairo);
-  // The edge also covers the seam that softened fills leave between two faces.
+  // The stroke also covers the seam that antialiased fills leave between two faces.
   set_colour(cairo, edge_colour(face.colour, frame_.pixels(longest)));
   cairo_stroke(cairo);
 }
@@ -380,7 +391,7 @@ void BodyPainter::draw(cairo_t* cairo) const {
   legend(cairo);
 }
 
-// Where x, y and z point to.
+// Draws arrows in the directions of x, y and z.
 void BodyPainter::draw_axes(cairo_t* cairo, double x, double y, double font_size) const {
   const double length = 1.25 * font_size;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -392,7 +403,7 @@ void BodyPainter::draw_axes(cairo_t* cairo, double x, double y, double font_size
     set_colour(cairo, ink);
     cairo_set_line_width(cairo, 1.2 * frame_.line_width);
     cairo_stroke(cairo);
-    if (std::hypot(right, up) < 0.2) continue;  // it points at us
+    if (std::hypot(right, up) < 0.2) continue;  // no label, since the axis points at the viewer
     const double beyond = length + 0.45 * font_size / std::hypot(right, up);
     draw_text(cairo, x + beyond * right, y - beyond * up + 0.28 * font_size,
               std::string(1, "xyz"[k]), 0.5);

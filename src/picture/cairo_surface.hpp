@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cairo's output led into a sink. Cairo is C: exceptions of the sink must not pass through it,
-// so they are kept and thrown again afterwards.
+// Output of cairo to a sink. Cairo is written in C, so exceptions of the sink must not pass through
+// it. They are stored and thrown again afterwards.
 #pragma once
 
 #include <cairo.h>
@@ -16,6 +16,7 @@
 
 namespace pnpbs::picture {
 
+// Callback and status check for a surface that writes to a sink.
 class CairoStream {
  public:
   explicit CairoStream(io::Sink& sink) : sink_(sink) {}

@@ -7,20 +7,21 @@
 namespace pnpbs::picture {
 namespace {
 
-constexpr double room = 0.14;        // between two ticks, as a fraction of the bar
-constexpr double max_intervals = 4;  // of a linear scale
+constexpr double room = 0.14;        // minimum distance of two ticks. [length of the bar]
+constexpr double max_intervals = 4;  // largest number of intervals between ticks of a linear scale
 
-// The least of 1, 2, 5 times a power of ten that is at least `value`.
+// Returns the smallest of 1, 2, 5 times a power of ten that is at least `value`.
 double round_above(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
-  const double digit = value / power * (1 - 1e-9);  // what is round but for rounding is round
+  // The factor absorbs rounding errors of round numbers.
+  const double digit = value / power * (1 - 1e-9);
   return power * (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10);
 }
 
 std::vector<double> round_numbers(const ColourScale& scale) {
   std::vector<double> numbers;
   if (scale.logarithmic) {
-    const bool powers_only = scale.high > 200 * scale.low;  // there is not room for all
+    const bool powers_only = scale.high > 200 * scale.low;  // room for powers of ten only
     for (double power = std::pow(10, std::floor(std::log10(scale.low))); power < scale.high;
          power *= 10) {
       numbers.push_back(power);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What colour a number has, and the numbers to write at its bar.
+// Colour scales: the mapping from values to colours, and the ticks of the colour bar.
 #pragma once
 
 #include <span>
@@ -9,20 +9,21 @@
 
 namespace pnpbs::picture {
 
-constexpr int colour_classes = 49;  // odd, so that one of them is the middle's
+constexpr int colour_classes = 49;  // odd, so that one class is centred on the middle of the scale
 
+// A linear or logarithmic scale that maps values to the colours of a palette.
 struct ColourScale {
-  double low = 0, high = 1;  // beyond them the colour is that of the end
+  double low = 0, high = 1;  // values outside have the colour of the nearer end
   bool logarithmic = false;
-  bool below = false, above = false;  // some values are beyond
+  bool below = false, above = false;  // some values lie below low, above high
   std::span<const Colour> palette = spacing_palette;
 
   bool uniform() const { return !(high > low); }
-  double fraction(double value) const;  // 0 at low to 1 at high
+  double fraction(double value) const;  // 0 at low, 1 at high
   int class_of(double value) const;
   Colour colour(int index) const { return mixed(palette, (index + 0.5) / colour_classes); }
 
-  // Both ends and round numbers between them, ascending.
+  // Returns both ends and the round numbers between them, ascending.
   std::vector<double> ticks() const;
 };
 

@@ -10,7 +10,7 @@ namespace pnpbs::picture {
 
 bool CutPlane::meets(const Box<3>& box) const {
   Point<3> middle{};
-  double reach = 0;  // of the box from its middle along the normal
+  double reach = 0;  // half the extent of the box along the normal
   for (std::size_t k = 0; k < 3; ++k) {
     middle[k] = box.low[k] + 0.5 * (box.high[k] - box.low[k]);
     reach += std::fabs(normal[k]) * 0.5 * (box.high[k] - box.low[k]);

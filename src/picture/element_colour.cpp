@@ -20,12 +20,13 @@ constexpr std::array names{
     Name{"none", ElementColour::none}, Name{"quality", ElementColour::quality},
     Name{"edge", ElementColour::edge}, Name{"spacing", ElementColour::spacing}};
 
-// A few odd elements, at sharp corners say, shall not take all contrast from the others: up to
-// this share of them may lie beyond an end of the scale.
+// Share of the elements that may lie beyond each limit of the scale, so that a few bad elements,
+// such as those at sharp corners, do not take the contrast from the others. [1]
 constexpr double share_beyond = 0.01;
 
-// The first of the candidates, which go from narrow to wide, that holds all values but a few; the
-// last if none does. is_within(value, candidate) tells whether it holds that one.
+// Returns the first candidate that includes all values except for share_beyond, or the last
+// candidate. Candidates are ordered from narrow to wide. is_within(value, candidate) returns
+// whether a candidate includes the value.
 template <std::size_t Count, class IsWithin>
 double narrowest(const ElementValues& values, const std::array<double, Count>& candidates,
                  const IsWithin& is_within) {
@@ -49,7 +50,8 @@ void choose_quality_scale(const ElementValues& values, ColourScale& scale) {
   scale.low = narrowest(values, ends, [](double value, double low) { return value >= low; });
 }
 
-// About 1. At most from 0 to 2: what is longer is wrong whatever its number.
+// Chooses a scale that is symmetric about 1 and at most from 0 to 2. It does not distinguish edges
+// longer than 2 d, which are wrong anyway.
 void choose_edge_scale(const ElementValues& values, ColourScale& scale) {
   constexpr std::array widths{0.05, 0.1, 0.2, 0.3, 0.5, 1.0};
   scale.palette = edge_palette;
@@ -63,7 +65,7 @@ void choose_spacing_scale(double min, double max, ColourScale& scale) {
   scale.palette = spacing_palette;
   scale.logarithmic = max > 10 * min;
   scale.low = min;
-  // Three digits could not tell the ends of a smaller range apart.
+  // The ticks have three digits, which could not distinguish the ends of a smaller range.
   scale.high = max < 1.02 * min ? min : max;
 }
 
@@ -111,7 +113,7 @@ std::string title_of(ElementColour by, const std::string& quality, const std::st
 
 namespace {
 
-// 2 r_in / R = (b + c - a) (c + a - b) (a + b - c) / (a b c)
+// Returns the quality 2 r_in / R = (b + c - a) (c + a - b) (a + b - c) / (a b c).
 double quality(const TriangleShape& triangle) {
   const auto [a, b, c] = triangle.edge;
   if (!(a > 0 && b > 0 && c > 0)) return 0;

@@ -11,8 +11,8 @@
 namespace pnpbs::picture {
 namespace {
 
-// Puts a description in words into the file: cairo draws letters as shapes, which neither a search
-// nor a screen reader finds.
+// A filter that inserts a description into an SVG file. Cairo draws letters as shapes, which
+// neither a search nor a screen reader finds.
 class Describer {
  public:
   Describer(io::Sink& sink, const std::string& words)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formats that pictures can be written in.
+// File formats of pictures.
 #pragma once
 
 #include <cairo.h>
@@ -16,14 +16,14 @@ namespace pnpbs::picture {
 // A picture that can be drawn on any cairo surface.
 struct Drawing {
   double width, height;     // pixels
-  std::string description;  // in words, for those who search; may be empty
+  std::string description;  // for searches and screen readers; may be empty
   std::function<void(cairo_t*)> draw;
 };
 
 struct Format {
-  std::string_view name;  // also the extension, without its dot
+  std::string_view name;  // also the file extension, without its dot
   std::string_view help;
-  bool binary;  // not for terminals
+  bool binary;  // must not be written to a terminal
   void (*write)(const Drawing& drawing, io::Sink& sink);
 };
 

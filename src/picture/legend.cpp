@@ -10,7 +10,7 @@
 namespace pnpbs::picture {
 namespace {
 
-// 103 214 instead of 103214.
+// Returns the number with a space between groups of three digits: 103 214.
 std::string grouped(std::size_t count) {
   std::string digits = std::to_string(count);
   for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) {
@@ -19,7 +19,7 @@ std::string grouped(std::size_t count) {
   return digits;
 }
 
-// The largest of 1, 2, 5 times a power of ten that is at most `value`.
+// Returns the largest of 1, 2, 5 times a power of ten that is at most `value`.
 double round_below(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
   const double digit = value / power;
@@ -60,7 +60,7 @@ void draw_node_count(cairo_t* cairo, const PictureFrame& frame, double base, std
 
 namespace {
 
-// Heights above the base, and lengths, in font sizes.
+// Layout of the colour bar: heights above the base line and lengths. [font size]
 constexpr double bar_bottom = 1.05;
 constexpr double bar_top = 1.6;
 constexpr double title_base = 2.0;
@@ -73,7 +73,7 @@ void draw_colours(cairo_t* cairo, const ColourScale& scale, const ColourBarPlace
   cairo_pattern_t* gradient =
       cairo_pattern_create_linear(place.left, 0, place.left + place.width, 0);
   for (int c = 0; c < colour_classes; ++c) {
-    // All of one colour if all values are one.
+    // A uniform scale has a single colour.
     const Colour colour = scale.colour(scale.uniform() ? colour_classes / 2 : c);
     cairo_pattern_add_color_stop_rgb(gradient, (c + 0.5) / colour_classes, colour.red, colour.green,
                                      colour.blue);
@@ -84,7 +84,8 @@ void draw_colours(cairo_t* cairo, const ColourScale& scale, const ColourBarPlace
   cairo_pattern_destroy(gradient);
 }
 
-// Values beyond an end have its colour: a tip there says so. direction: -1 left, 1 right.
+// Draws a tip at an end of the bar: values beyond this end have its colour. direction: -1 left, 1
+// right.
 void draw_tip(cairo_t* cairo, double x, double direction, const Colour& colour,
               const ColourBarPlace& place) {
   const double top = place.base - bar_top * place.font_size;
@@ -114,7 +115,7 @@ void draw_ticks(cairo_t* cairo, const ColourScale& scale, const ColourBarPlace& 
 
 void draw_colour_bar(cairo_t* cairo, const ColourScale& scale, const std::string& title,
                      const ColourBarPlace& place) {
-  // In narrow pictures the words are wider than the bar.
+  // In narrow pictures the title is shrunk to the width of the bar.
   const double fit = std::min(1.0, place.width / text_width(cairo, title));
   cairo_set_font_size(cairo, fit * place.font_size);
   draw_text(cairo, place.left + 0.5 * place.width, place.base - title_base * place.font_size, title,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The line below every picture.
+// The legend below every picture.
 #pragma once
 
 #include <cairo.h>
@@ -12,26 +12,27 @@
 
 namespace pnpbs::picture {
 
-// Chooses the letters and draws a scale bar. Returns the line the legend stands on.
+// Selects the font and draws a scale bar. Returns y of the base line of the legend. [pixels]
 double begin_legend(cairo_t* cairo, const PictureFrame& frame, double font_size);
 
-// High and narrow pictures have not room for a bar of colours beside other things in large letters.
+// Returns the font size for a legend with a colour bar. It is smaller in tall, narrow pictures.
 double font_beside_colour_bar(const PictureFrame& frame);
 
-// At the right end.
+// Draws the number of nodes at the right end of the legend.
 void draw_node_count(cairo_t* cairo, const PictureFrame& frame, double base, std::size_t nodes);
 
-// The key to a scale of colours: a title, the colours, and numbers below them.
+// Position and size of a colour bar. [pixels]
 struct ColourBarPlace {
-  double left, base;  // base: the line the numbers stand on
+  double left, base;  // base: base line of the tick labels
   double width;
   double font_size;
 };
 
+// Draws a colour bar with its title above and its ticks below.
 void draw_colour_bar(cairo_t* cairo, const ColourScale& scale, const std::string& title,
                      const ColourBarPlace& place);
 
-// The same in words: "title (low, ..., high)".
+// Returns the scale in words: "title (low, ..., high)".
 std::string words_of(const ColourScale& scale, const std::string& title);
 
 }  // namespace pnpbs::picture

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours and words on a picture.
+// Colours and text of pictures.
 #pragma once
 
 #include <cairo.h>
@@ -12,10 +12,11 @@ namespace pnpbs::picture {
 
 void set_colour(cairo_t* cairo, const Colour& colour, double opacity = 1);
 
-// align: 0 begins at x, 0.5 is centred there, 1 ends there. Returns where the text ends.
+// Draws text at x with alignment 0 (starts at x), 0.5 (centred) or 1 (ends at x). Returns the x at
+// which the text ends. [pixels]
 double draw_text(cairo_t* cairo, double x, double y, const std::string& text, double align);
 double text_width(cairo_t* cairo, const std::string& text);
 
-std::string short_number(double value);  // three digits: enough for a legend
+std::string short_number(double value);  // three significant digits
 
 }  // namespace pnpbs::picture

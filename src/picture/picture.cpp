@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture of the nodes for people: discs sized by d on the curves of the domain, and below
-// them a scale bar and what the colours mean.
+// Picture of a plane node set: discs sized by d over the curves of the domain, and a legend with a
+// scale bar and the meaning of the colours.
 #include "picture/picture.hpp"
 
 #include <algorithm>
@@ -16,20 +16,24 @@
 namespace pnpbs::picture {
 namespace {
 
-constexpr int spacing_classes = 48;  // discs of one class share colour and size
-// Cairo takes some 2 kB of memory for each disc of a path.
+// Number of size classes; discs of a class share colour and size.
+constexpr int spacing_classes = 48;
+// Number of discs per path. Cairo uses about 2 kB of memory for each.
 constexpr std::size_t discs_at_once = 4096;
-constexpr double disc_over_spacing = 0.6;  // diameter over d
-constexpr double dense_disc = 0.85;        // the same where pixels are few
+// Disc diameters of inner nodes: normally, and if there are few pixels per spacing. [d]
+constexpr double disc_over_spacing = 0.6;
+constexpr double dense_disc = 0.85;
+// Disc diameter of boundary nodes. [shortest edge, at most d]
 constexpr double boundary_disc = 0.45;
+// Disc diameter at the centre of a bubble. [d]
 constexpr double disc_in_bubble = 0.22;
-constexpr double min_disc = 1.1;        // pixels
-constexpr double edge_on_colour = 0.3;  // opacity
+constexpr double min_disc = 1.1;        // smallest disc diameter. [pixels]
+constexpr double edge_on_colour = 0.3;  // opacity of triangle edges over coloured triangles
 constexpr PictureSize picture_size{14, 1000, 2400};
 
 // ------------------------------------------------------------------------ spacing -----------
 
-// Classes of spacing, equal in ratio.
+// Classes of spacing with a constant ratio from one to the next.
 class SpacingScale {
  public:
   explicit SpacingScale(const std::vector<double>& spacing) {
@@ -56,7 +60,8 @@ class SpacingScale {
 
 // ------------------------------------------------------------------------ nodes -------------
 
-// The length of the shortest triangle edge at each node, at most d: room for its disc.
+// Returns for each node the length of the shortest triangle edge at it, at most d, which limits the
+// size of its disc.
 std::vector<double> room_at(const NodeSet& nodes) {
   std::vector<double> room = nodes.spacing;
   for (const auto& corners : nodes.triangles) {
@@ -72,7 +77,7 @@ std::vector<double> room_at(const NodeSet& nodes) {
   return room;
 }
 
-// Nodes by class of their size, inner and boundary nodes apart.
+// The boundary nodes, or the inner nodes, grouped by classes of their size.
 class NodeClasses {
  public:
   NodeClasses(const NodeSet& nodes, const std::vector<double>& size, bool boundary)
@@ -130,7 +135,8 @@ class Painter {
   NodeClasses inner_, boundary_;
 };
 
-// A line of no length with round ends: the shortest way to say "disc" in a file.
+// Adds a disc to the path: a line of length 0 with round ends, which is the shortest form in a
+// file.
 void Painter::dot(double x, double y) {
   cairo_move_to(cairo_, x, y);
   cairo_close_path(cairo_);
@@ -143,7 +149,7 @@ void Painter::triangles(const Colour& colour, double opacity) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = static_cast<std::size_t>(corners[k]);
       const auto b = static_cast<std::size_t>(corners[(k + 1) % 3]);
-      if (a > b) continue;  // inner edges come in both directions; the outline has the others
+      if (a > b) continue;  // inner edges appear in both directions; the outline has the others
       cairo_move_to(cairo_, x(a), y(a));
       cairo_line_to(cairo_, x(b), y(b));
     }
@@ -186,7 +192,7 @@ void Painter::outline() {
 }
 
 void Painter::discs(double inner_over_spacing, double boundary_over_spacing) {
-  // Large ones first: where sizes meet, the small ones stay visible.
+  // Draw large discs first, so that small ones stay visible.
   for (int c = spacing_classes - 1; c >= 0; --c) {
     discs_of(inner_.members(c), colour_of(inner_.size(c)),
              inner_over_spacing * frame_.pixels(inner_.size(c)));
@@ -228,7 +234,7 @@ void Painter::colour_bar(double left, double base, double width) {
   draw_text(cairo_, left + width, above, short_number(scale_.max()), 1);
 }
 
-// A disc and what it means; returns where that ends.
+// Draws a disc with its meaning. Returns the x at which the text ends. [pixels]
 double Painter::key(double left, double base, const std::string& meaning, const Colour& colour) {
   const double size = 0.6 * frame_.font_size;
   dot(left + 0.5 * size, base - 0.55 * size);
@@ -263,7 +269,8 @@ void Painter::legend() {
 
 // ------------------------------------------------------------------------ the whole ---------
 
-// Small discs look pale: the fewer pixels there are between nodes, the more of them are filled.
+// Returns the disc diameter. Small discs look pale, so it is larger if there are few pixels per
+// spacing. [d]
 double disc_size(const PictureFrame& frame) {
   const double pixels = frame.pixels(frame.typical_spacing);
   return std::lerp(dense_disc, disc_over_spacing, std::clamp((pixels - 4) / 8, 0.0, 1.0));

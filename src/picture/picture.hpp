@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pictures there are.
+// Drawings of plane node sets, spheres and bodies.
 #pragma once
 
 #include "base/types.hpp"
@@ -11,26 +11,28 @@
 
 namespace pnpbs::picture {
 
-// How a sphere about the origin is looked at: from far away, or all of it at once as a map.
+// The view of a sphere about the origin: an orthographic view from far away, or a map.
 struct SphereView {
   double radius = 1;
-  bool as_map = false;  // plate carrée: longitude to the right, latitude upwards
-  Point<2> from{};      // otherwise orthographic, seen from above this longitude and latitude
+  bool as_map = false;  // plate carrée: longitude to the right, latitude upwards. [degrees]
+  Point<2> from{};  // longitude and latitude below the viewer of an orthographic view. [degrees]
 };
 
 struct PictureStyle {
-  bool bubbles = false;                        // draw every node's bubble, a circle of diameter d
-  ElementColour colour = ElementColour::none;  // otherwise triangles instead of nodes
+  bool bubbles = false;  // draw the bubbles, circles of diameter d
+  // If not `none`, draw coloured triangles instead of discs.
+  ElementColour colour = ElementColour::none;
 };
 
-// What is drawn must outlive its drawing.
+// Returns a picture of the nodes. `nodes` must outlive the drawing.
 Drawing drawing_of(const NodeSet& nodes, const PictureStyle& style);
 
-// The triangles of a sphere, which are the body's boundary.
+// Returns a picture of the triangles of a sphere, which are the boundary of `triangles`.
+// `triangles` must outlive the drawing.
 Drawing drawing_of(const Body& triangles, const SphereView& view, ElementColour colour);
 
-// A body cut open: what lies before the plane is taken away by whole tetrahedra, and those behind
-// it are coloured.
+// Returns a picture of a body that is cut open. Whole tetrahedra in front of the plane are removed;
+// those behind it are coloured. `body` must outlive the drawing.
 Drawing drawing_of(const Body& body, const CutPlane& plane, ElementColour colour);
 
 }  // namespace pnpbs::picture

@@ -8,7 +8,7 @@
 namespace pnpbs::picture {
 namespace {
 
-constexpr double min_width = 700;  // room for the legend
+constexpr double min_width = 700;  // width that the legend needs. [pixels]
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -35,7 +35,7 @@ PictureFrame frame_around(const Box<2>& bounds, const std::vector<double>& spaci
                           const PictureSize& size) {
   const double wide = bounds.high[0] - bounds.low[0], high = bounds.high[1] - bounds.low[1];
   double longer = std::max(wide, high);
-  if (!(longer > 0)) longer = 1;  // a single point, or nothing at all
+  if (!(longer > 0)) longer = 1;  // a single point, or none
 
   PictureFrame frame{};
   frame.typical_spacing = median(spacing);

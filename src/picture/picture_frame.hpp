@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in the picture things are, and how large.
+// Placement and scale of a domain in a picture.
 #pragma once
 
 #include <initializer_list>
@@ -10,18 +10,20 @@
 
 namespace pnpbs::picture {
 
-constexpr double edges_from_spacing = 7.0;  // pixels; below, triangle edges would be a grey mist
+// Smallest spacing with triangle edges; edges of smaller triangles would blur to grey. [pixels]
+constexpr double edges_from_spacing = 7.0;
 
-// Lengths in pixels, except where they belong to the domain.
+// Mapping from the domain to the picture, and sizes of its parts. Lengths are in pixels unless they
+// are named lengths of the domain.
 struct PictureFrame {
   double width, height;  // of the whole picture
   double margin;
   double line_width;
   double font_size;
-  double typical_spacing;  // of the domain
+  double typical_spacing;  // median of d, in units of the domain
 
-  double low_x, high_y;  // corner of the domain that is at the upper left
-  double left, top;      // where that corner is
+  double low_x, high_y;  // upper left corner of the domain, in units of the domain
+  double left, top;      // position of this corner in the picture
   double pixels_per_unit;
 
   double x(double domain_x) const { return left + pixels_per_unit * (domain_x - low_x); }
@@ -30,17 +32,17 @@ struct PictureFrame {
   double from_pixels(double length) const { return length / pixels_per_unit; }
 };
 
-// Pixels.
+// The limits of the size of a picture. [pixels]
 struct PictureSize {
-  double wanted_spacing;  // between typical nodes, if there is room
-  double min_side;        // of the longer side of what is shown
+  double wanted_spacing;  // distance between typical nodes, within the limits of the sides
+  double min_side;        // limits of the longer side of the domain
   double max_side;
 };
 
-// Of points [n][2]; if there are none, of the origin.
+// Returns the bounding box of points [n][2], or the origin if there are none.
 Box<2> bounds_of(std::initializer_list<std::span<const double>> points);
 
-// In a size that suits what is shown and the spacing of the nodes.
+// Returns a frame around `bounds`, scaled so that the median of `spacing` has the requested size.
 PictureFrame frame_around(const Box<2>& bounds, const std::vector<double>& spacing,
                           const PictureSize& size);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a sphere: those on the near side, orthographic, or all of them on a map whose
-// axes are longitude and latitude.
+// Picture of the triangles of a sphere: the near side in an orthographic view, or all triangles on
+// a map of longitude and latitude.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -20,7 +20,7 @@ namespace pnpbs::picture {
 namespace {
 
 constexpr PictureSize sphere_picture_size{12, 1400, 2400};
-constexpr Colour bare = colour(0xe9e4d8);  // where there are no triangles
+constexpr Colour bare = colour(0xe9e4d8);  // colour of the sphere where there are no triangles
 constexpr Colour plain = colour(0xb9cadb);
 
 using Shape = std::vector<Point<2>>;
@@ -111,7 +111,8 @@ class SpherePainter {
     draw_shape(cairo, shape, colour_of(t));
   }
 
-  // A corner at a pole has the longitudes of both its neighbours.
+  // Returns longitudes and latitudes of the corners. A corner at a pole appears twice, with the
+  // longitudes of its neighbours.
   Shape degrees_of_corners(std::size_t t) const {
     constexpr double at_pole = 90 - 1e-9;
     const std::array<Point<3>, 3> x = corners(t);
@@ -128,8 +129,9 @@ class SpherePainter {
     return shape;
   }
 
-  // Each side goes the short way around. Around a pole they come back a turn farther: then the
-  // sides are those of strips up to the pole.
+  // Draws a triangle on the map. Each side takes the shorter way around. If the triangle contains a
+  // pole, the longitudes add up to a full turn; then the strips between the sides and the pole are
+  // drawn.
   void draw_on_map(cairo_t* cairo, std::size_t t) const {
     Shape shape = degrees_of_corners(t);
     shape.push_back(shape.front());
@@ -148,7 +150,7 @@ class SpherePainter {
     }
   }
 
-  // Beyond one end of the map it goes on at the other.
+  // Draws a shape and, if it crosses an end of the map, its copy at the other end.
   void draw_copies(cairo_t* cairo, Shape shape, const Colour& colour) const {
     for (const double turn : {-360.0, 360.0, 360.0}) {
       for (Point<2>& corner : shape) corner[0] += turn;
@@ -172,7 +174,7 @@ class SpherePainter {
     cairo_close_path(cairo);
     set_colour(cairo, colour);
     cairo_fill_preserve(cairo);
-    // The edge also covers the seam that softened fills leave between two triangles.
+    // The stroke also covers the seam that antialiased fills leave between two triangles.
     set_colour(cairo, edge_colour(colour, frame_.pixels(longest)));
     cairo_stroke(cairo);
   }
@@ -195,7 +197,7 @@ class SpherePainter {
   const Body& body_;
   SphereView view_;
   ElementColour by_;
-  Point<3> right_{}, up_{}, toward_{};  // of the picture; toward us
+  Point<3> right_{}, up_{}, toward_{};  // directions in the picture; toward_: towards the viewer
   std::optional<ValueScale> scale_;
   PictureFrame frame_{};
 };

@@ -47,11 +47,13 @@ std::string TriangleValues::title() const {
 
 namespace {
 
-constexpr std::size_t triangles_at_once = 4096;  // cairo keeps a path in memory until it is filled
+// Limits memory, since cairo stores a path until it is filled.
+constexpr std::size_t triangles_at_once = 4096;
 
-constexpr double overlap = 0.5;  // line widths
+constexpr double overlap = 0.5;  // width of the overlap of triangles. [line width]
 
-// Whether a pixel's middle may lie between: cairo rounds coordinates to 1/256 of a pixel.
+// Returns whether the centre of a pixel may lie between both coordinates. Cairo rounds coordinates
+// to 1/256 of a pixel.
 bool meets_pixels(double low, double high) {
   constexpr double rounding = 1.0 / 128;
   return std::ceil(low - rounding - 0.5) <= std::floor(high + rounding - 0.5);
@@ -65,10 +67,12 @@ class TriangleFill {
       classes_[t] = static_cast<std::uint8_t>(values.scale().class_of(values.at(t)));
   }
 
-  // pixels: what no pixel's middle lies in may be left out.
+  // Draws all triangles. `pixels`: the target is a raster image, so triangles without a pixel
+  // centre are left out.
   void draw(cairo_t* cairo, bool pixels) const {
-    // Softened edges would let the paper shine through between two triangles: in pixels there are
-    // none, a pixel belongs to the triangle its middle is in; elsewhere triangles overlap a little.
+    // Antialiased edges would show the paper between two triangles. In a raster image a pixel
+    // belongs to the triangle that contains its centre. In vector formats the triangles overlap a
+    // little instead.
     cairo_set_antialias(cairo, CAIRO_ANTIALIAS_NONE);
     cairo_set_line_width(cairo, overlap * frame_.line_width);
     for (int c = 0; c < colour_classes; ++c) draw_class(cairo, c, pixels);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a picture in the colours of their values.
+// Triangles of a picture, filled with the colours of their values.
 #pragma once
 
 #include <cairo.h>
@@ -14,10 +14,10 @@
 
 namespace pnpbs::picture {
 
-// The values that pictures colour triangles by.
+// The values by which the triangles of a picture are coloured, and their scale.
 class TriangleValues {
  public:
-  // nodes must outlive this; by: not none.
+  // `nodes` must outlive this object. `by` must not be `none`.
   TriangleValues(const NodeSet& nodes, ElementColour by);
 
   const NodeSet& nodes() const { return nodes_; }
@@ -25,7 +25,7 @@ class TriangleValues {
   std::array<std::size_t, 3> corners(std::size_t triangle) const;
   double at(std::size_t triangle) const;
   const ColourScale& scale() const { return scale_.colours; }
-  std::string title() const;  // what the numbers are, and from where to where they go
+  std::string title() const;  // quantity and range of the values
 
  private:
   const NodeSet& nodes_;
@@ -33,8 +33,8 @@ class TriangleValues {
   ValueScale scale_;
 };
 
-// Where triangles are too small to be seen, pictures that are no pixels take them as pixels, too:
-// their size is bounded then.
+// Fills the triangles. Vector formats get a raster image of triangles that are too small to be
+// seen, which limits the size of the file.
 void fill_triangles(cairo_t* cairo, const PictureFrame& frame, const TriangleValues& values);
 
 }  // namespace pnpbs::picture
