@@ -18,7 +18,7 @@ namespace {
 // curve callbacks, so a query from inside a callback fails if the domain has not been checked
 // before.
 template <class Question>
-pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
+pnpbs_status query_domain(pnpbs_domain domain, const Question& question) {
   return guarded(domain, [&](DomainObject& object) {
     return visit_dimension(object, [&](auto& checked) {
       if (!checked.is_checked()) {
@@ -277,11 +277,11 @@ pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char* text, int6
 }
 
 pnpbs_status pnpbs_domain_check(pnpbs_domain domain) {
-  return ask_domain(domain, [](const auto&) { return PNPBS_OK; });
+  return query_domain(domain, [](const auto&) { return PNPBS_OK; });
 }
 
 pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double* low, double* high) {
-  return ask_domain(domain, [&](const auto& checked) {
+  return query_domain(domain, [&](const auto& checked) {
     require_pointer(low, "low");
     require_pointer(high, "high");
     const auto& box = checked.bounds();
@@ -296,7 +296,7 @@ pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double* low, double* high)
 }
 
 pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double* measure) {
-  return ask_domain(domain, [&](const auto& checked) {
+  return query_domain(domain, [&](const auto& checked) {
     require_pointer(measure, "measure");
     *measure = whole_measure(checked);
     return PNPBS_OK;

@@ -31,7 +31,7 @@ std::string grid_index(std::int64_t i, const std::int64_t* size) {
 
 // Checks a grid except for its values. Returns the number of values.
 template <int Dim>
-std::int64_t check_grid(const GivenGrid& grid) {
+std::int64_t check_grid(const GridArguments& grid) {
   require_pointer(grid.size, "size");
   require_pointer(grid.origin, "origin");
   require_pointer(grid.step, "step");
@@ -114,7 +114,7 @@ void require_spacings(const DegreeGrid& grid) {
 }  // namespace
 
 template <int Dim>
-std::shared_ptr<const GridSpacing<Dim>> spacing_on_grid(const GivenGrid& grid) {
+std::shared_ptr<const GridSpacing<Dim>> spacing_on_grid(const GridArguments& grid) {
   const std::int64_t n = check_grid<Dim>(grid);
   for (std::int64_t i = 0; i < n; ++i)
     if (!is_spacing(grid.values[i]))
@@ -128,7 +128,7 @@ std::shared_ptr<const GridSpacing<Dim>> spacing_on_grid(const GivenGrid& grid) {
                                             std::vector<double>(grid.values, grid.values + n));
 }
 
-std::shared_ptr<const LocalSpacing<3>> spacing_on_sphere_grid(const GivenGrid& grid,
+std::shared_ptr<const LocalSpacing<3>> spacing_on_sphere_grid(const GridArguments& grid,
                                                               double radius) {
   const std::int64_t n = check_grid<2>(grid);
   DegreeGrid on_sphere{grid.size[0],
@@ -142,7 +142,7 @@ std::shared_ptr<const LocalSpacing<3>> spacing_on_sphere_grid(const GivenGrid& g
   return std::make_shared<SphereGridSpacing>(std::move(on_sphere), radius);
 }
 
-template std::shared_ptr<const GridSpacing<2>> spacing_on_grid(const GivenGrid&);
-template std::shared_ptr<const GridSpacing<3>> spacing_on_grid(const GivenGrid&);
+template std::shared_ptr<const GridSpacing<2>> spacing_on_grid(const GridArguments&);
+template std::shared_ptr<const GridSpacing<3>> spacing_on_grid(const GridArguments&);
 
 }  // namespace pnpbs::api

@@ -10,7 +10,7 @@
 namespace pnpbs::api {
 
 // The arguments of the C interface for a grid.
-struct GivenGrid {
+struct GridArguments {
   const std::int64_t* size;
   const double *origin, *step, *values;
 };
@@ -18,8 +18,9 @@ struct GivenGrid {
 // Returns the spacing on a grid. Both functions throw Error(ErrorKind::argument), or
 // Error(ErrorKind::spacing) for an invalid value.
 template <int Dim>
-std::shared_ptr<const GridSpacing<Dim>> spacing_on_grid(const GivenGrid& grid);
+std::shared_ptr<const GridSpacing<Dim>> spacing_on_grid(const GridArguments& grid);
 // Returns the spacing on a grid of longitudes and latitudes in degrees.
-std::shared_ptr<const LocalSpacing<3>> spacing_on_sphere_grid(const GivenGrid& grid, double radius);
+std::shared_ptr<const LocalSpacing<3>> spacing_on_sphere_grid(const GridArguments& grid,
+                                                              double radius);
 
 }  // namespace pnpbs::api

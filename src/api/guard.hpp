@@ -32,7 +32,7 @@ Embedding<2> sphere_of(const PlacementObject& object);
 MessageText in_degrees(const Embedding<2>& sphere, const MessageText& message);
 // Converts the last error of the context in this way. Without memory for it the error stays as it
 // is.
-void tell_in_degrees(const Embedding<2>& sphere, Context& context) noexcept;
+void convert_to_degrees(const Embedding<2>& sphere, Context& context) noexcept;
 
 // Writes three coordinates; the third is NaN in the plane. Does nothing if `output` is NULL.
 void copy_point(const NamedPoint& point, double* output) noexcept;
@@ -108,7 +108,7 @@ pnpbs_status guarded(
       return body(*object);
     } catch (...) {
       const pnpbs_status status = report_failure(context);
-      tell_in_degrees(sphere_of(*object), *context);
+      convert_to_degrees(sphere_of(*object), *context);
       return status;
     }
   } catch (...) {

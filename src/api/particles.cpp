@@ -113,16 +113,16 @@ pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t n, const c
     const Computing computing(*object.context);
     const std::shared_ptr<const Communicator> comm = object.context->communicator;
     const std::shared_ptr<PlacementObject> placement = object.placement.lock();
-    const auto asks_to_stop = [&](double fraction) {
+    const auto requests_stop = [&](double fraction) {
       return placement &&
-             placement->placement->monitoring().asks_to_stop(fraction, object.particles->all);
+             placement->placement->monitoring().requests_stop(fraction, object.particles->all);
     };
     collective_try(*comm, [&] {
       const std::vector<io::FileRequest> requests =
           requests_of(n, paths, formats, nullptr, {object.particles->dimension});
       require_same_requests(*comm, requests);
       io::write_particles(comm, *object.particles, object.names, object.output_fields, requests,
-                          asks_to_stop);
+                          requests_stop);
     });
     return PNPBS_OK;
   });

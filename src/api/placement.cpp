@@ -32,8 +32,8 @@ std::unique_ptr<Placement> placement_in(const DomainObject& domain,
   return std::make_unique<PlacementImpl<3>>(std::move(comm), domain.volume, options);
 }
 
-void forget_all_nodes() {
-  placements().for_each([](PlacementObject& object) { object.placement->forget_nodes(); });
+void release_all_nodes() {
+  placements().for_each([](PlacementObject& object) { object.placement->release_nodes(); });
 }
 
 void set_placement_option(Placement& placement, const char* key, const auto& assign) {
@@ -60,7 +60,7 @@ pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
         throw Error(ErrorKind::argument,
                     "argument domain belongs to another context: create it on this one");
       start_kokkos(object.options.integer("threads"), object.communicator->ranks_on_node(),
-                   forget_all_nodes);
+                   release_all_nodes);
       made = std::make_shared<PlacementObject>(PlacementObject{
           require(context), placement_in(*of, object.communicator, object.options)});
     });
@@ -231,7 +231,7 @@ pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* va
     const Communicator& comm = object.placement->communicator();
     collective_try(comm, find);
     require_same_key(comm, key);
-    agreed_on(*object.placement, get);
+    collective_on(*object.placement, get);
     return PNPBS_OK;
   });
 }

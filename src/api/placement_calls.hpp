@@ -19,7 +19,7 @@ pnpbs_status local_change(pnpbs_placement placement, const Body& body) {
 // ranks throw. Ranks may have failed at different points, so they then agree on which derived data
 // are valid. Collective.
 template <class Work>
-void agreed_on(Placement& placement, const Work& work) {
+void collective_on(Placement& placement, const Work& work) {
   try {
     collective_try(placement.communicator(), work);
   } catch (...) {
@@ -34,7 +34,7 @@ pnpbs_status collective_on_object(pnpbs_placement placement, const Body& body) {
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
     pnpbs_status status = PNPBS_OK;
-    agreed_on(*object.placement, [&] { status = body(object); });
+    collective_on(*object.placement, [&] { status = body(object); });
     return status;
   });
 }

@@ -22,7 +22,7 @@ void require_not_negative(double value, const char* argument) {
                                          ": expected a positive number, or 0 to leave it out");
 }
 
-ShapeDemands demands_from(double nodes_per_turn, double nodes_across, double nodes_per_edge) {
+ShapeRequirements demands_from(double nodes_per_turn, double nodes_across, double nodes_per_edge) {
   require_not_negative(nodes_per_turn, "nodes_per_turn");
   require_not_negative(nodes_across, "nodes_across");
   require_not_negative(nodes_per_edge, "nodes_per_edge");
@@ -58,7 +58,7 @@ void require_shape(const VolumeDomain&) {}
 // Calls ask(shapes) with the shape queries of a domain, which is checked first. Checking may call
 // curve callbacks, so from inside a callback the first query must have been made before.
 template <class Ask>
-pnpbs_status ask_shape(pnpbs_domain domain, const Ask& ask) {
+pnpbs_status query_shape(pnpbs_domain domain, const Ask& ask) {
   return guarded(domain, [&](DomainObject& object) {
     const auto ask_in = [&]<int Dim>(auto& checked, std::shared_ptr<DomainShapes<Dim>>& shapes) {
       if (!shapes) {
@@ -94,7 +94,7 @@ void require_tag_in(const ShapeIndex<Dim>& index, std::int32_t tag) {
 
 pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
                                    const double* coordinates, double* distances) {
-  return ask_shape(domain, [&]<int Dim>(DomainShapes<Dim>& shapes) {
+  return query_shape(domain, [&]<int Dim>(DomainShapes<Dim>& shapes) {
     require_count(n, "n");
     if (n > 0) require_pointer(coordinates, "coordinates");
     if (n > 0) require_pointer(distances, "distances");
@@ -110,7 +110,7 @@ pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
 pnpbs_status pnpbs_domain_shape_spacing(pnpbs_domain domain, double nodes_per_turn,
                                         double nodes_across, double nodes_per_edge, double growth,
                                         int64_t n, const double* coordinates, double* d) {
-  return ask_shape(domain, [&]<int Dim>(DomainShapes<Dim>& shapes) {
+  return query_shape(domain, [&]<int Dim>(DomainShapes<Dim>& shapes) {
     require_count(n, "n");
     if (n > 0) require_pointer(coordinates, "coordinates");
     if (n > 0) require_pointer(d, "d");
@@ -127,7 +127,7 @@ pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
                                                     double nodes_per_edge, double growth,
                                                     double min_spacing, double max_spacing) {
   return collective(placement, [&](Placement& p) {
-    const ShapeDemands demands = demands_from(nodes_per_turn, nodes_across, nodes_per_edge);
+    const ShapeRequirements demands = demands_from(nodes_per_turn, nodes_across, nodes_per_edge);
     const ShapeLimits limits = limits_from(growth, min_spacing, max_spacing);
     visit_dimension(p, [&]<int Dim>(PlacementImpl<Dim>& in) {
       std::shared_ptr<const Spacing<Dim>> spacing;

@@ -39,7 +39,7 @@ class DomainShapes {
   }
 
   // Returns the shape spacing for these demands, and computes it on first request. Thread-safe.
-  const ShapeSpacing<Dim>& spacing(const ShapeDemands& demands, const ShapeLimits& limits) {
+  const ShapeSpacing<Dim>& spacing(const ShapeRequirements& demands, const ShapeLimits& limits) {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& known : spacings_)
       if (known->demands == demands && known->limits == limits) return known->spacing;
@@ -54,7 +54,7 @@ class DomainShapes {
     ShapeIndex<2> in_chart;
   };
   struct Known {
-    ShapeDemands demands;
+    ShapeRequirements demands;
     ShapeLimits limits;
     ShapeSpacing<Dim> spacing;
   };
@@ -62,7 +62,7 @@ class DomainShapes {
   Point<Dim> nearest(std::int32_t tag, const Point<Dim>& x) const {
     return tag == 0 ? index_.nearest_on_boundary(x) : index_.nearest_with_tag(tag, x);
   }
-  ShapeSpacing<Dim> spacing_for(const ShapeDemands& demands, const ShapeLimits& limits) const {
+  ShapeSpacing<Dim> spacing_for(const ShapeRequirements& demands, const ShapeLimits& limits) const {
     if constexpr (Dim == 3)
       if (sphere_)
         return {sources_on_sphere(sphere_->in_chart, sphere_->chart, demands,

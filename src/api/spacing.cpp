@@ -26,7 +26,7 @@ pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
   return local_change(placement, [&](Placement& p) {
     visit_dimension(p, [&]<int Dim>(PlacementImpl<Dim>& in) {
       std::shared_ptr<const Spacing<Dim>> spacing;
-      agreed_on(p, [&] { spacing = make(in); });
+      collective_on(p, [&] { spacing = make(in); });
       in.set_spacing(std::move(spacing));
     });
     return PNPBS_OK;
@@ -160,7 +160,7 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
                                               const double* origin, const double* step,
                                               const double* values) {
   return replace_spacing(placement, [&]<int Dim>(PlacementImpl<Dim>& in) {
-    const GivenGrid grid{size, origin, step, values};
+    const GridArguments grid{size, origin, step, values};
     std::shared_ptr<const Spacing<Dim>> spacing =
         spacing_on_sphere(in.domain().embedding(),
                           [&](double radius) { return spacing_on_sphere_grid(grid, radius); });

@@ -46,11 +46,11 @@ MessageText pnpbs::api::in_degrees(const Embedding<2>& sphere, const MessageText
   const auto words = [&](const NamedPoint& point, const std::string& text) {
     return point.dimension == 2 ? "(" + degrees_text(degrees_of(moved(point).x)) + ")" : text;
   };
-  return with_points_told(message, words, moved);
+  return with_points_replaced(message, words, moved);
 }
 
 // Keeps the message as it is if there is no memory for the new one.
-void pnpbs::api::tell_in_degrees(const Embedding<2>& sphere, Context& context) noexcept {
+void pnpbs::api::convert_to_degrees(const Embedding<2>& sphere, Context& context) noexcept {
   if (!sphere.is_sphere()) return;
   try {
     context.last_error.message = in_degrees(sphere, context.last_error.message);

@@ -13,7 +13,7 @@ namespace pnpbs {
 inline std::string extension_of(std::string_view path) {
   const std::size_t dot = path.rfind('.');
   if (dot == std::string_view::npos || path.find('/', dot) != std::string_view::npos) return "";
-  return in_small_letters(path.substr(dot + 1));
+  return to_lower_case(path.substr(dot + 1));
 }
 
 }  // namespace pnpbs

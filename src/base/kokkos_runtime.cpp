@@ -63,7 +63,7 @@ void check_environment() {
     }
     for (const char* flag : known_flags) {
       const std::string allowed[] = {"0", "1", "true", "false", "yes", "no", "on", "off"};
-      const std::string small = in_small_letters(value);
+      const std::string small = to_lower_case(value);
       if (name == flag &&
           std::find(std::begin(allowed), std::end(allowed), small) == std::end(allowed))
         throw Error(ErrorKind::kokkos, "the environment variable " + name + " is \"" + value +

@@ -22,7 +22,7 @@ inline constexpr double kSmallestRelativeSize = 1e-10;
 
 // Distances below which points are equal, in units of the longest side of the domain's bounding
 // box.
-inline constexpr double kSamePlace = 1e-12;  // between vertices, or between a vertex and a segment
+inline constexpr double kSamePoint = 1e-12;  // between vertices, or between a vertex and a segment
 inline constexpr double kSameCurveEnd = 1e-9;  // if one of the points is the end of a curve
 inline constexpr double kSameVertex = 1e-9;    // between vertices of surfaces in space
 

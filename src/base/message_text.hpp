@@ -56,7 +56,8 @@ class MessageText {
 // Returns the message with the text of each named point replaced by words(point, old_text). The
 // points of the result are moved(point).
 template <class Words, class Moved>
-MessageText with_points_told(const MessageText& message, const Words& words, const Moved& moved) {
+MessageText with_points_replaced(const MessageText& message, const Words& words,
+                                 const Moved& moved) {
   MessageText result;
   std::size_t at = 0;
   for (const NamedPoint& point : message.points()) {

@@ -7,13 +7,13 @@
 
 namespace pnpbs {
 
-constexpr char in_small_letters(char c) {
+constexpr char to_lower_case(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-inline std::string in_small_letters(std::string_view text) {
+inline std::string to_lower_case(std::string_view text) {
   std::string small(text);
-  for (char& c : small) c = in_small_letters(c);
+  for (char& c : small) c = to_lower_case(c);
   return small;
 }
 

@@ -13,9 +13,9 @@ namespace pnpbs {
 template <class Index>
 class UnionFind {
  public:
-  explicit UnionFind(std::size_t count) : parent_(count) { part_all(); }
+  explicit UnionFind(std::size_t count) : parent_(count) { separate_all(); }
   // Makes each member a set of its own again.
-  void part_all() { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+  void separate_all() { std::iota(parent_.begin(), parent_.end(), Index{0}); }
   Index root(Index x) {
     while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
     return x;

@@ -120,7 +120,7 @@ class Builder {
                            const std::vector<LedEntities>& first) const;
   // Appends the values at ghosts, requested from their owners, to those of owned nodes. Collective.
   template <class Value>
-  void ask_for_ghosts(std::vector<Value>& values) const;
+  void append_ghost_values(std::vector<Value>& values) const;
 
   Results<2>& results_;
   const Communicator& comm_;
@@ -157,7 +157,7 @@ void Builder::find_centres() {
 }
 
 template <class Value>
-void Builder::ask_for_ghosts(std::vector<Value>& values) const {
+void Builder::append_ghost_values(std::vector<Value>& values) const {
   struct Answer {
     std::int64_t number;
     Value value;
@@ -168,7 +168,7 @@ void Builder::ask_for_ghosts(std::vector<Value>& values) const {
     answers.push_back({number, values[index(number - ranges.first())]});
   };
   std::vector<Answer> answers =
-      ask_owners<Answer>(comm_, ranges, ghosts, give, [](const Answer& a) { return a.number; });
+      query_owners<Answer>(comm_, ranges, ghosts, give, [](const Answer& a) { return a.number; });
   std::ranges::sort(answers, {}, &Answer::number);  // ghosts are sorted by number, too
   for (const Answer& answer : answers) values.push_back(answer.value);
 }
@@ -188,7 +188,7 @@ void Builder::find_cells() {
   }
   grid_.min_spacing = -comm_.allreduce_max(-min_spacing);
   grid_.max_edges = static_cast<int>(comm_.allreduce_max(double(longest)));
-  ask_for_ghosts(grid_.cell);
+  append_ghost_values(grid_.cell);
 }
 
 // Counts the entities that a node leads.
@@ -214,7 +214,7 @@ std::vector<LedEntities> Builder::first_of_nodes() {
   grid_.cells = total.cells;
   grid_.edges = total.edges;
   grid_.vertices = total.vertices;
-  ask_for_ghosts(first);
+  append_ghost_values(first);
   return first;
 }
 

@@ -25,15 +25,15 @@ bool is_bridging(const Level<3>& level, std::int64_t i) {
 
 }  // namespace
 
-std::vector<Point<3>> places_of_other_topology(const Level<3>& level) {
+std::vector<Point<3>> points_of_other_topology(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);
   std::vector<Point<3>> bridging, extra;
   collective_try(*level.comm, [&] {
-    const std::set<std::int64_t> too_many = pieces_too_many(level, pieces);
+    const std::set<std::int64_t> too_many = surplus_pieces(level, pieces);
     const auto at = [&](const auto& is_one) {
       std::vector<Point<3>> places;
       for (const std::int64_t i :
-           indices_where("pnpbs::places_of_other_topology", level.nodes.count, is_one))
+           indices_where("pnpbs::points_of_other_topology", level.nodes.count, is_one))
         places.push_back(level.nodes.position(i));
       return places;
     };

@@ -37,6 +37,6 @@ BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<
 // faces that bridge two sheets of the surfaces instead of lying along one; such faces may be
 // correct where the surfaces are rough. The smaller set is returned, since the surplus piece is
 // half of the body if a neck is cut. For bodies. Requires prepare_stars(). Collective.
-std::vector<Point<3>> places_of_other_topology(const Level<3>& level);
+std::vector<Point<3>> points_of_other_topology(const Level<3>& level);
 
 }  // namespace pnpbs

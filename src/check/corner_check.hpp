@@ -25,7 +25,7 @@ class CornerCheck {
   explicit CornerCheck(const NodeCheck<Dim>& check) : check_(check), level_(check.level()) {}
 
   // Checks that the star of node `corner` has the simplex with the corners `others`. Stars of other
-  // ranks are checked in look_elsewhere().
+  // ranks are checked in check_on_other_ranks().
   void look_at(std::int64_t corner, const Corners& others) {
     const Corners key = key_of(others);
     if (!level_.nodes.owned(corner))
@@ -35,7 +35,7 @@ class CornerCheck {
   }
 
   // Checks the stars of other ranks. Collective.
-  void look_elsewhere() const {
+  void check_on_other_ranks() const {
     if (level_.comm->size() == 1) return;
     for (const Wanted& wanted : redistribute(*level_.comm, elsewhere_, [](const Wanted& sent) {
            return static_cast<int>(sent.owner);

@@ -79,7 +79,7 @@ void NodeCheck<Dim>::check_inside(std::int64_t i, const FacetIndex<Dim>& boundar
 }
 
 template <int Dim>
-void NodeCheck<Dim>::check_laid(std::int64_t i, const Point<Dim>& laid) const {
+void NodeCheck<Dim>::check_placed(std::int64_t i, const Point<Dim>& laid) const {
   if (position(i) != laid)
     fail_check("node " + name(i) +
                " is on the boundary, but not where it was placed: " + point_text(laid));

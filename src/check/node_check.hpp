@@ -61,13 +61,13 @@ class NodeCheck {
   // Checks that node i lies inside.
   void check_inside(std::int64_t i, const FacetIndex<Dim>& boundary) const;
   // Checks that node i is still at the point `laid` of the boundary where it was placed.
-  void check_laid(std::int64_t i, const Point<Dim>& laid) const;
+  void check_placed(std::int64_t i, const Point<Dim>& laid) const;
   // Checks that each node placed on the boundary occurs once, except for the number of nodes left
   // out and those for which may_lack(k) is true. times[k] is the number of occurrences on this
   // rank, and where(k) is the position. Collective.
   template <class Where, class MayLack>
-  void check_laid_come_once(std::vector<std::int64_t> times, const Where& where,
-                            const MayLack& may_lack) const {
+  void check_placed_once(std::vector<std::int64_t> times, const Where& where,
+                         const MayLack& may_lack) const {
     comm_.allreduce_sum(times);
     std::int64_t left_out = level_.left_out;
     for (std::size_t k = 0; k < times.size(); ++k)

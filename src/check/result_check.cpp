@@ -62,7 +62,7 @@ void ResultCheck::check_sides() const {
     if (b < 0)
       check_inside(i, level_.map());
     else
-      check_laid(i, laid(static_cast<std::size_t>(b)));
+      check_placed(i, laid(static_cast<std::size_t>(b)));
   });
 }
 
@@ -73,7 +73,7 @@ void ResultCheck::check_boundary_nodes() const {
   });
   // The finish frees nodes in the margin of a patch that closes a sphere. They are no boundary
   // nodes any more.
-  check_laid_come_once(
+  check_placed_once(
       std::move(times), [this](std::size_t b) { return laid(b); },
       [this](std::size_t b) {
         return level_.margin != PatchMargin::laid && level_.geometry.domain().is_in_margin(laid(b));
@@ -88,7 +88,7 @@ void ResultCheck::check_stars() const {
     check_star(i, corners);
     check_boundary_edges_of(i);
   });
-  corners.look_elsewhere();
+  corners.check_on_other_ranks();
 }
 
 void ResultCheck::check_star(std::int64_t i, CornerCheck<2, 2>& corners) const {

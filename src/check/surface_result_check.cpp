@@ -40,7 +40,7 @@ void SurfaceResultCheck::check_stars() const {
       corners.look_at(last, {i, next});
     });
   });
-  corners.look_elsewhere();
+  corners.check_on_other_ranks();
 }
 
 // ------------------------------------------------------------------ area -----------------------

@@ -28,7 +28,7 @@ std::array<Point<3>, 3> VolumeNodeCheck::positions_at(const Three& places) const
 void VolumeNodeCheck::check_sides() const {
   for_owned([&](std::int64_t i) {
     if (is_feature_node(i))
-      check_laid(i, laid(static_cast<std::size_t>(nodes_.boundary_node(i))));
+      check_placed(i, laid(static_cast<std::size_t>(nodes_.boundary_node(i))));
     else if (nodes_.carrier(i) == Carrier::surface)
       check_on_surface(i);
     else
@@ -64,7 +64,7 @@ void VolumeNodeCheck::check_feature_nodes() const {
   for_owned([&](std::int64_t i) {
     if (is_feature_node(i)) ++times[static_cast<std::size_t>(nodes_.boundary_node(i))];
   });
-  check_laid_come_once(
+  check_placed_once(
       std::move(times), [this](std::size_t n) { return laid(n); },
       [](std::size_t) { return false; });
 }

@@ -62,7 +62,7 @@ void VolumeResultCheck::check_stars() const {
   CornerCheck<3, 3> corners(*this);
   for_owned([&](std::int64_t i) { check_star(i, corners); });
   for_owned([&](std::int64_t i) { check_faces(i); });
-  corners.look_elsewhere();
+  corners.check_on_other_ranks();
 }
 
 void VolumeResultCheck::check_star(std::int64_t i, CornerCheck<3, 3>& corners) const {

@@ -27,7 +27,7 @@ class Fingerprint {
 std::uint64_t fingerprint_of(const PlaneDomain& domain) {
   Fingerprint print;
   if (const Embedding<2>& in = domain.embedding(); in.is_sphere())
-    print.add(in.chart().projected_from());
+    print.add(in.chart().projection_centre());
   // The patch that closes a whole sphere depends on the spacing and is no part of the user's
   // domain.
   const bool whole = domain.is_whole_sphere();

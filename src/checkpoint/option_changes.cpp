@@ -45,7 +45,7 @@ std::vector<LinePair> different_lines(const std::string& then, const std::string
 }
 
 // Throws if the change is not allowed.
-void require_wanted(const LinePair& pair, const Options& now) {
+void require_requested(const LinePair& pair, const Options& now) {
   const std::string name = name_in(pair.now);
   if (name != name_in(pair.then) || now.choice("restart_options") == "same")
     refuse(pair, "set the same options; they may be changed once it is read");
@@ -68,7 +68,7 @@ std::string lines_of_deciding(const Options& options) {
 std::vector<OptionChange> changes_since(const std::string& saved_lines, const Options& now) {
   std::vector<OptionChange> changes;
   for (const LinePair& pair : different_lines(saved_lines, lines_of_deciding(now))) {
-    require_wanted(pair, now);
+    require_requested(pair, now);
     changes.push_back({name_in(pair.now), value_in(pair.then), value_in(pair.now)});
   }
   return changes;

@@ -78,7 +78,7 @@ void require_possible_node(const Level<Dim>& level, const SavedState& state,
 
 // Throws if an id occurs twice on all ranks together. Collective.
 template <int Dim>
-void require_different_ids(const Communicator& comm, const std::vector<SavedNode<Dim>>& nodes) {
+void require_unique_ids(const Communicator& comm, const std::vector<SavedNode<Dim>>& nodes) {
   std::vector<std::int64_t> ids;
   for (const SavedNode<Dim>& saved : nodes) ids.push_back(saved.node.id);
   std::vector<std::int64_t> here = redistribute<std::int64_t>(comm, ids, [&](std::int64_t id) {
@@ -116,7 +116,7 @@ void put_saved_nodes(Level<Dim>& level, const SavedState& state,
     }
     nodes.moving = static_cast<Carrier>(state.moving);
   });
-  require_different_ids(comm, saved);
+  require_unique_ids(comm, saved);
   level.next_id = state.next_id;
 }
 

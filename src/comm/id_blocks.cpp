@@ -119,7 +119,7 @@ std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& 
   const std::vector<Message> told = comm_.sparse_all_to_all(answers.messages());
   std::vector<std::int64_t> numbers;
   collective_try(comm_, [&] {
-    RankPlaces places;
+    RankIndices places;
     for (const Message& theirs : told) places.add(theirs.rank);
     std::vector<std::size_t> at(told.size());  // answers are in the order of the questions
     for (const std::int64_t id : ids) {

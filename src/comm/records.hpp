@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
-#include "comm/rank_places.hpp"
+#include "comm/rank_indices.hpp"
 
 namespace pnpbs {
 
@@ -51,7 +51,7 @@ class Outbox {
   }
 
   std::vector<Message> messages_;
-  RankPlaces places_;
+  RankIndices places_;
   std::size_t last_ = 0;
 };
 

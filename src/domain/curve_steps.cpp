@@ -52,7 +52,7 @@ class Profiles {
     for (const Track& track : tracks_) profiles_.push_back(first_profile(track));
     for (;;) {
       ask();
-      require_bearable();
+      require_node_limit();
       bool divided = false;
       for (Profile& profile : profiles_) divided = divide(profile) || divided;
       if (!divided) return profiles_;
@@ -115,7 +115,7 @@ class Profiles {
     }
   }
 
-  void require_bearable() const {
+  void require_node_limit() const {
     double nodes = 0;
     for (const Profile& profile : profiles_) {
       for (std::size_t i = 0; i < profile.open.size(); ++i) {
@@ -197,9 +197,9 @@ std::vector<double> equal_steps(const Profile& profile, bool closed) {
 }  // namespace
 
 template <class Track>
-std::vector<std::vector<double>> lay_equal_steps(const std::vector<Track>& tracks,
-                                                 const SpacingEvaluator<Track::kDim>& spacing,
-                                                 std::int64_t max_nodes) {
+std::vector<std::vector<double>> equal_step_stations(const std::vector<Track>& tracks,
+                                                     const SpacingEvaluator<Track::kDim>& spacing,
+                                                     std::int64_t max_nodes) {
   Profiles profiles(tracks, spacing, max_nodes);
   const std::vector<Profile>& resolved = profiles.run();
   std::vector<std::vector<double>> stations;
@@ -208,9 +208,11 @@ std::vector<std::vector<double>> lay_equal_steps(const std::vector<Track>& track
   return stations;
 }
 
-template std::vector<std::vector<double>> lay_equal_steps(const std::vector<CurveTrack>&,
-                                                          const SpacingEvaluator<2>&, std::int64_t);
-template std::vector<std::vector<double>> lay_equal_steps(const std::vector<PolylineTrack<3>>&,
-                                                          const SpacingEvaluator<3>&, std::int64_t);
+template std::vector<std::vector<double>> equal_step_stations(const std::vector<CurveTrack>&,
+                                                              const SpacingEvaluator<2>&,
+                                                              std::int64_t);
+template std::vector<std::vector<double>> equal_step_stations(const std::vector<PolylineTrack<3>>&,
+                                                              const SpacingEvaluator<3>&,
+                                                              std::int64_t);
 
 }  // namespace pnpbs

@@ -20,8 +20,8 @@ inline constexpr std::int64_t kMaxNodesOnCurves = 2'000'000'000;
 // Throws Error(ErrorKind::spacing) if there would be more than `max_nodes` or kMaxNodesOnCurves
 // nodes.
 template <class Track>
-std::vector<std::vector<double>> lay_equal_steps(const std::vector<Track>& tracks,
-                                                 const SpacingEvaluator<Track::kDim>& spacing,
-                                                 std::int64_t max_nodes);
+std::vector<std::vector<double>> equal_step_stations(const std::vector<Track>& tracks,
+                                                     const SpacingEvaluator<Track::kDim>& spacing,
+                                                     std::int64_t max_nodes);
 
 }  // namespace pnpbs

@@ -22,7 +22,7 @@ Point<3> normal_of(const FacetCorners<3>& triangle) { return area_normal(triangl
 
 // Returns the distance from x to the plane of the facet along the first axis.
 template <int Dim>
-double way_to(const FacetCorners<Dim>& facet, const Point<Dim>& x) {
+double distance_along_axis(const FacetCorners<Dim>& facet, const Point<Dim>& x) {
   const Point<Dim> normal = normal_of(facet);
   Point<Dim> to;
   for (std::size_t k = 0; k < Dim; ++k) to[k] = facet[0][k] - x[k];
@@ -63,18 +63,18 @@ std::int32_t RegionIndex<Dim>::tag_at(const Point<Dim>& x) const {
   tree_.for_meeting({x, end}, [&](std::int32_t f) {
     const RegionFacet<Dim>& facet = facets_[index(f)];
     if (!crosses(x, end, facet.corners)) return;
-    const double way = way_to<Dim>(facet.corners, x);
+    const double way = distance_along_axis<Dim>(facet.corners, x);
     if (first && !(way < nearest || (way == nearest && &facet < first))) return;
     nearest = way;
     first = &facet;
   });
-  if (!first) return tag_beside(x);
+  if (!first) return tag_behind_nearest_facet(x);
   const std::size_t side = side_of(first->corners, x);
-  return first->inside[side] ? first->tags[side] : tag_beside(x);
+  return first->inside[side] ? first->tags[side] : tag_behind_nearest_facet(x);
 }
 
 template <int Dim>
-std::int32_t RegionIndex<Dim>::tag_beside(const Point<Dim>& x) const {
+std::int32_t RegionIndex<Dim>::tag_behind_nearest_facet(const Point<Dim>& x) const {
   double nearest = kFar;
   const RegionFacet<Dim>* best = nullptr;
   tree_.for_near(

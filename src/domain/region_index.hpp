@@ -31,7 +31,7 @@ class RegionIndex {
   std::int32_t tag_at(const Point<Dim>& x) const;
 
  private:
-  std::int32_t tag_beside(const Point<Dim>& x) const;
+  std::int32_t tag_behind_nearest_facet(const Point<Dim>& x) const;
 
   std::vector<RegionFacet<Dim>> facets_;
   BoxTree<Dim> tree_;

@@ -17,7 +17,7 @@ namespace pnpbs {
 
 // Returns the name and the position of a region point for messages.
 template <int Dim>
-MessageText name_and_place(const RegionPoint<Dim>& point) {
+MessageText name_and_position(const RegionPoint<Dim>& point) {
   return point.name + " at " + point_text(point.point);
 }
 
@@ -32,7 +32,7 @@ void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& par
     if (!points[k].is_hole()) continue;
     const std::size_t part = index(part_of(k));
     if (!inside[part]) {
-      const MessageText problem = name_and_place<Dim>(points[k]) + " lies outside the domain";
+      const MessageText problem = name_and_position<Dim>(points[k]) + " lies outside the domain";
       if (!points[k].from_file) reject_domain(problem);
       left_out.push_back(problem);
       continue;
@@ -40,7 +40,8 @@ void remove_holes(const std::vector<RegionPoint<Dim>>& points, const PartOf& par
     if (hole_in[part])
       warnings.emplace_back(
           WarningCode::region_points,
-          name_and_place<Dim>(points[k]) + " lies in the same region as " + hole_in[part]->name, 1);
+          name_and_position<Dim>(points[k]) + " lies in the same region as " + hole_in[part]->name,
+          1);
     else
       hole_in[part] = &points[k];
   }
@@ -69,10 +70,10 @@ std::vector<std::int32_t> tags_of_parts(const std::vector<RegionPoint<Dim>>& poi
     const RegionPoint<Dim>* other = point_in[part];
     MessageText problem;
     if (!inside[part])
-      problem = name_and_place<Dim>(it) + " lies outside the domain";
+      problem = name_and_position<Dim>(it) + " lies outside the domain";
     else if (other && other->tag != it.tag)
-      problem = name_and_place<Dim>(it) + " has the tag " + std::to_string(it.tag) +
-                ", but lies in the same region as " + name_and_place<Dim>(*other) +
+      problem = name_and_position<Dim>(it) + " has the tag " + std::to_string(it.tag) +
+                ", but lies in the same region as " + name_and_position<Dim>(*other) +
                 " with the tag " + std::to_string(other->tag);
     if (!problem.empty() && !it.from_file) reject_domain(problem);
     if (!problem.empty()) return left_out.push_back(problem);

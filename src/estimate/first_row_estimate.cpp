@@ -26,8 +26,8 @@ std::vector<double> values_at(const std::vector<Point<2>>& points,
 
 }  // namespace
 
-double more_by_first_row(const SizedTree<2>& map, const SpacingEvaluator<2>& spacing,
-                         std::int64_t max_edges) {
+double first_row_excess(const SizedTree<2>& map, const SpacingEvaluator<2>& spacing,
+                        std::int64_t max_edges) {
   const BoundaryMesh<2>& boundary = map.boundary();
   IncidentSectors sectors;
   sectors.build(boundary);

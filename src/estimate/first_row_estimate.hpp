@@ -11,9 +11,9 @@ namespace pnpbs {
 // Returns how many nodes the first row has in excess of d. The row has as many nodes as the
 // boundary has edges there, although d has grown between the boundary and the row. About
 // `max_edges` edges are examined.
-double more_by_first_row(const SizedTree<2>& map, const SpacingEvaluator<2>& spacing,
-                         std::int64_t max_edges);
-inline double more_by_first_row(const SizedTree<3>&, const SpacingEvaluator<3>&, std::int64_t) {
+double first_row_excess(const SizedTree<2>& map, const SpacingEvaluator<2>& spacing,
+                        std::int64_t max_edges);
+inline double first_row_excess(const SizedTree<3>&, const SpacingEvaluator<3>&, std::int64_t) {
   return 0;
 }
 

@@ -243,7 +243,7 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
     collective_try(comm, [&] {
       nodes = nodes_in<Dim>(map, domain, evaluator, run.stretched, last ? samples : Samples::few);
       if (last && run.first_row)
-        nodes += more_by_first_row(map, evaluator, many ? kManyEdges : kFewEdges);
+        nodes += first_row_excess(map, evaluator, many ? kManyEdges : kFewEdges);
     });
     if (domain.kind() != GeometryKind::surface) nodes += on_boundary;
     max = nodes / cells;

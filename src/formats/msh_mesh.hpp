@@ -71,10 +71,10 @@ MshMesh read_msh(const std::string& path);
 bool is_msh(const std::string& path);
 
 // Selects the sections that the parser stores.
-enum class MshWanted { mesh, mesh_and_node_values };
+enum class MshSections { mesh, mesh_and_node_values };
 // Parses the bytes of a file like read_msh(). `name` stands for the file in messages.
 MshMesh parse_msh(std::string_view bytes, const std::string& name,
-                  MshWanted wanted = MshWanted::mesh);
+                  MshSections wanted = MshSections::mesh);
 
 // Keeps the first of several elements with the same corners. In version 2.2 an element in several
 // physical groups appears once for each.

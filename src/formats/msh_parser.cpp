@@ -100,7 +100,7 @@ std::size_t index_of(MshShape shape) { return static_cast<std::size_t>(shape); }
 
 class MshParser {
  public:
-  MshParser(std::string_view bytes, const std::string& name, MshWanted wanted)
+  MshParser(std::string_view bytes, const std::string& name, MshSections wanted)
       : fields_(bytes, name), name_(name), wanted_(wanted) {}
 
   MshMesh parse() {
@@ -165,7 +165,7 @@ class MshParser {
       if (!has_nodes_) fields_.fail("found $Elements before $Nodes");
       if (std::exchange(has_elements_, true)) fields_.fail("found a second section $Elements");
       is_old_ ? read_old_elements() : read_elements();
-    } else if (section == "NodeData" && wanted_ == MshWanted::mesh_and_node_values) {
+    } else if (section == "NodeData" && wanted_ == MshSections::mesh_and_node_values) {
       read_node_values();
     } else {
       fields_.skip_section(section);
@@ -445,7 +445,7 @@ class MshParser {
 
   MshFields fields_;
   std::string name_;
-  MshWanted wanted_;
+  MshSections wanted_;
   bool is_old_ = false, has_nodes_ = false, has_elements_ = false;
   MshMesh mesh_;
   MshNodeTable nodes_;
@@ -456,7 +456,7 @@ class MshParser {
 
 }  // namespace
 
-MshMesh parse_msh(std::string_view bytes, const std::string& name, MshWanted wanted) {
+MshMesh parse_msh(std::string_view bytes, const std::string& name, MshSections wanted) {
   return MshParser(bytes, name, wanted).parse();
 }
 

@@ -80,7 +80,7 @@ constexpr const char* kTooManyTriangles = "more than 715827882 triangles";
 
 // Returns whether the field is the word, in upper or lower case.
 bool is_word(std::string_view field, std::string_view word) {
-  return std::ranges::equal(field, word, {}, [](char c) { return in_small_letters(c); });
+  return std::ranges::equal(field, word, {}, [](char c) { return to_lower_case(c); });
 }
 
 class TextParser {

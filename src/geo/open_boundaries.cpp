@@ -52,7 +52,7 @@ struct Segment {
 };
 
 // A point on the boundary. A vertex is represented by t = 0 or 1 on one of its segments.
-struct ShorePlace {
+struct BoundaryPosition {
   std::size_t segment;
   double t;
 };
@@ -71,9 +71,10 @@ struct Line {
 };
 
 // The boundary of the domain, on which lines are searched for parts that they follow.
-class Shore {
+class BoundaryFollower {
  public:
-  Shore(const std::vector<Curve>& curves, const std::vector<Point<2>>& points, double tolerance)
+  BoundaryFollower(const std::vector<Curve>& curves, const std::vector<Point<2>>& points,
+                   double tolerance)
       : points_(points), tolerance_(tolerance), at_(points.size(), {none, none}) {
     for (std::size_t c = 0; c < curves.size(); ++c) {
       if (!curves[c].bounds) continue;
@@ -88,8 +89,8 @@ class Shore {
 
   // Returns whether the line follows the boundary. If so, that part of the boundary gets its tag.
   bool take(const Line& line) {
-    const auto begin = spot_near(points_[line.places.front()]);
-    const auto end = begin ? spot_near(points_[line.places.back()]) : std::nullopt;
+    const auto begin = position_near(points_[line.places.front()]);
+    const auto end = begin ? position_near(points_[line.places.back()]) : std::nullopt;
     if (!end) return false;
     for (const bool forward : {true, false}) {
       const auto way = way_along(line, *begin, *end, forward);
@@ -143,8 +144,8 @@ class Shore {
         std::clamp(column, 0.0, static_cast<double>(columns_.size() - 1)));
   }
 
-  std::optional<ShorePlace> spot_near(const Point<2>& p) const {
-    std::optional<ShorePlace> nearest;
+  std::optional<BoundaryPosition> position_near(const Point<2>& p) const {
+    std::optional<BoundaryPosition> nearest;
     if (columns_.empty()) return nearest;
     double least = tolerance_;
     for (const std::size_t s : columns_[column_of(p[0])]) {
@@ -152,7 +153,7 @@ class Shore {
       const Foot foot = foot_on(a, b, p);
       if (foot.distance > least || (nearest && foot.distance == least)) continue;
       least = foot.distance;
-      nearest = ShorePlace{s, at_vertex(a, b, foot.t)};
+      nearest = BoundaryPosition{s, at_vertex(a, b, foot.t)};
     }
     return nearest;
   }
@@ -164,7 +165,7 @@ class Shore {
     return t < 0.5 ? 0 : 1;
   }
 
-  Point<2> point_at(const ShorePlace& spot) const {
+  Point<2> point_at(const BoundaryPosition& spot) const {
     const Point<2>&a = points_[segments_[spot.segment].a], &b = points_[segments_[spot.segment].b];
     if (spot.t == 0 || spot.t == 1) return spot.t == 0 ? a : b;
     return {a[0] + spot.t * (b[0] - a[0]), a[1] + spot.t * (b[1] - a[1])};
@@ -173,8 +174,8 @@ class Shore {
   // Follows the boundary from `begin` to `end` and returns the parts on the way. Returns nothing if
   // the boundary leaves the line, or the line the boundary. `forward`: the way begins towards b of
   // the first segment, else towards its a.
-  std::optional<Way> way_along(const Line& line, ShorePlace begin, const ShorePlace& end,
-                               bool forward) const {
+  std::optional<Way> way_along(const Line& line, BoundaryPosition begin,
+                               const BoundaryPosition& end, bool forward) const {
     std::vector<Point<2>> line_points, shore{point_at(begin)};
     for (const Place place : line.places) line_points.push_back(points_[place]);
     FollowedLine followed(line_points);
@@ -254,12 +255,12 @@ std::vector<double> cuts_of(const std::vector<Part>& parts) {
 }
 
 // The replacement of boundary curves by ones whose segments are split where their tags change.
-class Retagging {
+class BoundaryRebuild {
  public:
-  Retagging(std::vector<Curve>& curves, std::vector<Point<2>>& points)
+  BoundaryRebuild(std::vector<Curve>& curves, std::vector<Point<2>>& points)
       : curves_(curves), points_(points) {}
 
-  void run(const Shore& shore) {
+  void run(const BoundaryFollower& shore) {
     std::vector<Curve> before = curves_;
     for (Curve& curve : curves_)
       if (curve.bounds) curve.places.clear(), curve.tags.clear();
@@ -298,7 +299,7 @@ class Retagging {
 std::int64_t retag_open_boundaries(std::vector<Curve>& curves, std::vector<Point<2>>& points,
                                    double tolerance) {
   if (std::ranges::none_of(curves, [](const Curve& curve) { return curve.of_line; })) return 0;
-  Shore shore(curves, points, tolerance);
+  BoundaryFollower shore(curves, points, tolerance);
   std::vector<Curve> left;
   std::int64_t taken = 0;
   for (Curve& curve : curves) {
@@ -317,7 +318,7 @@ std::int64_t retag_open_boundaries(std::vector<Curve>& curves, std::vector<Point
     for (const Line& line : others) left.push_back(curve_of(line));
   }
   if (taken == 0) return 0;
-  Retagging(curves, points).run(shore);
+  BoundaryRebuild(curves, points).run(shore);
   std::erase_if(curves, [](const Curve& curve) { return curve.of_line && !curve.bounds; });
   curves.insert(curves.end(), left.begin(), left.end());
   return taken;

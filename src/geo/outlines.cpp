@@ -154,10 +154,10 @@ bool is_inside(const Point<2>& p, const std::vector<Edge>& edges,
   return inside;
 }
 
-// The decision which lines bound the domain and which are inner curves, see settle_lines().
-class LineSettler {
+// The decision which lines bound the domain and which are inner curves, see classify_lines().
+class LineClassifier {
  public:
-  LineSettler(std::vector<Edge>& edges, const std::vector<Point<2>>& points)
+  LineClassifier(std::vector<Edge>& edges, const std::vector<Point<2>>& points)
       : edges_(edges), points_(points), parts_(points.size()), in_outline_(points.size(), 0) {
     for (const Edge& edge : edges_) {
       if (edge.of_line) {
@@ -249,9 +249,9 @@ class LineSettler {
 // Sets the roles of lines. Closed lines that neither meet a polygon nor lie inside one bound the
 // domain, if there are no polygons or such a line surrounds one. All other lines are inner curves.
 // Throws Error if an odd number of closed lines meet at a vertex.
-void settle_lines(std::vector<Edge>& edges, const std::vector<Point<2>>& points,
-                  const WordsFor& where) {
-  LineSettler(edges, points).run(where);
+void classify_lines(std::vector<Edge>& edges, const std::vector<Point<2>>& points,
+                    const WordsFor& where) {
+  LineClassifier(edges, points).run(where);
 }
 
 // Joins all edges into curves, in the order of the first edges.
@@ -290,13 +290,13 @@ bool turns_left(const std::vector<Place>& places, const std::vector<Point<2>>& p
   if (radius == 0) return turning_area(places, points) > 0;
   double area = 0;
   for (std::size_t i = 0; i < places.size(); ++i)
-    area += area_beside(points[places[i]], points[places[(i + 1) % places.size()]], radius);
+    area += chart_area_term(points[places[i]], points[places[(i + 1) % places.size()]], radius);
   const bool is_smaller = std::fabs(area) < 2 * std::numbers::pi * radius * radius;
   return (area > 0) == is_smaller;
 }
 
 // Removes repeated consecutive vertices. Orients outlines counter-clockwise and holes clockwise.
-void straighten(Route& route, const std::vector<Point<2>>& points, double radius) {
+void normalize_route(Route& route, const std::vector<Point<2>>& points, double radius) {
   std::vector<Place>& places = route.places;
   places.erase(std::unique(places.begin(), places.end()), places.end());
   if (route.kind == PathKind::line) return;
@@ -433,7 +433,7 @@ void Outlines::leave_out_shared_edges_outside(const std::vector<Point<2>>& point
 
 Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
                      const WordsFor& where, double radius) {
-  for (Route& route : routes) straighten(route, points, radius);
+  for (Route& route : routes) normalize_route(route, points, radius);
   const std::vector<Piece> pieces = pieces_of(routes);
   Outlines outlines;
   std::vector<Edge> edges;
@@ -447,7 +447,7 @@ Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& poi
   }
   std::sort(edges.begin(), edges.end(),
             [](const Edge& a, const Edge& b) { return a.order < b.order; });
-  settle_lines(edges, points, where);
+  classify_lines(edges, points, where);
   outlines.curves = chains_of(edges, static_cast<std::int64_t>(points.size()));
   return outlines;
 }

@@ -74,7 +74,7 @@ struct Outlines {
 // Describes a vertex in error messages.
 using WordsFor = std::function<MessageText(std::int64_t place)>;
 // Builds the curves of polygons, whose areas must not overlap, and of lines. Closed lines outside
-// all polygons bound the domain, see settle_lines(). `radius`: radius of the sphere whose
+// all polygons bound the domain, see classify_lines(). `radius`: radius of the sphere whose
 // stereographic projection contains the points, or 0 in the plane. Throws Error with a vertex
 // described by `where`.
 Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,

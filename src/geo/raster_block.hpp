@@ -77,7 +77,7 @@ class Tiling {
 };
 
 // Conversion of the numbers in a file to values.
-struct RasterMeaning {
+struct NumberConversion {
   bool has_no_data = false;
   double no_data = 0;
   double scale = 1, offset = 0;
@@ -96,7 +96,7 @@ struct RasterBlock {
 
   CellBox cells;
   Numbers numbers;  // in row-major order
-  RasterMeaning meaning;
+  NumberConversion meaning;
 
   double at(std::int64_t column, std::int64_t row) const {
     const std::size_t place = cells.place_of(column, row);

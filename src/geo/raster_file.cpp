@@ -163,8 +163,8 @@ std::array<std::int64_t, 2> RasterFile::shape_of_blocks() const {
   return {width, down * std::max<std::int64_t>(1, many / (width * down))};
 }
 
-RasterMeaning RasterFile::meaning() const {
-  RasterMeaning meaning;
+NumberConversion RasterFile::meaning() const {
+  NumberConversion meaning;
   int has_no_data = 0, has_scale = 0, has_offset = 0;
   meaning.no_data = GDALGetRasterNoDataValue(band_, &has_no_data);
   meaning.has_no_data = has_no_data != 0;

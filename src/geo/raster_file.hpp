@@ -47,7 +47,7 @@ class RasterFile {
   void open_band();
   void open_variable(const std::string& path, const std::string& variable);
   void choose_band(const std::string& variable);
-  RasterMeaning meaning() const;
+  NumberConversion meaning() const;
   void read_numbers(const CellBox& cells, void* numbers, GDALDataType type) const;
   void limit_cache_of_gdal(const CellBox& read);
 

@@ -42,11 +42,11 @@ void check(pnpbs_status status, pnpbs_context context) {
 }
 
 // Difference of the scale from 1 above which a note is given. [1]
-constexpr double told_scale = 0.02;
+constexpr double scale_note_threshold = 0.02;
 
 // Distance from the boundary up to which a line follows it. A line that is drawn on a screen which
 // shows the whole layer is off by about a pixel. [extent of the layer]
-constexpr double along_shore = 1e-3;
+constexpr double follow_tolerance = 1e-3;
 
 double extent_of(const std::vector<Point<2>>& points) {
   Point<2> low = points.front(), high = low;
@@ -129,7 +129,8 @@ void Shapes::project() {
   const auto where = [&](std::int64_t place) { return with_degrees(point_text(places_[place])); };
   outlines_ = outlines_of(std::move(routes), places_, where, projection_.sphere_radius());
   if (on_sphere()) outlines_.leave_out_shared_edges_outside(places_);
-  lines_along_shore_ = retag_open_boundaries(outlines_.curves, places_, along_shore * extent);
+  lines_along_boundary_ =
+      retag_open_boundaries(outlines_.curves, places_, follow_tolerance * extent);
 }
 
 void Shapes::take_notes() {
@@ -142,7 +143,8 @@ void Shapes::take_notes() {
   if (projection_.is_identity() && projection_.system().is_geographic())
     notes.emplace_back(NoteCode::degrees_in_plane,
                        "longitude and latitude are taken as x and y in a plane, as asked");
-  if (!on_sphere() && (scale_.least < 1 - told_scale || scale_.greatest > 1 + told_scale))
+  if (!on_sphere() &&
+      (scale_.least < 1 - scale_note_threshold || scale_.greatest > 1 + scale_note_threshold))
     notes.emplace_back(NoteCode::scale,
                        "in the projection '" + projection_.system().name() + "' lengths are " +
                            rounded_text(scale_.least) + " to " + rounded_text(scale_.greatest) +
@@ -152,18 +154,18 @@ void Shapes::take_notes() {
                        std::to_string(outlines_.retagged_edges) +
                            " segments of polygons have the tag of the line that has them, too",
                        outlines_.retagged_edges);
-  if (lines_along_shore_ == 1)
+  if (lines_along_boundary_ == 1)
     notes.emplace_back(
         NoteCode::lines_along_boundary,
         "a line runs along the boundary, to 0.001 of the extent: that part of the boundary has its "
         "tag, and the line is no curve of its own",
         1);
-  else if (lines_along_shore_ > 1)
+  else if (lines_along_boundary_ > 1)
     notes.emplace_back(NoteCode::lines_along_boundary,
-                       std::to_string(lines_along_shore_) +
+                       std::to_string(lines_along_boundary_) +
                            " lines run along the boundary, to 0.001 of the extent: these parts of "
                            "the boundary have their tags, and the lines are no curves of their own",
-                       lines_along_shore_);
+                       lines_along_boundary_);
   if (outlines_.outer_edges > 0)
     notes.emplace_back(NoteCode::shared_segments_left_out,
                        std::to_string(outlines_.outer_edges) +
@@ -261,7 +263,7 @@ MessageText Shapes::with_degrees(const MessageText& message) const {
     if (!std::isfinite(degrees[0][0] + degrees[0][1])) return text;
     return text + " [" + degrees_text(degrees[0]) + "]";
   };
-  return with_points_told(message, words, [](const NamedPoint& point) { return point; });
+  return with_points_replaced(message, words, [](const NamedPoint& point) { return point; });
 }
 
 }  // namespace pnpbs::geo

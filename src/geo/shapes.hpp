@@ -54,7 +54,7 @@ class Shapes {
   // Feature in which each vertex of the file first appears.
   std::vector<std::int64_t> feature_of_place_;
   Outlines outlines_;
-  std::int64_t lines_along_shore_ = 0;
+  std::int64_t lines_along_boundary_ = 0;
 };
 
 }  // namespace pnpbs::geo

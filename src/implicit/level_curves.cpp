@@ -24,20 +24,20 @@ Point<2> flat(const Point<3>& x) { return {x[0], x[1]}; }
 Point<3> raised(const Point<2>& x, double z) { return {x[0], x[1], z}; }
 
 // Returns the key of a side of a lattice square: its midpoint in half steps of the lattice.
-std::uint64_t side_between(const LatticePlace& a, const LatticePlace& b) {
+std::uint64_t side_between(const LatticeIndex& a, const LatticeIndex& b) {
   return LevelSetLattice::key({a[0] + b[0], a[1] + b[1], 0});
 }
 
-std::array<LatticePlace, 2> ends_of_side(std::uint64_t side) {
-  const LatticePlace middle = LevelSetLattice::place(side);
-  return {LatticePlace{middle[0] / 2, middle[1] / 2, 0},
-          LatticePlace{(middle[0] + 1) / 2, (middle[1] + 1) / 2, 0}};
+std::array<LatticeIndex, 2> ends_of_side(std::uint64_t side) {
+  const LatticeIndex middle = LevelSetLattice::place(side);
+  return {LatticeIndex{middle[0] / 2, middle[1] / 2, 0},
+          LatticeIndex{(middle[0] + 1) / 2, (middle[1] + 1) / 2, 0}};
 }
 
 // Returns the corners in counter-clockwise order.
-std::array<LatticePlace, 4> corners_of_square(const LatticePlace& at) {
-  return {LatticePlace{at[0], at[1], 0}, LatticePlace{at[0] + 1, at[1], 0},
-          LatticePlace{at[0] + 1, at[1] + 1, 0}, LatticePlace{at[0], at[1] + 1, 0}};
+std::array<LatticeIndex, 4> corners_of_square(const LatticeIndex& at) {
+  return {LatticeIndex{at[0], at[1], 0}, LatticeIndex{at[0] + 1, at[1], 0},
+          LatticeIndex{at[0] + 1, at[1] + 1, 0}, LatticeIndex{at[0], at[1] + 1, 0}};
 }
 
 // ------------------------------------------------------------------ marching squares -----------
@@ -52,7 +52,7 @@ struct Piece {
 // piece goes around one corner that is in the region; the centre is then outside the region.
 std::vector<Piece> pieces_in_squares(const LevelSetLattice& lattice) {
   std::vector<Piece> pieces;
-  for (const LatticePlace& square : lattice.crossed()) {
+  for (const LatticeIndex& square : lattice.crossed()) {
     const auto corners = corners_of_square(square);
     std::array<bool, 4> in;
     for (std::size_t k = 0; k < 4; ++k) in[k] = lattice.value(corners[k]) < 0;

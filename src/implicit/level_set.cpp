@@ -83,8 +83,8 @@ std::vector<LevelSetSlope> LevelSet::slopes(std::span<const Point<3>> x, double 
   return slopes;
 }
 
-std::vector<double> LevelSet::ways_along(std::span<const Point<3>> x,
-                                         std::span<const Point<3>> directions) const {
+std::vector<double> LevelSet::distances_along(std::span<const Point<3>> x,
+                                              std::span<const Point<3>> directions) const {
   const double step = kSlopeStep * resolution_;
   std::vector<Point<3>> around;
   for (std::size_t i = 0; i < x.size(); ++i)

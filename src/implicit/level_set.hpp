@@ -49,8 +49,8 @@ class LevelSet {
   // Estimates the distance of each point from the zero of f along a unit direction, in either
   // sense, from the slope of f in that direction. Needs less than half of the evaluations of
   // slopes().
-  std::vector<double> ways_along(std::span<const Point<3>> x,
-                                 std::span<const Point<3>> directions) const;
+  std::vector<double> distances_along(std::span<const Point<3>> x,
+                                      std::span<const Point<3>> directions) const;
 
   // Moves points along the gradient of f to f = 0. A point that does not reach f = 0 within `reach`
   // stays. Each result depends on its own point only. Returns for each point whether f = 0 there

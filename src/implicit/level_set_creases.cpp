@@ -491,8 +491,8 @@ class CreaseFinder {
 };
 
 // Raises the care at the vertices of these triangles, and with `widen` also of their neighbours.
-void take_care(const SurfaceSource& surface, const std::vector<std::int32_t>& triangles, bool widen,
-               std::vector<char>& care) {
+void raise_care(const SurfaceSource& surface, const std::vector<std::int32_t>& triangles,
+                bool widen, std::vector<char>& care) {
   std::vector<char> wrong(care.size(), 0);
   for (const std::int32_t t : triangles)
     for (const std::int32_t v : surface.triangles[index(t)]) wrong[index(v)] = 1;
@@ -535,7 +535,7 @@ bool cut_where_it_can_be(const LevelSet& set, std::int32_t first_new,
     const std::vector<std::int32_t> wrong =
         CutCheck(first_new, crossings, cut, set.resolution()).wrong();
     if (wrong.empty()) break;
-    take_care(surface, wrong, round >= kRoundsBeforeWidening || round == 0, care);
+    raise_care(surface, wrong, round >= kRoundsBeforeWidening || round == 0, care);
   }
   warn_of_rounded(crossings, care, surface, set.name());
   surface.creases = CreaseFinder(set, crossings, cut).run();

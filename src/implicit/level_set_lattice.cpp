@@ -46,13 +46,13 @@ LevelSetLattice::LevelSetLattice(const LevelSet& set) : set_(set) {
                     "box, and be thicker than the resolution");
 }
 
-LatticePlace LevelSetLattice::place(std::uint64_t key) {
+LatticeIndex LevelSetLattice::place(std::uint64_t key) {
   constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
   return {static_cast<std::int32_t>(key & kMask), static_cast<std::int32_t>(key >> 21 & kMask),
           static_cast<std::int32_t>(key >> 42)};
 }
 
-Point<3> LevelSetLattice::position(const LatticePlace& place) const {
+Point<3> LevelSetLattice::position(const LatticeIndex& place) const {
   Point<3> x;
   for (std::size_t k = 0; k < 3; ++k) {
     const double steps = std::max(1, cells_[k] - 1);
@@ -66,16 +66,16 @@ bool LevelSetLattice::is_flat(std::size_t axis) const {
   return set_.box().low[axis] == set_.box().high[axis];
 }
 
-LatticePlace LevelSetLattice::corner(const LatticePlace& cell, int depth, int which) const {
-  LatticePlace at;
+LatticeIndex LevelSetLattice::corner(const LatticeIndex& cell, int depth, int which) const {
+  LatticeIndex at;
   for (std::size_t k = 0; k < 3; ++k)
     at[k] = std::min(cells_[k], (cell[k] + (which >> k & 1)) << depth);
   return at;
 }
 
-LatticePlace LevelSetLattice::centre(const LatticePlace& cell, int depth) const {
-  const LatticePlace low = corner(cell, depth, 0), high = corner(cell, depth, 7);
-  LatticePlace at;
+LatticeIndex LevelSetLattice::centre(const LatticeIndex& cell, int depth) const {
+  const LatticeIndex low = corner(cell, depth, 0), high = corner(cell, depth, 7);
+  LatticeIndex at;
   for (std::size_t k = 0; k < 3; ++k) at[k] = (low[k] + high[k]) / 2;
   return at;
 }
@@ -86,7 +86,7 @@ LevelSetLattice::Depth LevelSetLattice::coarsest() const {
   Depth first{0, {}, {}, {}};
   const std::int32_t longest = *std::max_element(cells_.begin(), cells_.end());
   while ((longest - 1) >> first.depth >= kFirstCells) ++first.depth;
-  LatticePlace cell;
+  LatticeIndex cell;
   for (cell[2] = 0; cell[2] << first.depth < cells_[2]; ++cell[2])
     for (cell[1] = 0; cell[1] << first.depth < cells_[1]; ++cell[1])
       for (cell[0] = 0; cell[0] << first.depth < cells_[0]; ++cell[0])
@@ -98,9 +98,9 @@ LevelSetLattice::Depth LevelSetLattice::next(const Depth& coarser) const {
   Depth finer{coarser.depth - 1, {}, {}, {}};
   for (std::size_t c = 0; c < coarser.cells.size(); ++c) {
     if (coarser.crossed[c] == 0 && coarser.near[c] == 0) continue;
-    const LatticePlace parent = place(coarser.cells[c]);
+    const LatticeIndex parent = place(coarser.cells[c]);
     for (int child = 0; child < 8; ++child) {
-      LatticePlace cell;
+      LatticeIndex cell;
       bool in_box = true;
       for (std::size_t k = 0; k < 3; ++k) {
         cell[k] = 2 * parent[k] + (child >> k & 1);
@@ -118,7 +118,7 @@ void LevelSetLattice::judge(Depth& at) {
   if (begin == 0) samples_.clear();
   sample(at.depth, std::span(at.cells).subspan(begin));
   for (std::size_t c = begin; c < at.cells.size(); ++c) {
-    const LatticePlace cell = place(at.cells[c]);
+    const LatticeIndex cell = place(at.cells[c]);
     const double middle =
         at.depth > 0 ? value(centre(cell, at.depth)) : value(corner(cell, at.depth, 0));
     bool crossed = false;
@@ -140,12 +140,12 @@ void LevelSetLattice::flood(Depth& at) {
     const std::size_t end = at.cells.size();
     for (std::size_t c = begin; c < end; ++c) {
       if (at.crossed[c] == 0) continue;
-      const LatticePlace cell = place(at.cells[c]);
+      const LatticeIndex cell = place(at.cells[c]);
       for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t axis = face / 2;
         const bool high = face % 2 == 1;
         if (is_flat(axis) || !face_crossed(cell, at.depth, axis, high)) continue;
-        LatticePlace beyond = cell;
+        LatticeIndex beyond = cell;
         beyond[axis] += high ? 1 : -1;
         if (there.insert(key(beyond)).second) at.cells.push_back(key(beyond));
       }
@@ -160,7 +160,7 @@ void LevelSetLattice::flood(Depth& at) {
 }
 
 // A face on the border is never crossed, since f is nowhere negative there.
-bool LevelSetLattice::face_crossed(const LatticePlace& cell, int depth, std::size_t axis,
+bool LevelSetLattice::face_crossed(const LatticeIndex& cell, int depth, std::size_t axis,
                                    bool high) const {
   int below = 0;
   for (int which = 0; which < 8; ++which)
@@ -173,7 +173,7 @@ bool LevelSetLattice::face_crossed(const LatticePlace& cell, int depth, std::siz
 
 void LevelSetLattice::sample(int depth, std::span<const std::uint64_t> cells) {
   std::vector<std::uint64_t> wanted;
-  const auto want = [&](const LatticePlace& at) {
+  const auto want = [&](const LatticeIndex& at) {
     if (samples_.try_emplace(key(at), 0.0).second) wanted.push_back(key(at));
   };
   for (const std::uint64_t cell : cells) {
@@ -190,7 +190,7 @@ void LevelSetLattice::sample(int depth, std::span<const std::uint64_t> cells) {
   asked_ += wanted.size();
 }
 
-void LevelSetLattice::reject_border(const LatticePlace& at) const {
+void LevelSetLattice::reject_border(const LatticeIndex& at) const {
   for (std::size_t k = 0; k < 3; ++k)
     if (!is_flat(k) && (at[k] == 0 || at[k] == cells_[k]))
       throw Error(ErrorKind::domain,

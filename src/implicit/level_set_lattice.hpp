@@ -18,7 +18,7 @@
 namespace pnpbs {
 
 // Index triple of a lattice point, or of a cell by its lowest corner.
-using LatticePlace = std::array<std::int32_t, 3>;
+using LatticeIndex = std::array<std::int32_t, 3>;
 
 // The crossed cells of the lattice, with f at their corners.
 class LevelSetLattice {
@@ -28,16 +28,16 @@ class LevelSetLattice {
   explicit LevelSetLattice(const LevelSet& set);
 
   // Returns the finest cells with f < 0 at some corners but not at all, in a fixed order.
-  const std::vector<LatticePlace>& crossed() const { return crossed_; }
-  Point<3> position(const LatticePlace& place) const;
+  const std::vector<LatticeIndex>& crossed() const { return crossed_; }
+  Point<3> position(const LatticeIndex& place) const;
   // Returns f at a corner of a crossed cell.
-  double value(const LatticePlace& place) const { return samples_.at(key(place)); }
+  double value(const LatticeIndex& place) const { return samples_.at(key(place)); }
 
   // Returns a key that is unique for indices from 0 to 2^20.
-  static std::uint64_t key(const LatticePlace& place) {
+  static std::uint64_t key(const LatticeIndex& place) {
     return std::uint64_t(place[2]) << 42 | std::uint64_t(place[1]) << 21 | std::uint64_t(place[0]);
   }
-  static LatticePlace place(std::uint64_t key);
+  static LatticeIndex place(std::uint64_t key);
 
  private:
   // The cells of one depth. Their sides have 2^depth lattice steps, except where the far end of the
@@ -54,17 +54,17 @@ class LevelSetLattice {
   void flood(Depth& at);
   Depth next(const Depth& coarser) const;
 
-  LatticePlace corner(const LatticePlace& cell, int depth, int which) const;
-  LatticePlace centre(const LatticePlace& cell, int depth) const;
-  bool face_crossed(const LatticePlace& cell, int depth, std::size_t axis, bool high) const;
+  LatticeIndex corner(const LatticeIndex& cell, int depth, int which) const;
+  LatticeIndex centre(const LatticeIndex& cell, int depth) const;
+  bool face_crossed(const LatticeIndex& cell, int depth, std::size_t axis, bool high) const;
   void sample(int depth, std::span<const std::uint64_t> cells);
-  void reject_border(const LatticePlace& place) const;
+  void reject_border(const LatticeIndex& place) const;
 
   const LevelSet& set_;
-  LatticePlace cells_;  // number of cells in each direction
+  LatticeIndex cells_;  // number of cells in each direction
   std::unordered_map<std::uint64_t, double> samples_;
   std::size_t asked_ = 0;
-  std::vector<LatticePlace> crossed_;
+  std::vector<LatticeIndex> crossed_;
 };
 
 }  // namespace pnpbs

@@ -22,13 +22,13 @@ constexpr double kOneVertex = 1e-6;
 
 // Returns the key of a lattice edge with f < 0 at one end: its midpoint in half steps of the
 // lattice.
-std::uint64_t edge_key(const LatticePlace& a, const LatticePlace& b) {
+std::uint64_t edge_key(const LatticeIndex& a, const LatticeIndex& b) {
   return LevelSetLattice::key({a[0] + b[0], a[1] + b[1], a[2] + b[2]});
 }
 
-std::array<LatticePlace, 2> ends_of(std::uint64_t edge) {
-  const LatticePlace middle = LevelSetLattice::place(edge);
-  std::array<LatticePlace, 2> ends;
+std::array<LatticeIndex, 2> ends_of(std::uint64_t edge) {
+  const LatticeIndex middle = LevelSetLattice::place(edge);
+  std::array<LatticeIndex, 2> ends;
   for (std::size_t k = 0; k < 3; ++k) {
     ends[0][k] = middle[k] / 2;
     ends[1][k] = (middle[k] + 1) / 2;
@@ -37,7 +37,7 @@ std::array<LatticePlace, 2> ends_of(std::uint64_t edge) {
 }
 
 struct CellTetrahedron {
-  std::array<LatticePlace, 4> corners;  // right-handed
+  std::array<LatticeIndex, 4> corners;  // right-handed
   std::array<bool, 4> negative;
 };
 
@@ -47,10 +47,10 @@ template <class Visit>
 void for_tetrahedra(const LevelSetLattice& lattice, const Visit& visit) {
   constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-  for (const LatticePlace& cell : lattice.crossed())
+  for (const LatticeIndex& cell : lattice.crossed())
     for (std::size_t order = 0; order < kOrders.size(); ++order) {
       CellTetrahedron t;
-      LatticePlace at = t.corners[0] = cell;
+      LatticeIndex at = t.corners[0] = cell;
       for (std::size_t step = 0; step < 3; ++step) {
         ++at[kOrders[order][step]];
         t.corners[step + 1] = at;
@@ -110,7 +110,7 @@ class EdgeVertices {
   const std::vector<Point<3>>& positions() const { return positions_; }
 
   // Separates zeros that were joined into these vertices. Returns true if there were any.
-  bool take_apart(const std::vector<std::int32_t>& vertices) {
+  bool separate_zeros(const std::vector<std::int32_t>& vertices) {
     const std::size_t before = apart_.size();
     for (const std::int32_t v : vertices) {
       const auto joined = point_of_.find(v);
@@ -131,7 +131,7 @@ class EdgeVertices {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       auto vertex = static_cast<std::int32_t>(positions_.size());
       Point<3> zero = zeros_[e];
-      for (const LatticePlace& end : ends_of(edges_[e])) {
+      for (const LatticeIndex& end : ends_of(edges_[e])) {
         if (distance<3>(lattice_.position(end), zero) > near_) continue;
         const std::uint64_t point = LevelSetLattice::key(end);
         if (apart_.contains(point)) {
@@ -147,7 +147,7 @@ class EdgeVertices {
   }
 
   // Returns the zero moved along its edge to the least distance of vertices that are not joined.
-  Point<3> moved_off(const LatticePlace& end, std::size_t e) const {
+  Point<3> moved_off(const LatticeIndex& end, std::size_t e) const {
     const auto [low, high] = ends_of(edges_[e]);
     const Point<3> from = lattice_.position(end);
     const Point<3> way = difference(lattice_.position(end == low ? high : low), from);
@@ -216,7 +216,7 @@ SurfaceSource level_set_surface(const LevelSet& set, std::int32_t tag) {
   // If only some of the zeros around a lattice point are joined, the surface may be pinched there.
   do {
     surface.triangles = triangles_on(lattice, vertices);
-  } while (vertices.take_apart(ends_of_bad_sides(surface.triangles)));
+  } while (vertices.separate_zeros(ends_of_bad_sides(surface.triangles)));
   surface.vertices = vertices.positions();
   surface.tags.assign(surface.triangles.size(), tag);
   return surface;

@@ -223,7 +223,7 @@ bool is_none(const SurfaceTriangle& triangle) {
 // triangles without area are removed. Of triangles with the same corners, in any orientation, only
 // the first is kept. A second one would hide the neighbours at its edges, and one of opposite
 // orientation would cancel the first.
-Triangulation joined_soup(const std::vector<SurfaceSource>& given, double tolerance) {
+Triangulation welded_triangles(const std::vector<SurfaceSource>& given, double tolerance) {
   Triangulation surface = join_surfaces(given);
   weld(surface, tolerance);
   std::set<std::array<std::int32_t, 3>> there;
@@ -322,7 +322,7 @@ SurfaceSource surface_of(const LevelSet& set, std::int32_t tag) {
 
 // Returns the box with a margin. The surface lies well inside, because the winding number is less
 // than 1/2 outside the convex hull of the triangles.
-Box<3> roomy(Box<3> box, double resolution) {
+Box<3> with_margin(Box<3> box, double resolution) {
   for (std::size_t k = 0; k < 3; ++k) {
     box.low[k] -= 2 * resolution;
     box.high[k] += 2 * resolution;
@@ -341,7 +341,7 @@ RepairedBody repaired_body(const std::vector<SurfaceSource>& given, double resol
     reject_domain("repair: the resolution is " + number_text(resolution) +
                   ", expected no more than the longest side of the box around the triangles, " +
                   rounded_text(longest_side(box)));
-  Triangulation surface = joined_soup(given, kWelded * resolution);
+  Triangulation surface = welded_triangles(given, kWelded * resolution);
   SurfaceEdges edges(surface);
   orient_surfaces(surface, edges, OneSided::ignored, warnings);
   const auto f = std::make_shared<const RepairFunction>(surface, edges, kNear * resolution);
@@ -350,7 +350,7 @@ RepairedBody repaired_body(const std::vector<SurfaceSource>& given, double resol
       [f](std::int64_t n, const Point<3>* x, double* values) {
         for (std::int64_t i = 0; i < n; ++i) values[i] = (*f)(x[i]);
       },
-      roomy(box, resolution), resolution);
+      with_margin(box, resolution), resolution);
   body.surface = surface_of(*set, given[0].tags[0]);
   add_creases(*set, body.surface);
   body.surface.level_set = set;

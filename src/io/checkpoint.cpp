@@ -354,7 +354,7 @@ class CheckpointReader {
     hdf5::require_hdf5();
     hdf5::require_signature(path_, quoted_checkpoint(path_));
     require_seal(path_, quoted_checkpoint(path_));
-    const hdf5::OldFile file(path_, quoted_checkpoint(path_));
+    const hdf5::ExistingFile file(path_, quoted_checkpoint(path_));
     if (!file.has(kOwn))
       throw Error(ErrorKind::file, quoted_checkpoint(path_) + " is an HDF5 file, but not of PNPBS");
     std::int64_t format = 0;
@@ -378,7 +378,7 @@ class CheckpointReader {
 
   // Reads a whole column of numbers with eight bytes.
   template <class Number>
-  std::vector<Number> read_numbers(const hdf5::OldFile& file, const std::string& name,
+  std::vector<Number> read_numbers(const hdf5::ExistingFile& file, const std::string& name,
                                    hdf5::Type type) const {
     const std::int64_t n = file.rows_of(name);
     const std::int64_t place = file.place_of({name, type, n});
@@ -388,7 +388,7 @@ class CheckpointReader {
     return numbers;
   }
 
-  void read_patch_layout(const hdf5::OldFile& file) {
+  void read_patch_layout(const hdf5::ExistingFile& file) {
     if (!file.has(kSpacing)) refuse("it has no spacing");
     get(file, "spacing_checksum", patch_checksum_);
     patch_sizes_ =
@@ -414,7 +414,7 @@ class CheckpointReader {
   }
 
   template <class Value>
-  static void get(const hdf5::OldFile& file, const char* field, Value& value) {
+  static void get(const hdf5::ExistingFile& file, const char* field, Value& value) {
     if constexpr (std::is_same_v<Value, std::uint64_t>) {
       std::int64_t bits = 0;
       file.get(kOwn, field, bits);

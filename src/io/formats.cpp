@@ -80,7 +80,7 @@ std::string list_of_formats() {
 }
 
 const Format* format_by_name(std::string_view name) {
-  const std::string small = in_small_letters(name);
+  const std::string small = to_lower_case(name);
   const auto found = std::ranges::find_if(table, [&](const Format& f) { return f.name == small; });
   return found == table.end() ? nullptr : &*found;
 }

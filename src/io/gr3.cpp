@@ -17,7 +17,7 @@ constexpr std::int32_t kLand = 0, kOpen = 1;
 // Returns kOpen if the name of the tag begins with "open".
 std::int32_t kind_of(const Contents& all, std::int32_t tag) {
   const std::string* name = all.names ? all.names->find({1, tag}) : nullptr;
-  return name && in_small_letters(*name).starts_with("open") ? kOpen : kLand;
+  return name && to_lower_case(*name).starts_with("open") ? kOpen : kLand;
 }
 
 // A boundary segment of the file.

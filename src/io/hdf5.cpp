@@ -203,7 +203,7 @@ std::string damaged(const std::string& name, const std::string& what) {
 
 }  // namespace
 
-OldFile::OldFile(const std::string& path, const std::string& name) : name_(name) {
+ExistingFile::ExistingFile(const std::string& path, const std::string& name) : name_(name) {
   struct stat status;
   if (::stat(path.c_str(), &status) == 0) size_ = status.st_size;
   const Use use;
@@ -214,13 +214,13 @@ OldFile::OldFile(const std::string& path, const std::string& name) : name_(name)
                                      "open it");
 }
 
-OldFile::~OldFile() {
+ExistingFile::~ExistingFile() {
   if (file_ < 0) return;
   const Use use;
   use->H5Fclose(file_);
 }
 
-bool OldFile::has(const std::string& path) const {
+bool ExistingFile::has(const std::string& path) const {
   const Use use;
   return use->H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
 }
@@ -265,17 +265,18 @@ void read_number(hid_t file, const std::string& name, const std::string& object,
 
 }  // namespace
 
-void OldFile::get(const std::string& object, const std::string& attribute,
-                  std::int64_t& value) const {
+void ExistingFile::get(const std::string& object, const std::string& attribute,
+                       std::int64_t& value) const {
   read_number(file_, name_, object, attribute, Type::int64, &value);
 }
 
-void OldFile::get(const std::string& object, const std::string& attribute, double& value) const {
+void ExistingFile::get(const std::string& object, const std::string& attribute,
+                       double& value) const {
   read_number(file_, name_, object, attribute, Type::real, &value);
 }
 
-void OldFile::get(const std::string& object, const std::string& attribute,
-                  std::string& text) const {
+void ExistingFile::get(const std::string& object, const std::string& attribute,
+                       std::string& text) const {
   constexpr std::size_t kMax = 60000;  // largest attribute in HDF5. [bytes]
   const Attribute found(file_, name_, "text", object, attribute);
   const std::size_t size = found.use->H5Tget_size(found.type());
@@ -286,7 +287,7 @@ void OldFile::get(const std::string& object, const std::string& attribute,
   if (const std::size_t end = text.find('\0'); end != std::string::npos) text.resize(end);
 }
 
-std::int64_t OldFile::place_of(const Array& array) const {
+std::int64_t ExistingFile::place_of(const Array& array) const {
   const Use use;
   const std::string failure = damaged(name_, "it has no array \"" + array.path + "\"");
   const std::string other =
@@ -314,7 +315,7 @@ std::int64_t OldFile::place_of(const Array& array) const {
   return static_cast<std::int64_t>(place);
 }
 
-std::int64_t OldFile::rows_of(const std::string& path) const {
+std::int64_t ExistingFile::rows_of(const std::string& path) const {
   const Use use;
   const std::string failure = damaged(name_, "it has no array \"" + path + "\"");
   const Owned found(use->H5Dopen2(file_, path.c_str(), H5P_DEFAULT), use->H5Dclose, failure);
@@ -354,14 +355,14 @@ std::int64_t NewFile::add(const Array&) { fail(); }
 void NewFile::add(const std::string&, const std::vector<std::int64_t>&) { fail(); }
 void NewFile::add_reals(const std::string&, const std::vector<double>&) { fail(); }
 void NewFile::close() { fail(); }
-OldFile::OldFile(const std::string&, const std::string&) { fail(); }
-OldFile::~OldFile() = default;
-bool OldFile::has(const std::string&) const { fail(); }
-void OldFile::get(const std::string&, const std::string&, std::int64_t&) const { fail(); }
-void OldFile::get(const std::string&, const std::string&, double&) const { fail(); }
-void OldFile::get(const std::string&, const std::string&, std::string&) const { fail(); }
-std::int64_t OldFile::place_of(const Array&) const { fail(); }
-std::int64_t OldFile::rows_of(const std::string&) const { fail(); }
+ExistingFile::ExistingFile(const std::string&, const std::string&) { fail(); }
+ExistingFile::~ExistingFile() = default;
+bool ExistingFile::has(const std::string&) const { fail(); }
+void ExistingFile::get(const std::string&, const std::string&, std::int64_t&) const { fail(); }
+void ExistingFile::get(const std::string&, const std::string&, double&) const { fail(); }
+void ExistingFile::get(const std::string&, const std::string&, std::string&) const { fail(); }
+std::int64_t ExistingFile::place_of(const Array&) const { fail(); }
+std::int64_t ExistingFile::rows_of(const std::string&) const { fail(); }
 
 #endif
 

@@ -65,12 +65,12 @@ class NewFile {
 };
 
 // An existing file, opened for reading.
-class OldFile {
+class ExistingFile {
  public:
-  OldFile(const std::string& path, const std::string& name);
-  OldFile(const OldFile&) = delete;
-  OldFile& operator=(const OldFile&) = delete;
-  ~OldFile();
+  ExistingFile(const std::string& path, const std::string& name);
+  ExistingFile(const ExistingFile&) = delete;
+  ExistingFile& operator=(const ExistingFile&) = delete;
+  ~ExistingFile();
 
   bool has(const std::string& path) const;
   void get(const std::string& object, const std::string& attribute, std::int64_t& value) const;

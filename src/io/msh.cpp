@@ -18,14 +18,14 @@ enum Type { line = 1, triangle = 2, tetrahedron = 4, point = 15 };
 
 // A node that is kept in memory until its block is written. Tags of nodes and cells are those of
 // Writer::tag_of_block().
-struct HeldNode {
+struct BufferedNode {
   std::int32_t tag;
   std::int64_t number;
   std::array<double, 3> x;
 };
 
 // A facet or element that is kept in memory.
-struct HeldCell {
+struct BufferedCell {
   std::int32_t tag;
   std::int64_t number;
   std::array<std::int64_t, 4> corners;
@@ -154,12 +154,12 @@ class Writer {
     file_.append_text("$EndNodes\n");
   }
 
-  static void write_number(const HeldNode& node, Sink& sink) {
+  static void write_number(const BufferedNode& node, Sink& sink) {
     sink.number(node.number);
     sink.text("\n");
   }
 
-  static void write_place(const HeldNode& node, Sink& sink) {
+  static void write_place(const BufferedNode& node, Sink& sink) {
     for (std::size_t k = 0; k < 3; ++k) {
       sink.number(node.x[k]);
       sink.text(k < 2 ? " " : "\n");
@@ -171,9 +171,9 @@ class Writer {
                       kind + " " + std::to_string(count) + "\n");
   }
 
-  HeldNode row(const NodeRows& rows, std::size_t i) const {
+  BufferedNode row(const NodeRows& rows, std::size_t i) const {
     const auto coordinates = static_cast<std::size_t>(all_.coordinates);
-    HeldNode node{block_of(rows, i), rows.first + static_cast<std::int64_t>(i) + 1, {}};
+    BufferedNode node{block_of(rows, i), rows.first + static_cast<std::int64_t>(i) + 1, {}};
     for (std::size_t k = 0; k < coordinates; ++k) node.x[k] = rows.x[coordinates * i + k];
     return node;
   }
@@ -194,7 +194,7 @@ class Writer {
   void hold_nodes() {
     std::vector<std::int64_t> of_regions(groups_.regions.size(), 0);
     nodes_.for_nodes([&](const NodeRows& rows) {
-      std::vector<HeldNode> held;
+      std::vector<BufferedNode> held;
       std::vector<std::int32_t> blocks;
       for (std::size_t i = 0; i < rows.tags.size(); ++i) {
         blocks.push_back(block_of(rows, i));
@@ -253,7 +253,7 @@ class Writer {
   void write_points() {
     for (std::size_t g = 0; g < groups_.tagged.size(); ++g) {
       begin_block(group(g), std::to_string(point), group(g).rows.count);
-      for_nodes_of(g, [](const HeldNode& node, Sink& sink) {
+      for_nodes_of(g, [](const BufferedNode& node, Sink& sink) {
         sink.number(node.number);
         sink.text(" ");
         sink.number(node.number);
@@ -263,9 +263,9 @@ class Writer {
   }
 
   void write_facets() {
-    RowsByTag<HeldCell> facets;
+    RowsByTag<BufferedCell> facets;
     nodes_.for_facets([&](const FacetRows& rows) {
-      std::vector<HeldCell> held;
+      std::vector<BufferedCell> held;
       for (std::size_t f = 0; f < rows.tags.size(); ++f)
         held.push_back(
             cell(tag_of_block(index_of(groups_.of(rows.tags[f]))), rows, all_.facet_corners(), f));
@@ -280,9 +280,9 @@ class Writer {
   // Keeps the elements of regions in memory, because one pass over all elements for each region
   // could be slow.
   void write_regions() {
-    RowsByTag<HeldCell> elements;
+    RowsByTag<BufferedCell> elements;
     nodes_.for_elements([&](const ElementRows& rows) {
-      std::vector<HeldCell> held;
+      std::vector<BufferedCell> held;
       for (std::size_t e = 0; e < rows.regions.size(); ++e) {
         const std::int32_t block = block_of_region(rows.regions[e]);
         if (block == NodeDataByBlock::kInside) continue;
@@ -298,16 +298,16 @@ class Writer {
 
   // Returns facet or element i of the rows.
   template <class Rows>
-  static HeldCell cell(std::int32_t block, const Rows& rows, int corners, std::size_t i) {
-    HeldCell cell{block, rows.first + static_cast<std::int64_t>(i) + 1, {}};
+  static BufferedCell cell(std::int32_t block, const Rows& rows, int corners, std::size_t i) {
+    BufferedCell cell{block, rows.first + static_cast<std::int64_t>(i) + 1, {}};
     const auto n = static_cast<std::size_t>(corners);
     std::copy_n(&rows.corners[n * i], n, cell.corners.begin());
     return cell;
   }
 
-  void write_cells(std::size_t g, int type, int corners, const RowsByTag<HeldCell>& cells) {
+  void write_cells(std::size_t g, int type, int corners, const RowsByTag<BufferedCell>& cells) {
     begin_block(group(g), std::to_string(type), group(g).rows.count);
-    cells.append(tag_of_block(g), file_, [&](const HeldCell& cell, Sink& sink) {
+    cells.append(tag_of_block(g), file_, [&](const BufferedCell& cell, Sink& sink) {
       sink.number(cell.number);
       for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) {
         sink.text(" ");
@@ -341,7 +341,7 @@ class Writer {
   MshGroups groups_;
   std::vector<std::int64_t> node_counts_;  // nodes of each group
   std::int64_t inside_nodes_ = 0;          // nodes of no group
-  RowsByTag<HeldNode> held_nodes_;
+  RowsByTag<BufferedNode> held_nodes_;
   NodeDataByBlock node_data_;
 };
 

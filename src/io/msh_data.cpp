@@ -39,7 +39,7 @@ void write_row(std::int64_t number, std::span<const double> values, Sink& sink) 
 }
 
 // The values of a node that is kept in memory.
-struct HeldValues {
+struct BufferedValues {
   std::int32_t tag;
   std::int64_t number;
   std::array<double, 9> values;
@@ -102,10 +102,10 @@ void NodeDataByBlock::append(const std::vector<std::int32_t>& order, SharedFile&
 void NodeDataByBlock::append_field(std::size_t field, const std::vector<std::int32_t>& order,
                                    SharedFile& file) const {
   const std::size_t components = components_of(nodes_.contents(), field);
-  RowsByTag<HeldValues> held;
+  RowsByTag<BufferedValues> held;
   std::size_t before = 0;  // nodes of earlier windows
   nodes_.for_field(field, [&](const FieldRows& rows) {
-    std::vector<HeldValues> own;
+    std::vector<BufferedValues> own;
     for_rows(rows, components, [&](std::size_t i, std::int64_t number, const auto& values) {
       if (blocks_[before + i] == kInside) return;
       own.push_back({blocks_[before + i], number, {}});
@@ -120,7 +120,7 @@ void NodeDataByBlock::append_field(std::size_t field, const std::vector<std::int
       append_rows(
           nodes_, field, [&](std::size_t place) { return blocks_[place] == kInside; }, file);
     else
-      held.append(block, file, [&](const HeldValues& row, Sink& sink) {
+      held.append(block, file, [&](const BufferedValues& row, Sink& sink) {
         write_row(row.number, std::span(row.values).first(components), sink);
       });
   }

@@ -115,10 +115,10 @@ class NodeSource {
 };
 
 // The facets of another source as a grid of their own. Nodes keep their numbers.
-class FacetsBeside : public NodeSource {
+class FacetGrid : public NodeSource {
  public:
   // `of` must outlive this object.
-  explicit FacetsBeside(const NodeSource& of) : of_(of) {
+  explicit FacetGrid(const NodeSource& of) : of_(of) {
     contents_ = of.contents();
     contents_.cells = Cells::facets;
     contents_.is_beside = true;

@@ -53,7 +53,7 @@ Side side_of_domain(const BoundaryEdge& edge) {
 template <int Dim>
 NodeRow<Dim> node_row(const Results<Dim>& results, std::int64_t i, std::int32_t region) {
   const Nodes<Dim>& nodes = results.level().nodes;
-  return {nodes.id(i), results.place_in_space(i), results.spacing_at(i),
+  return {nodes.id(i), results.point_in_space(i), results.spacing_at(i),
           static_cast<std::int32_t>(nodes.tag(i)), region};
 }
 
@@ -287,7 +287,7 @@ std::vector<TagGroup> NodesById<Dim>::node_groups() const {
   TagGroups groups;
   for (std::int64_t place = 0; place < owned_; ++place) {
     const std::int64_t i = results_.node_at(place);
-    const Point<3> x = results_.place_in_space(i);
+    const Point<3> x = results_.point_in_space(i);
     groups.add(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
   }
   return groups.of_all(comm_);

@@ -31,7 +31,7 @@ void require_name(const std::string& name) {
     refuse_field("argument name = \"" + name + "\"; an output field has a name of 1 to " +
                  std::to_string(kLongestFieldName) + " letters, digits, '_' and '-'");
   constexpr std::string_view ours[] = {"id", "tag", "spacing", "quality", "vtkghosttype"};
-  if (std::ranges::find(ours, in_small_letters(name)) != std::end(ours))
+  if (std::ranges::find(ours, to_lower_case(name)) != std::end(ours))
     refuse_field("argument name = \"" + name +
                  "\" is that of an array that files have anyway; choose "
                  "another");

@@ -35,7 +35,7 @@ template <int Dim, std::size_t n>
 std::array<Point<3>, n> places_in_space(const Results<Dim>& results,
                                         const std::array<std::int64_t, n>& places) {
   std::array<Point<3>, n> x;
-  for (std::size_t k = 0; k < n; ++k) x[k] = results.place_in_space(results.node_at(places[k]));
+  for (std::size_t k = 0; k < n; ++k) x[k] = results.point_in_space(results.node_at(places[k]));
   return x;
 }
 

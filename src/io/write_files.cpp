@@ -21,11 +21,11 @@ namespace {
 // A source with this rank's nodes, elements and facets and the ghosts that these refer to. It is
 // numbered by itself.
 template <int Dim>
-class OwnPiece : public NodeSource {
+class RankPiece : public NodeSource {
  public:
   // Includes the ghosts that elements and facets refer to. prepare() of rows.hpp must have been
   // called. `fields` need values at ghosts. Local.
-  OwnPiece(const Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
+  RankPiece(const Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
 
   // The iterations are local.
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
@@ -55,8 +55,8 @@ class OwnPiece : public NodeSource {
 };
 
 template <int Dim>
-OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
-                        const std::vector<OutputField>& fields)
+RankPiece<Dim>::RankPiece(const Results<Dim>& results, bool elements,
+                          const std::vector<OutputField>& fields)
     : results_(results),
       owned_(results.count()),
       number_(static_cast<std::size_t>(results.level().nodes.count - owned_), -1) {
@@ -82,7 +82,7 @@ OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
 }
 
 template <int Dim>
-void OwnPiece<Dim>::know(std::int64_t place) {
+void RankPiece<Dim>::know(std::int64_t place) {
   if (place < owned_) return;
   std::int64_t& number = number_[static_cast<std::size_t>(place - owned_)];
   if (number >= 0) return;
@@ -91,14 +91,14 @@ void OwnPiece<Dim>::know(std::int64_t place) {
 }
 
 template <int Dim>
-void OwnPiece<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
+void RankPiece<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
   const Nodes<Dim>& nodes = results_.level().nodes;
   for (std::int64_t begin = 0; begin < contents_.nodes; begin += kWindow) {
     NodeRows rows;
     rows.first = begin;
     for (std::int64_t k = begin; k < std::min(begin + kWindow, contents_.nodes); ++k) {
       const std::int64_t i = results_.node_at(place_of_number(k));
-      const Point<3> x = results_.place_in_space(i);
+      const Point<3> x = results_.point_in_space(i);
       rows.x.insert(rows.x.end(), x.begin(), x.begin() + contents_.coordinates);
       rows.ids.push_back(nodes.id(i));
       rows.tags.push_back(nodes.tag(i));
@@ -110,8 +110,8 @@ void OwnPiece<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit)
 }
 
 template <int Dim>
-void OwnPiece<Dim>::for_field(std::size_t field,
-                              const std::function<void(const FieldRows&)>& visit) const {
+void RankPiece<Dim>::for_field(std::size_t field,
+                               const std::function<void(const FieldRows&)>& visit) const {
   const OutputField& of = (*contents_.fields)[field];
   for (std::int64_t begin = 0; begin < contents_.nodes; begin += kWindow) {
     FieldRows rows;
@@ -127,13 +127,13 @@ void OwnPiece<Dim>::for_field(std::size_t field,
 
 template <int Dim>
 template <class Visit>
-void OwnPiece<Dim>::for_windows(const Visit& visit) const {
+void RankPiece<Dim>::for_windows(const Visit& visit) const {
   for (std::int64_t begin = 0; begin < owned_; begin += kWindow)
     visit(begin, std::min(begin + kWindow, owned_));
 }
 
 template <int Dim>
-void OwnPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& visit) const {
+void RankPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& visit) const {
   std::int64_t before = 0;
   ElementRegions<Dim> region_of(results_);
   for_windows([&](std::int64_t begin, std::int64_t end) {
@@ -150,7 +150,7 @@ void OwnPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& 
 }
 
 template <int Dim>
-void OwnPiece<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
+void RankPiece<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
   FacetRows rows;
   const auto add = [&](const auto& places, std::int32_t tag) {
     for (const std::int64_t place : places) rows.corners.push_back(number(place));
@@ -189,7 +189,7 @@ std::string with_extension(const std::string& path, const char* extension) {
 }
 
 // Throws unless the path can be a regular file, which all ranks write concurrently.
-void require_places(const std::string& path, const Format& format) {
+void require_result_indices(const std::string& path, const Format& format) {
   const std::string what = std::string("a .") + format.name + " file ";
   std::error_code error;
   if (path == "-") refuse(what + "cannot go to standard output; take vtu there");
@@ -218,7 +218,7 @@ void require_possible(const std::string& path, const Format& format, bool elemen
            "none of bodies: '" + path + "'");
   if (format.in_pieces() && path == "-")
     refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
-  if (format.by_hdf5) require_places(path, format);
+  if (format.by_hdf5) require_result_indices(path, format);
   if (elements && (format.elements == Elements::never || format.elements == Elements::regions))
     refuse(std::string("a .") + format.name + " file has no place for elements: '" + path + "'");
   if (elements && format.elements == Elements::beside && path == "-")
@@ -270,7 +270,7 @@ class Writing {
     if (!nodes) nodes.emplace(results_, request.elements, fields_.all());
     SharedFile& file = open(comm(), request.path);
     if (request.facets)
-      request.format->write(FacetsBeside(*nodes), file);
+      request.format->write(FacetGrid(*nodes), file);
     else
       request.format->write(*nodes, file);
     file.close();
@@ -290,11 +290,11 @@ class Writing {
     prepare(results_, request.elements);
     if (fields_with_ghosts_.empty()) fields_with_ghosts_ = fields_.with_ghosts(results_);
     collective_try(*comm(), [&] {
-      const OwnPiece<Dim> piece(results_, request.elements, fields_with_ghosts_);
+      const RankPiece<Dim> piece(results_, request.elements, fields_with_ghosts_);
       like_ = piece.contents();
       SharedFile& file = open(serial_communicator(), piece_path(request.path, comm()->rank()));
       if (request.facets) {
-        const FacetsBeside facets(piece);
+        const FacetGrid facets(piece);
         like_ = facets.contents();
         write_vtu(facets, file);
       } else {
@@ -315,7 +315,7 @@ class Writing {
 
   void give_up_if_asked() const {
     io::give_up_if_asked(
-        [this](double fraction) { return monitoring_.asks_to_stop(fraction, nodes_); }, done_,
+        [this](double fraction) { return monitoring_.requests_stop(fraction, nodes_); }, done_,
         expected_);
   }
 
@@ -356,10 +356,10 @@ Requested requested_of(const Placement& placement) {
   return {placement.dimension(), kind != GeometryKind::surface, kind};
 }
 
-void give_up_if_asked(const AsksToStop& asks_to_stop, std::size_t done, std::size_t files) {
+void give_up_if_asked(const AsksToStop& requests_stop, std::size_t done, std::size_t files) {
   const double fraction =
       done == files ? 1 : static_cast<double>(done) / static_cast<double>(files);
-  if (asks_to_stop && asks_to_stop(fraction))
+  if (requests_stop && requests_stop(fraction))
     throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
 }
 

@@ -40,10 +40,10 @@ void add_request(const std::string& path, const std::string& format, bool elemen
 // throw.
 void require_hdf5_for(const std::vector<FileRequest>& requests, const Communicator& comm);
 // Reports the finished fraction of the files to the monitor and returns whether to stop, see
-// Monitoring::asks_to_stop().
+// Monitoring::requests_stop().
 using AsksToStop = std::function<bool(double fraction)>;
-// Throws Error(ErrorKind::stopped) if `asks_to_stop` is not empty and returns true. Local.
-void give_up_if_asked(const AsksToStop& asks_to_stop, std::size_t done, std::size_t files);
+// Throws Error(ErrorKind::stopped) if `requests_stop` is not empty and returns true. Local.
+void give_up_if_asked(const AsksToStop& requests_stop, std::size_t done, std::size_t files);
 
 // Publishes the files of all ranks, or none. Collective; if one rank throws, all ranks throw.
 void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFile>> files);

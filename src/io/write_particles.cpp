@@ -136,9 +136,9 @@ void require_formats_of_points(const std::vector<FileRequest>& requests) {
 
 void write_particles(const std::shared_ptr<const Communicator>& comm, const Particles& particles,
                      const GroupNames& names, const std::vector<OutputField>& fields,
-                     const std::vector<FileRequest>& requests, const AsksToStop& asks_to_stop) {
+                     const std::vector<FileRequest>& requests, const AsksToStop& requests_stop) {
   std::size_t done = 0;
-  const auto give_up = [&] { give_up_if_asked(asks_to_stop, done, requests.size()); };
+  const auto give_up = [&] { give_up_if_asked(requests_stop, done, requests.size()); };
   collective_try(*comm, [&] {
     require_formats_of_points(requests);
     require_hdf5_for(requests, *comm);

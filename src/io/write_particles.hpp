@@ -14,6 +14,6 @@ namespace pnpbs::io {
 // all ranks throw.
 void write_particles(const std::shared_ptr<const Communicator>& comm, const Particles& particles,
                      const GroupNames& names, const std::vector<OutputField>& fields,
-                     const std::vector<FileRequest>& requests, const AsksToStop& asks_to_stop);
+                     const std::vector<FileRequest>& requests, const AsksToStop& requests_stop);
 
 }  // namespace pnpbs::io

@@ -41,7 +41,7 @@ VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
     return measured ? level.neighbourhood.near_boundary().room(i, level.nodes) : 0;
   };
   const auto on_one_surface = [&level](const std::array<std::int64_t, 4>& corners) {
-    std::array<SurfacePlace, 4> places;
+    std::array<SurfaceSupport, 4> places;
     for (std::size_t k = 0; k < 4; ++k) places[k] = level.geometry.place(level.nodes, corners[k]);
     return level.geometry.surface().share_patch(places);
   };
@@ -102,11 +102,11 @@ void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<c
 
 // Starts the search without stars. If no node has moved since the stored stars were found, these
 // are restored.
-void begin_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) {
+void begin_stars(Level<3>& level, const KnownRegion<3>& known, bool stored_stars_hold) {
   const PhaseTimer timer(level.timers, Phase::stars);
   const VolumeStarInput input = star_input(level, known);
   level.stars.build_none(input);
-  if (!taken_hold) return;
+  if (!stored_stars_hold) return;
   // Restored stars count as computed, as those that are confirmed one by one do.
   count_stars(level, level.stars_before.restore(input, level.stars));
 }
@@ -134,10 +134,10 @@ void build_stars(Level<2>& level, const KnownRegion<2>& known, bool) {
   level.timers.add(Phase::stars, {level.nodes.count, level.owned_count()});
   level.stars.build(star_input(level, known));
 }
-void build_stars(Level<3>& level, const KnownRegion<3>& known, bool taken_hold) {
+void build_stars(Level<3>& level, const KnownRegion<3>& known, bool stored_stars_hold) {
   const bool on_surfaces = level.geometry.kind() == GeometryKind::surface;
   if (!on_surfaces && level.stars_before.any() && known.is_everywhere()) {
-    begin_stars(level, known, taken_hold);
+    begin_stars(level, known, stored_stars_hold);
     return find_owned_stars(level, known, owned_without_star(level));
   }
   const PhaseTimer timer(level.timers, Phase::stars);
@@ -155,12 +155,12 @@ class UnknownBoxes {
   UnknownBoxes(const Level<Dim>& level, const KnownRegion<Dim>& known)
       : level_(level), known_(known) {}
 
-  void ask_around(std::int64_t i) {
+  void request_around(std::int64_t i) {
     if constexpr (Dim == 2)
       if (level_.geometry.domain().is_in_patch(level_.nodes.position(i))) return ask_in_cap(i);
-    ask_around(i, level_.stars.needs(i));
+    request_around(i, level_.stars.needs(i));
   }
-  void ask_around(std::int64_t i, double reach) {
+  void request_around(std::int64_t i, double reach) {
     if (reach == 0) return;
     const Box<Dim> box = box_around<Dim>(level_.nodes.position(i), reach);
     widen(box_of_.try_emplace(level_.neighbourhood.buckets().bucket_of(i), box).first->second, box);
@@ -208,18 +208,18 @@ std::vector<std::int64_t> nodes_at_border(const Nodes<Dim>& nodes, const Graph& 
 // are missing.
 template <int Dim>
 std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings,
-                                     bool taken_hold) {
-  build_stars(level, known, taken_hold);
+                                     bool stored_stars_hold) {
+  build_stars(level, known, stored_stars_hold);
   UnknownBoxes<Dim> unknown(level, known);
   if (known.is_everywhere()) return unknown.boxes();
   const Nodes<Dim>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (nodes.owned(i)) unknown.ask_around(i);
+    if (nodes.owned(i)) unknown.request_around(i);
   std::vector<char> reached = owned_nodes(nodes);
   std::vector<std::int64_t> front = nodes_at_border(nodes, level.stars);
   for (int ring = 0; ring < rings; ++ring) {
     front = next_ring(level.stars, front, reached);
-    for (const std::int64_t i : front) unknown.ask_around(i);
+    for (const std::int64_t i : front) unknown.request_around(i);
   }
   return unknown.boxes();
 }
@@ -256,7 +256,7 @@ double reach_of_pairs(const Level<3>& level, double reach, const Box<3>& box, do
 }
 
 // Requests all nodes within that distance of an owned node.
-void ask_for_pairs(const Level<3>& level, const KnownRegion<3>& known, double reach,
+void request_pairs(const Level<3>& level, const KnownRegion<3>& known, double reach,
                    UnknownBoxes<3>& unknown) {
   const BackgroundTree<3>& tree = level.tree->tree();
   const Buckets<3>& buckets = level.neighbourhood.buckets();
@@ -271,7 +271,7 @@ void ask_for_pairs(const Level<3>& level, const KnownRegion<3>& known, double re
     if (owned.max_d == 0 || reach_around(owned.box, owned.max_d) == 0) continue;
     for (std::int64_t i = buckets.begin(leaf); i < buckets.end(leaf); ++i)
       if (nodes.owned(i))
-        unknown.ask_around(i, reach_around({nodes.position(i), nodes.position(i)}, nodes.d(i)));
+        unknown.request_around(i, reach_around({nodes.position(i), nodes.position(i)}, nodes.d(i)));
   }
 }
 
@@ -287,7 +287,7 @@ void find_stars_of(Level<3>& level, const KnownRegion<3>& known,
   }
   add_lists_of(level, more);
   if (!more.empty()) add_stars(level, known, wanted);
-  for (const std::int64_t i : front) unknown.ask_around(i);
+  for (const std::int64_t i : front) unknown.request_around(i);
 }
 
 // Finds the stars of ghosts, ring by ring around owned nodes that have stars.
@@ -305,12 +305,12 @@ void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<
 // these.
 std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
                                       const std::vector<std::int64_t>& at_border,
-                                      const GhostStarDepth& zone, bool taken_hold) {
-  begin_stars(level, known, taken_hold);
+                                      const GhostStarDepth& zone, bool stored_stars_hold) {
+  begin_stars(level, known, stored_stars_hold);
   UnknownBoxes<3> unknown(level, known);
   find_stars_of(level, known, at_border, unknown);
   find_ghost_stars(level, known, at_border, zone.rings, unknown);
-  if (zone.reach > 0) ask_for_pairs(level, known, zone.reach, unknown);
+  if (zone.reach > 0) request_pairs(level, known, zone.reach, unknown);
   return unknown.boxes();
 }
 
@@ -323,7 +323,7 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
   find_owned_stars(level, known, wanted);
   UnknownBoxes<3> unknown(level, known);
   for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (wanted[static_cast<std::size_t>(i)]) unknown.ask_around(i);
+    if (wanted[static_cast<std::size_t>(i)]) unknown.request_around(i);
   find_ghost_stars(level, known, nodes_at_border(nodes, level.stars), rings, unknown);
   return unknown.boxes();
 }
@@ -341,8 +341,8 @@ bool stars_hold(Level<3>& level) {
 template <int Dim>
 void rebuild_stars(Level<Dim>& level) {
   level.changed_labels = {};
-  const bool taken_hold = stars_hold(level);
-  build_stars(level, KnownRegion<Dim>(), taken_hold);
+  const bool stored_stars_hold = stars_hold(level);
+  build_stars(level, KnownRegion<Dim>(), stored_stars_hold);
   level.stars_before.forget();
 }
 
@@ -354,23 +354,23 @@ bool restore_stars(Level<2>& level) {
 bool restore_stars(Level<3>&) { return false; }
 
 std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known,
-                               const GhostStarDepth& zone, bool taken_hold) {
+                               const GhostStarDepth& zone, bool stored_stars_hold) {
   std::vector<Box<2>> unknown;
   collective_try(*level.comm,
-                 [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
+                 [&] { unknown = find_all_stars(level, known, zone.rings, stored_stars_hold); });
   return unknown;
 }
 std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known,
-                               const GhostStarDepth& zone, bool taken_hold) {
+                               const GhostStarDepth& zone, bool stored_stars_hold) {
   std::vector<Box<3>> unknown;
   if (!level.distributed() || level.geometry.kind() == GeometryKind::surface) {
     collective_try(*level.comm,
-                   [&] { unknown = find_all_stars(level, known, zone.rings, taken_hold); });
+                   [&] { unknown = find_all_stars(level, known, zone.rings, stored_stars_hold); });
     return unknown;
   }
   collective_try(*level.comm, [&] {
     const std::vector<std::int64_t> at_border = nodes_at_border(level.nodes, level.lists());
-    unknown = find_border_stars(level, known, at_border, zone, taken_hold);
+    unknown = find_border_stars(level, known, at_border, zone, stored_stars_hold);
   });
   if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
   collective_try(*level.comm, [&] { unknown = find_inner_stars(level, known, zone.rings); });

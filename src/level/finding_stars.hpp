@@ -17,14 +17,14 @@ namespace pnpbs {
 bool stars_hold(Level<2>& level);
 bool stars_hold(Level<3>& level);
 
-// Finds the stars of the owned nodes and of the ghosts to the depth `zone`. If `taken_hold` is
-// true, only missing ones are computed. Returns the boxes that must be known for stars it cannot
+// Finds the stars of the owned nodes and of the ghosts to the depth `zone`. If `stored_stars_hold`
+// is true, only missing ones are computed. Returns the boxes that must be known for stars it cannot
 // find. If the result is empty on all ranks, all stars are found. All ranks must call it, and if
 // one rank throws, all ranks throw.
 std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known,
-                               const GhostStarDepth& zone, bool taken_hold);
+                               const GhostStarDepth& zone, bool stored_stars_hold);
 std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known,
-                               const GhostStarDepth& zone, bool taken_hold);
+                               const GhostStarDepth& zone, bool stored_stars_hold);
 
 // Finds the stars of all nodes, on one rank.
 template <int Dim>

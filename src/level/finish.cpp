@@ -24,7 +24,7 @@ namespace {
 template <int Dim>
 bool prepared_for_finish(const Level<Dim>& level) {
   return level.nodes.referenced_here() &&
-         level.neighbourhood.made_here(level.nodes, level.settings.list_radius) &&
+         level.neighbourhood.built_here(level.nodes, level.settings.list_radius) &&
          (!level.distributed() || level.ghosts.are_exact(level.nodes, kRepairHops<Dim>));
 }
 

@@ -97,7 +97,7 @@ void fill(Level<Dim>& level, BoundaryNodes<Dim> laid, const std::function<void()
     beat();
     find_leaves(level, inner);
     beat();
-    sort_by_place(level, inner);
+    sort_by_leaf(level, inner);
   });
   number_and_store(level, std::move(inner), std::move(laid));
 }

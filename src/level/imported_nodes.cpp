@@ -46,7 +46,7 @@ bool has_room(const Level<Dim>& level, const IncomingNode<Dim>& node) {
 }
 
 template <int Dim>
-void leave_out_those_without_room(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
+void remove_without_room(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
   for_each("pnpbs::has_room", static_cast<std::int64_t>(incoming.size()), [&](std::int64_t k) {
     IncomingNode<Dim>& node = incoming[static_cast<std::size_t>(k)];
     if (node.leaf >= 0 && !has_room(level, node)) node.leaf = -1;
@@ -67,8 +67,8 @@ ImportedNodes take(Level<Dim>& level, IncomingNodes<Dim> incoming, std::int64_t 
   BoundaryNodes<Dim> laid = boundary_nodes(level.geometry, incoming);
   const std::uint64_t all = count_if([](const IncomingNode<Dim>& node) { return node.is_inner(); });
   find_leaves(level, incoming);
-  leave_out_those_without_room(level, incoming);
-  const std::vector<std::int32_t> begin = sort_by_place(level, incoming);
+  remove_without_room(level, incoming);
+  const std::vector<std::int32_t> begin = sort_by_leaf(level, incoming);
   const std::uint64_t fitting = incoming.size();
   thin(level, incoming, begin);
   const std::uint64_t taken = incoming.size(),

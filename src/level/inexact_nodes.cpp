@@ -24,8 +24,8 @@ struct Sight {
 
 // Returns whether a node of a leaf unknown to this rank may affect node i.
 template <int Dim>
-bool sees_unknown(const Level<Dim>& level, const KnownRegion<Dim>& known, const Sight& sight,
-                  std::int64_t i) {
+bool may_depend_on_unknown(const Level<Dim>& level, const KnownRegion<Dim>& known,
+                           const Sight& sight, std::int64_t i) {
   const BackgroundTree<Dim>& tree = level.tree->tree();
   const Point<Dim> x = level.nodes.position(i);
   const double d = level.nodes.d(i);
@@ -64,7 +64,7 @@ void spread(Level<Dim>& level, InexactNodes& inexact, const Sight& sight, int ho
     for (std::int64_t i = 0; i < nodes.count; ++i)
       if (!inexact.contains(nodes.id(i)) && (sight.of_all || nodes.moves(i)) &&
           (sees_inexact(level, inexact, sight, i) ||
-           (hop == 0 && sees_unknown(level, known, sight, i))))
+           (hop == 0 && may_depend_on_unknown(level, known, sight, i))))
         more.insert(nodes.id(i));
     inexact.merge(more);
   }

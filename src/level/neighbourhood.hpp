@@ -58,7 +58,7 @@ class Neighbourhood {
   bool needs_rebuild(const Nodes<Dim>& nodes, const Settings& settings) const;
 
   // Returns whether the lists were built with this radius at the present positions.
-  bool made_here(const Nodes<Dim>& nodes, double radius) const {
+  bool built_here(const Nodes<Dim>& nodes, double radius) const {
     return !for_steps_ && arrangement_ == nodes.arrangement() && positions_ == nodes.positions() &&
            references_ == nodes.references() && lists_.radius() == radius;
   }
@@ -76,8 +76,8 @@ class Neighbourhood {
   void keep_nodes(Nodes<Dim>& nodes, const View<std::int32_t>& places, std::int64_t kept);
   // Returns an array in which the caller stores the bucket of each node, after all nodes were
   // replaced.
-  View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes) {
-    return buckets_.buckets_of_new(nodes);
+  View<std::int32_t>& reset_buckets(const Nodes<Dim>& nodes) {
+    return buckets_.reset_buckets(nodes);
   }
 
   const Buckets<Dim>& buckets() const { return buckets_; }

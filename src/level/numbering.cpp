@@ -37,7 +37,7 @@ void find_leaves(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
 }
 
 template <int Dim>
-std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
+std::vector<std::int32_t> sort_by_leaf(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
   const std::int32_t leaves = level.tree->tree().leaf_count();
   const auto leaf_of = [&](std::int64_t k) { return incoming[static_cast<std::size_t>(k)].leaf; };
   CountingSort by_leaf(static_cast<std::int64_t>(incoming.size()), leaves, leaf_of);
@@ -47,7 +47,7 @@ std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, IncomingNodes<D
     sorted[static_cast<std::size_t>(place)] = incoming[static_cast<std::size_t>(k)];
   });
   incoming = std::move(sorted);
-  for_each("pnpbs::sort_by_place", leaves, [&](std::int64_t leaf) {
+  for_each("pnpbs::sort_by_leaf", leaves, [&](std::int64_t leaf) {
     const auto at = static_cast<std::size_t>(leaf);
     std::sort(incoming.begin() + begin[at], incoming.begin() + begin[at + 1],
               [](const IncomingNode<Dim>& a, const IncomingNode<Dim>& b) {
@@ -101,7 +101,7 @@ class LeafBlocks {
 };
 
 // Removes all but the first of the nodes at the same point, because forces cannot separate them.
-// The nodes must be sorted by sort_by_place().
+// The nodes must be sorted by sort_by_leaf().
 template <int Dim>
 void leave_out_coinciding(IncomingNodes<Dim>& inner) {
   const auto same_place = [](const IncomingNode<Dim>& a, const IncomingNode<Dim>& b) {
@@ -191,7 +191,7 @@ void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes
   Nodes<Dim>& nodes = level.nodes;
   // Reserve memory for insertions and, on several ranks, for ghosts.
   nodes.reset(count, count + count / (level.distributed() ? 16 : 64) + 64);
-  const View<std::int32_t> bucket = level.neighbourhood.buckets_of_new(nodes);
+  const View<std::int32_t> bucket = level.neighbourhood.reset_buckets(nodes);
   blocks.for_each_node(
       [&](std::size_t place, const LeafNode& node) {
         const auto i = static_cast<std::int64_t>(place);
@@ -210,8 +210,8 @@ void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes
 
 template void find_leaves(const Level<2>&, IncomingNodes<2>&);
 template void find_leaves(const Level<3>&, IncomingNodes<3>&);
-template std::vector<std::int32_t> sort_by_place(const Level<2>&, IncomingNodes<2>&);
-template std::vector<std::int32_t> sort_by_place(const Level<3>&, IncomingNodes<3>&);
+template std::vector<std::int32_t> sort_by_leaf(const Level<2>&, IncomingNodes<2>&);
+template std::vector<std::int32_t> sort_by_leaf(const Level<3>&, IncomingNodes<3>&);
 template void reserve_ids(Level<3>&, const IncomingNodes<3>&);
 template void number_and_store(Level<2>&, IncomingNodes<2>, BoundaryNodes<2>);
 template void number_and_store(Level<3>&, IncomingNodes<3>, BoundaryNodes<3>);

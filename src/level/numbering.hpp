@@ -18,11 +18,11 @@ void find_leaves(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
 // on where they came from. Removes nodes without a leaf. Returns the index of the first node of
 // each leaf.
 template <int Dim>
-std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
+std::vector<std::int32_t> sort_by_leaf(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
 // Makes level.next_id larger than all ids of these nodes. Collective.
 template <int Dim>
 void reserve_ids(Level<Dim>& level, const IncomingNodes<Dim>& incoming);
-// Stores these boundary nodes and inner nodes, sorted by sort_by_place(), as the nodes of the
+// Stores these boundary nodes and inner nodes, sorted by sort_by_leaf(), as the nodes of the
 // level. Nodes without an id get new ones. All ranks must call it, and if one rank throws, all
 // ranks throw.
 template <int Dim>

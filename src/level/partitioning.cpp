@@ -46,7 +46,7 @@ std::vector<std::int32_t> keep_numbers(const LevelTree<Dim>& level,
   std::vector<KeptWork> all;
   for_records<KeptWork>({comm.allgather(own)},
                         [&](const KeptWork& entry) { all.push_back(entry); });
-  return relabelled(std::move(part), std::move(all), comm.size());
+  return renumbered_parts(std::move(part), std::move(all), comm.size());
 }
 
 }  // namespace

@@ -88,14 +88,14 @@ void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
 // Receives the bids of ghosts from their owners, because only an owner knows everything that a bid
 // depends on. Collective.
 template <int Dim>
-void learn_bids_of_ghosts(const Level<Dim>& level, const std::vector<std::int32_t>& bidders,
-                          const View<Bid<Dim>>& bids) {
+void receive_ghost_bids(const Level<Dim>& level, const std::vector<std::int32_t>& bidders,
+                        const View<Bid<Dim>>& bids) {
   if (!level.distributed()) return;
   const Nodes<Dim>& nodes = level.nodes;
   std::vector<Bid<Dim>> told = level.ghosts.template tell<Bid<Dim>>(
       *level.comm, nodes, bidders, [&](std::int32_t i) { return std::vector<Bid<Dim>>{bids(i)}; });
   std::ranges::sort(told, {}, &Bid<Dim>::id);
-  for_each("pnpbs::learn_bids_of_ghosts", nodes.count, [&](std::int64_t i) {
+  for_each("pnpbs::receive_ghost_bids", nodes.count, [&](std::int64_t i) {
     if (nodes.owned(i)) return;
     const auto bid = std::ranges::lower_bound(told, nodes.id(i), {}, &Bid<Dim>::id);
     if (bid != told.end() && bid->id == nodes.id(i)) bids(i) = *bid;
@@ -145,7 +145,7 @@ View<Bid<Dim>> gather_bids(Level<Dim>& level, const View<double>& ratios,
         [&](const Point<Dim>& x, double d) { return has_clearance(level, x, d); });
     bidders = own_bidders<Dim>(nodes, bids);
   });
-  learn_bids_of_ghosts(level, bidders, bids);
+  receive_ghost_bids(level, bidders, bids);
   return bids;
 }
 

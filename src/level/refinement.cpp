@@ -106,7 +106,7 @@ void leave_patch(const Level<3>&, IncomingNode<3>&) {}
 // Exempts a node from thinning unless d has grown at it. Thinning uses one value of d per leaf, and
 // d may vary more within a leaf than it has grown.
 template <int Dim>
-void stay_unless_coarser(IncomingNode<Dim>& node, double d) {
+void exempt_from_thinning(IncomingNode<Dim>& node, double d) {
   if (d <= method::kThinnedAbove * node.d) node.d = 0;
 }
 
@@ -161,7 +161,7 @@ IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
       for_owned_in(chunk, [&](std::int64_t i) {
         const double before = level.geometry.spacing_at(nodes, i);
         const auto put = [&](IncomingNode<Dim> node) {
-          stay_unless_coarser(node, spacing(i));
+          exempt_from_thinning(node, spacing(i));
           refined[place++] = node;
         };
         IncomingNode<Dim> kept = kept_node(nodes, i);

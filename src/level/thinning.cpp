@@ -76,7 +76,7 @@ void thin(const Level<Dim>& level, IncomingNodes<Dim>& inner,
 
 void thin_on_surfaces(const Level<3>& level, IncomingNodes<3>& on_surfaces) {
   for (IncomingNode<3>& node : on_surfaces) node.leaf = level.tree->tree().leaf_at(node.position);
-  const std::vector<std::int32_t> begin = sort_by_place(level, on_surfaces);
+  const std::vector<std::int32_t> begin = sort_by_leaf(level, on_surfaces);
   keep_shares(level, on_surfaces, begin, [&](const IncomingNode<3>& node) {
     return share_for<2>(node, level.map().leaf_spacing(node.leaf));
   });

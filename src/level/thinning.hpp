@@ -23,13 +23,13 @@ double placed_for(double before, double d, double new_nodes) {
   return share > method::kMostStay ? d : d * root<M>(share);
 }
 
-// Thins inner nodes, sorted by sort_by_place(). `begin` has the first index of each leaf. All ranks
+// Thins inner nodes, sorted by sort_by_leaf(). `begin` has the first index of each leaf. All ranks
 // must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 void thin(const Level<Dim>& level, IncomingNodes<Dim>& inner,
           const std::vector<std::int32_t>& begin);
 
-// Thins nodes on surfaces that this rank owns, and sorts them by sort_by_place(). All ranks must
+// Thins nodes on surfaces that this rank owns, and sorts them by sort_by_leaf(). All ranks must
 // call it, and if one rank throws, all ranks throw.
 void thin_on_surfaces(const Level<3>& level, IncomingNodes<3>& on_surfaces);
 

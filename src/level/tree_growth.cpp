@@ -138,7 +138,7 @@ void LevelTree<Dim>::link_leaves(const Settings& settings) {
   if (embedding.is_sphere())
     for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf)
       stretch.push_back(
-          embedding.most_stretch_in(map_.tree().cell_box(map_.tree().leaf_cell(leaf))));
+          embedding.max_stretch_in(map_.tree().cell_box(map_.tree().leaf_cell(leaf))));
   links_ =
       std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach), std::move(stretch));
 }

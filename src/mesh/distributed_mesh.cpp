@@ -137,7 +137,7 @@ std::vector<MeshElement<Corners>> ghost_elements(const Communicator& comm, const
   std::vector<Element> ghosts(at_nodes.of_others().begin(), at_nodes.of_others().end());
   std::unordered_set<std::int64_t> asked;
   for (int layer = 1;; ++layer) {
-    for (const Element& element : ask_owners<Element>(comm, nodes, front, give, number))
+    for (const Element& element : query_owners<Element>(comm, nodes, front, give, number))
       ghosts.push_back(element);
     sort_and_keep_one(ghosts, number);
     if (layer == layers) return ghosts;
@@ -173,7 +173,7 @@ void add_facets_of_ghosts(const Communicator& comm, const RankRanges& elements,
   };
   std::vector<std::int64_t> numbers;
   for (const MeshElement<Corners>& ghost : ghosts) numbers.push_back(ghost.number);
-  for (const Facet& facet : ask_owners<Facet>(comm, elements, numbers, give, key))
+  for (const Facet& facet : query_owners<Facet>(comm, elements, numbers, give, key))
     facets.push_back(facet);
   sort_and_keep_one(facets, key);
 }
@@ -182,7 +182,7 @@ template <int Dim>
 MeshNode mesh_node(const Results<Dim>& results, const RankRanges& nodes, std::int64_t number) {
   const Nodes<Dim>& from = results.level().nodes;
   const std::int64_t i = results.node_at(number - nodes.first());
-  return {number, from.id(i), results.place_in_space(i), from.tag(i)};
+  return {number, from.id(i), results.point_in_space(i), from.tag(i)};
 }
 
 template <std::size_t Corners, int Dim>
@@ -209,8 +209,8 @@ void make(Results<Dim>& results, int layers, DistributedMesh& mesh) {
   const auto give = [&](std::int64_t number, int, std::vector<MeshNode>& answers) {
     answers.push_back(mesh_node(results, nodes, number));
   };
-  const auto node_ghosts = ask_owners<MeshNode>(comm, nodes, others, give,
-                                                [](const MeshNode& node) { return node.number; });
+  const auto node_ghosts = query_owners<MeshNode>(comm, nodes, others, give,
+                                                  [](const MeshNode& node) { return node.number; });
 
   require_fits_rank(nodes.count() + static_cast<std::int64_t>(others.size()), "nodes");
   require_fits_rank(elements.count() + static_cast<std::int64_t>(ghosts.size()), "elements");

@@ -78,9 +78,9 @@ class RankRanges {
 // give(number, requesting rank, answers) appends the records to `answers`. The records from one
 // owner are sorted by key without repetition. Collective.
 template <class Answer, class Give, class Key>
-std::vector<Answer> ask_owners(const Communicator& comm, const RankRanges& ranges,
-                               const std::vector<std::int64_t>& numbers, const Give& give,
-                               const Key& key) {
+std::vector<Answer> query_owners(const Communicator& comm, const RankRanges& ranges,
+                                 const std::vector<std::int64_t>& numbers, const Give& give,
+                                 const Key& key) {
   Outbox questions;
   for (const std::int64_t number : numbers) pack(questions.to(ranges.owner(number)), number);
   Outbox answers;

@@ -48,7 +48,7 @@ void Buckets<Dim>::make_room(std::int64_t n) {
 }
 
 template <int Dim>
-View<std::int32_t>& Buckets<Dim>::buckets_of_new(const Nodes<Dim>& nodes) {
+View<std::int32_t>& Buckets<Dim>::reset_buckets(const Nodes<Dim>& nodes) {
   known_ = 0;
   make_room(nodes.capacity());
   known_ = nodes.count;

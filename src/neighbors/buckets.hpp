@@ -36,7 +36,7 @@ class Buckets {
 
   // Returns an array for the buckets of nodes that replace the sorted ones. The caller must write
   // the bucket of each node.
-  View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes);
+  View<std::int32_t>& reset_buckets(const Nodes<Dim>& nodes);
   // Keeps the same nodes as Nodes::keep; must be called with the same arguments.
   void keep(const View<std::int32_t>& places, std::int64_t kept);
   // Returns true if the bucket of node i is stored. Nodes appended after the last sort have none.

@@ -104,9 +104,9 @@ std::unique_ptr<Particles> make_particles(Results<Dim>& results, const Domain<Di
   });
   const Wall<Dim> wall(comm, *within, known, cells->at_boundary);
 
-  leave_out_close_ones(comm, kTooClose, known);
+  remove_close_particles(comm, kTooClose, known);
   push_apart(comm, kPushed<Dim>, wall, known);
-  leave_out_close_ones(comm, kClosestPair<Dim>, known);
+  remove_close_particles(comm, kClosestPair<Dim>, known);
 
   const std::vector<double> volumes =
       volumes_within<Dim>(comm, *within, measure_of(body), *cells, first, known);

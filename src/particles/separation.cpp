@@ -67,7 +67,7 @@ class Separation {
     }
     if (!any) return x;
     for (std::size_t k = 0; k < Dim; ++k) push[k] += x[k];
-    const Point<Dim> next = wall_.held_off(i, x, push);
+    const Point<Dim> next = wall_.kept_off_wall(i, x, push);
     const bool too_far = distance<Dim>(first_[index(i)], next) >
                          kAboveRounding * kFarthestPush * particles_.d[index(i)];
     return too_far ? x : next;

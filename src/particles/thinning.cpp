@@ -75,12 +75,13 @@ class Contest {
 }  // namespace
 
 template <int Dim>
-void leave_out_close_ones(const Communicator& comm, double least, KnownParticles<Dim>& particles) {
+void remove_close_particles(const Communicator& comm, double least,
+                            KnownParticles<Dim>& particles) {
   const std::vector<Fate> fates = Contest<Dim>(comm, least, particles).run();
   for (std::size_t i = 0; i < fates.size(); ++i) particles.kept[i] = fates[i] == Fate::kept;
 }
 
-template void leave_out_close_ones(const Communicator&, double, KnownParticles<2>&);
-template void leave_out_close_ones(const Communicator&, double, KnownParticles<3>&);
+template void remove_close_particles(const Communicator&, double, KnownParticles<2>&);
+template void remove_close_particles(const Communicator&, double, KnownParticles<3>&);
 
 }  // namespace pnpbs

@@ -13,9 +13,9 @@ namespace pnpbs {
 // partition. Ghosts must be known up to that distance. Collective. If one rank throws, all ranks
 // throw.
 template <int Dim>
-void leave_out_close_ones(const Communicator& comm, double least, KnownParticles<Dim>& particles);
+void remove_close_particles(const Communicator& comm, double least, KnownParticles<Dim>& particles);
 
-extern template void leave_out_close_ones(const Communicator&, double, KnownParticles<2>&);
-extern template void leave_out_close_ones(const Communicator&, double, KnownParticles<3>&);
+extern template void remove_close_particles(const Communicator&, double, KnownParticles<2>&);
+extern template void remove_close_particles(const Communicator&, double, KnownParticles<3>&);
 
 }  // namespace pnpbs

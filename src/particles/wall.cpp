@@ -57,7 +57,7 @@ Wall<Dim>::Wall(const Communicator& comm, const SignedDistance<Dim>& body,
 }
 
 template <int Dim>
-Point<Dim> Wall<Dim>::held_off(std::int64_t i, const Point<Dim>& from, Point<Dim> to) const {
+Point<Dim> Wall<Dim>::kept_off_wall(std::int64_t i, const Point<Dim>& from, Point<Dim> to) const {
   const double least = least_depths_[index(i)];
   const double depth = -body_(to);
   if (depth >= least * (1 - kRounding)) return to;

@@ -24,7 +24,7 @@ class Wall {
   // Returns the position of particle i if it moves from `from` to `to`: `to`, or the point at its
   // least depth below the wall. Returns `from` if that is not inside. Several threads may call it
   // at the same time.
-  Point<Dim> held_off(std::int64_t i, const Point<Dim>& from, Point<Dim> to) const;
+  Point<Dim> kept_off_wall(std::int64_t i, const Point<Dim>& from, Point<Dim> to) const;
 
  private:
   const SignedDistance<Dim>& body_;

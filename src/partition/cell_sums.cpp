@@ -8,8 +8,8 @@
 
 namespace pnpbs {
 
-std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cells,
-                                      const std::vector<CellSum>& own, std::int64_t& start) {
+std::vector<std::int64_t> cell_prefix_sums(const Communicator& comm, std::int64_t cells,
+                                           const std::vector<CellSum>& own, std::int64_t& start) {
   const std::int64_t length = (cells + comm.size() - 1) / comm.size(), first = comm.rank() * length;
   Outbox counted, answers;
   for (const CellSum& entry : own) pack(counted.to(static_cast<int>(entry.cell / length)), entry);

@@ -19,7 +19,7 @@ struct CellSum {
 // Returns, for each entry of `own`, the sum over all cells before it and over all ranks, plus
 // `start`. Then adds the sum over all cells to `start`. `own` is sorted by cell, from 0 to cells -
 // 1; several ranks may contribute to a cell. Sums are modulo 2^64. Collective.
-std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cells,
-                                      const std::vector<CellSum>& own, std::int64_t& start);
+std::vector<std::int64_t> cell_prefix_sums(const Communicator& comm, std::int64_t cells,
+                                           const std::vector<CellSum>& own, std::int64_t& start);
 
 }  // namespace pnpbs

@@ -64,9 +64,9 @@ class Needs {
 
 // Leaves of a tree that a search has not found yet, counted for each cell that contains them.
 template <int Dim>
-class LeavesLeft {
+class UnfoundLeaves {
  public:
-  explicit LeavesLeft(const BackgroundTree<Dim>& tree)
+  explicit UnfoundLeaves(const BackgroundTree<Dim>& tree)
       : tree_(tree),
         parent_(static_cast<std::size_t>(tree.cell_count()), -1),
         left_(static_cast<std::size_t>(tree.cell_count()), 0) {
@@ -122,7 +122,7 @@ std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) cons
   const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
   // A hop reaches as far as a bubble does, and then to the far side of the leaf there.
   const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells_.max_spacing(c); };
-  LeavesLeft<Dim> left(tree);
+  UnfoundLeaves<Dim> left(tree);
   for (std::int32_t c = 0; c < cells_.count(); ++c)
     if (owner_of_cell(c) == rank_) left.find(c);
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -287,7 +287,7 @@ std::vector<std::int64_t> Distribution<Dim>::prefix_sums(const Communicator& com
     if (own.empty() || own.back().cell != cell(leaf)) own.push_back({cell(leaf), 0});
     own.back().sum = wrapping_sum(own.back().sum, counts[leaf]);
   }
-  const std::vector<std::int64_t> before = sums_before(comm, cells_.count(), own, start);
+  const std::vector<std::int64_t> before = cell_prefix_sums(comm, cells_.count(), own, start);
   std::size_t leaf = 0;
   for (std::size_t k = 0; k < own.size(); ++k) {
     while (cell(leaf) != own[k].cell) counts[leaf++] = 0;

@@ -13,7 +13,7 @@
 
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
-#include "comm/rank_places.hpp"
+#include "comm/rank_indices.hpp"
 
 namespace pnpbs {
 
@@ -181,7 +181,7 @@ class HaloExchange {
   }
 
   std::vector<int> neighbours_;
-  RankPlaces places_;
+  RankIndices places_;
   std::vector<std::vector<std::int32_t>> send_, receive_;  // indices of nodes, by neighbour
   std::vector<std::int32_t> moved_to_;
   const Communicator* comm_ = nullptr;

@@ -98,8 +98,8 @@ std::vector<std::int32_t> cut_by_metis(const PartitionCells<Dim>& cells, int ran
 
 // Matches parts and ranks greedily, the pair with the most common work first. Parts without common
 // work get the remaining ranks in increasing order.
-std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner, std::vector<KeptWork> kept,
-                                     int ranks) {
+std::vector<std::int32_t> renumbered_parts(std::vector<std::int32_t> owner,
+                                           std::vector<KeptWork> kept, int ranks) {
   std::sort(kept.begin(), kept.end(), [](const KeptWork& a, const KeptWork& b) {
     return std::tie(b.work, a.part, a.rank) < std::tie(a.work, b.part, b.rank);
   });

@@ -28,8 +28,8 @@ struct KeptWork {
 
 // Renumbers the parts so that little work changes its rank. `kept` has the nonzero entries, in any
 // order.
-std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner, std::vector<KeptWork> kept,
-                                     int ranks);
+std::vector<std::int32_t> renumbered_parts(std::vector<std::int32_t> owner,
+                                           std::vector<KeptWork> kept, int ranks);
 
 // Returns the imbalance: the largest over the mean work of the parts.
 double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::int64_t>& work,

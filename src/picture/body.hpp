@@ -18,7 +18,7 @@ struct Body {
   std::vector<std::array<std::int64_t, 3>> boundary;    // triangles, as indices of their corners
 
   // Returns whether there are no tetrahedra: the boundary is a surface mesh.
-  bool surfaces_alone() const { return tetrahedra.empty(); }
+  bool is_surface_mesh() const { return tetrahedra.empty(); }
   std::size_t size() const { return positions.size(); }
   const Point<3>& at(std::int64_t node) const { return positions[static_cast<std::size_t>(node)]; }
   TetrahedronCorners corners(std::size_t tetrahedron) const {

@@ -172,7 +172,7 @@ class Shell {
 // boundary. A tetrahedron is kept if its centroid lies behind the plane. Returns all triangles of a
 // surface mesh, which is not cut.
 std::vector<VisibleFace> visible_faces(const Body& body, const CutPlane& plane) {
-  if (body.surfaces_alone()) {
+  if (body.is_surface_mesh()) {
     std::vector<VisibleFace> all;
     for (const Corners& triangle : body.boundary) all.push_back({triangle, 0, false});
     return all;
@@ -264,7 +264,7 @@ class BodyPainter {
  public:
   BodyPainter(const Body& body, const CutPlane& plane, ElementColour colour)
       : body_(body), plane_(plane), view_(plane) {
-    if (colour != ElementColour::none && !body.surfaces_alone()) values_.emplace(body, colour);
+    if (colour != ElementColour::none && !body.is_surface_mesh()) values_.emplace(body, colour);
     for (const VisibleFace& face : visible_faces(body, plane)) add(face);
     sort();
     std::vector<double> shown;
@@ -297,7 +297,7 @@ class BodyPainter {
 Point<3> opposite(const Point<3>& x) { return {-x[0], -x[1], -x[2]}; }
 
 // Returns the normal turned to the outside of the tetrahedron `of`. `at` is a corner of the face.
-Point<3> turned_away(const Point<3>& normal, const Point<3>& at, const TetrahedronCorners& of) {
+Point<3> turned_outward(const Point<3>& normal, const Point<3>& at, const TetrahedronCorners& of) {
   double inward = 0;
   for (const Point<3>& corner : of) inward += dot(normal, difference(corner, at));
   return inward > 0 ? opposite(normal) : normal;
@@ -309,12 +309,12 @@ void BodyPainter::add(const VisibleFace& face) {
   PaintedFace painted{};
   painted.tetrahedron = face.tetrahedron;
   Point<3> normal = unit_vector(cross(difference(b, a), difference(c, a)));
-  if (body_.surfaces_alone()) {
+  if (body_.is_surface_mesh()) {
     // Both sides of an open surface are visible.
     if (!view_.shows(normal)) normal = opposite(normal);
   } else {
     const TetrahedronCorners corners = body_.corners(face.tetrahedron);
-    normal = turned_away(normal, a, corners);
+    normal = turned_outward(normal, a, corners);
     if (!view_.shows(normal)) return;
     painted.nearness = view_.nearness(circumsphere(corners).centre);
   }
@@ -418,13 +418,13 @@ void BodyPainter::legend(cairo_t* cairo) const {
     draw_colour_bar(cairo, values_->scale(), values_->title(),
                     {0.37 * frame_.width, base, 0.34 * frame_.width, font_size});
   draw_node_count(cairo, frame_, base, body_.size());
-  if (!body_.surfaces_alone())
+  if (!body_.is_surface_mesh())
     draw_text(cairo, frame_.width - frame_.margin, base - 1.3 * font_size, "cut at " + plane_.name,
               1);
 }
 
 std::string BodyPainter::description() const {
-  if (body_.surfaces_alone()) return "Surfaces";
+  if (body_.is_surface_mesh()) return "Surfaces";
   const std::string cut = "Body cut at " + plane_.name;
   if (!values_) return cut;
   return cut + ", tetrahedra by " + words_of(values_->scale(), values_->title());

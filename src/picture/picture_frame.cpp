@@ -40,7 +40,7 @@ PictureFrame frame_around(const Box<2>& bounds, const std::vector<double>& spaci
   PictureFrame frame{};
   frame.typical_spacing = median(spacing);
   const double requested = frame.typical_spacing > 0 ? longer / frame.typical_spacing : 0;
-  const double side = std::clamp(requested * size.wanted_spacing, size.min_side, size.max_side);
+  const double side = std::clamp(requested * size.target_spacing, size.min_side, size.max_side);
   frame.pixels_per_unit = side / longer;
   frame.font_size = std::round(std::clamp(side / 60, 15.0, 34.0));
   frame.margin = 1.5 * frame.font_size;

@@ -34,7 +34,7 @@ struct PictureFrame {
 
 // The limits of the size of a picture. [pixels]
 struct PictureSize {
-  double wanted_spacing;  // distance between typical nodes, within the limits of the sides
+  double target_spacing;  // distance between typical nodes, within the limits of the sides
   double min_side;        // limits of the longer side of the domain
   double max_side;
 };

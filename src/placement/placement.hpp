@@ -33,7 +33,7 @@ class Placement {
   virtual int dimension() const = 0;
   Options& options() { return options_; }
   const Options& options() const { return options_; }
-  virtual void forget_nodes() = 0;  // releases all Kokkos memory
+  virtual void release_nodes() = 0;  // releases all Kokkos memory
   Monitoring& monitoring() { return monitoring_; }
   const Monitoring& monitoring() const { return monitoring_; }
 

@@ -123,7 +123,7 @@ Outcome PlacementImpl<Dim>::make_level() {
   if (now_.level) placed.held = now_.placed.held;
   if (now_.level && !now_.spacing_replaced) placed.count_factor = now_.placed.count_factor;
   LevelBuilder<Dim> builder = this->builder();
-  std::shared_ptr<Level<Dim>> next = builder.level_to_place(to_place(), settings, placed);
+  std::shared_ptr<Level<Dim>> next = builder.level_to_place(placement_spacing(), settings, placed);
   return adopt(
       builder.with_first_nodes(std::move(next), std::move(placed), settings, start_nodes()));
 }
@@ -146,7 +146,7 @@ Outcome PlacementImpl<Dim>::adopt(BuiltLevel<Dim> made, std::shared_ptr<Level<Di
 }
 
 template <int Dim>
-void PlacementImpl<Dim>::let_go_of_nodes() {
+void PlacementImpl<Dim>::release_present_nodes() {
   keep(nullptr);
   if (before_) before_->restore_level();
 }
@@ -158,7 +158,7 @@ std::shared_ptr<Level<Dim>> PlacementImpl<Dim>::replace_level(std::shared_ptr<Le
   std::vector<Warning> warnings =
       warnings_of_level(*next, *domain_, now_.spacing, placed.steepest, options_);
   std::shared_ptr<Level<Dim>> before = std::move(now_.level);
-  if (before) state_.keep_counts(*before);
+  if (before) state_.add_counts_of(*before);
   state_.forget_finish();
   keep(std::move(next));
   state_.warnings = std::move(warnings);
@@ -177,7 +177,7 @@ Outcome PlacementImpl<Dim>::initialise() {
   const PhaseTimer timer(timers_, Phase::total);
   require_same_options();
   return transaction([this] {
-    let_go_of_nodes();
+    release_present_nodes();
     return retry_with_refined_tree([this] { return make_level(); });
   });
 }
@@ -186,7 +186,7 @@ Outcome PlacementImpl<Dim>::initialise() {
 // that own their positions, so that later requests for results change no owner.
 template <int Dim>
 template <class Work>
-auto PlacementImpl<Dim>::with_rollback(const Work& work) {
+auto PlacementImpl<Dim>::with_exact_ghosts(const Work& work) {
   const auto result = work();
   if (!now_.level->ghosts.are_exact(now_.level->nodes, kStarHops)) exchange(*now_.level, kStarHops);
   return result;
@@ -208,7 +208,7 @@ Outcome PlacementImpl<Dim>::retry_with_refined_tree(const Work& work) {
         add_undersampled_points(found, *comm_, *domain_, now_.spacing);
         now_.spacing_replaced = true;
       }
-      if (!state_.schedule.taken_over()) let_go_of_nodes();
+      if (!state_.schedule.taken_over()) release_present_nodes();
     }
   }
 }
@@ -216,11 +216,11 @@ Outcome PlacementImpl<Dim>::retry_with_refined_tree(const Work& work) {
 // Runs `steps` on a level for the present spacing. A schedule that has ended begins again.
 template <int Dim>
 template <class Steps>
-Outcome PlacementImpl<Dim>::taking_steps(const Steps& steps) {
+Outcome PlacementImpl<Dim>::run_steps(const Steps& steps) {
   return transaction([&] {
     return retry_with_refined_tree([&] {
       if (prepare_level() == Outcome::stopped) return Outcome::stopped;
-      return with_rollback([&] {
+      return with_exact_ghosts([&] {
         if (state_.schedule.ended()) state_.schedule = state_.schedule.again();
         return steps();
       });
@@ -236,19 +236,19 @@ Outcome PlacementImpl<Dim>::run() {
     int& count;
     ~Rounds() { count = 0; }
   } rounds{rounds_of_run_};
-  return taking_steps([this] { return run_to_end(); });
+  return run_steps([this] { return run_to_end(); });
 }
 
 template <int Dim>
 Outcome PlacementImpl<Dim>::run_to_end() {
-  Outcome outcome = rounds_with_spacing_held(steps_and_finish());
+  Outcome outcome = repeat_with_reduced_spacing(steps_and_finish());
   if (outcome == Outcome::stopped) return outcome;
   if (now_.placed.count_factor == 1 && !state_.schedule.taken_over() && count_error() != 1)
     outcome = run_with_corrected_number();
   if (outcome == Outcome::stopped) return outcome;
   state_.outcome = outcome;
   if (!now_.placed.held.places.empty())
-    state_.warn(warning_of_held_spacing(now_.placed.held, global_count()));
+    state_.warn(warning_of_reduced_spacing(now_.placed.held, global_count()));
   monitoring_.stops(1.0, results_.count());
   return outcome;
 }
@@ -275,10 +275,10 @@ Outcome PlacementImpl<Dim>::run_with_corrected_number() {
   placed.count_factor = std::pow(count_error(), 1.0 / settings.bubble_dimension);
   ++rounds_of_run_;
   LevelBuilder<Dim> builder = this->builder();
-  std::shared_ptr<Level<Dim>> next = builder.level_to_place(to_place(), settings, placed);
+  std::shared_ptr<Level<Dim>> next = builder.level_to_place(placement_spacing(), settings, placed);
   const Outcome begun =
       adopt(builder.with_first_nodes(std::move(next), std::move(placed), settings, {}));
-  return begun == Outcome::stopped ? begun : rounds_with_spacing_held(steps_and_finish());
+  return begun == Outcome::stopped ? begun : repeat_with_reduced_spacing(steps_and_finish());
 }
 
 // Runs the time loop and the finish, and then checks the elements.
@@ -304,7 +304,7 @@ Outcome PlacementImpl<Dim>::steps_and_finish() {
 // small angles decreases. If a round that only improves angles is stopped or runs out of nodes or
 // memory, the best earlier round is the result. Collective.
 template <int Dim>
-Outcome PlacementImpl<Dim>::rounds_with_spacing_held(Outcome first) {
+Outcome PlacementImpl<Dim>::repeat_with_reduced_spacing(Outcome first) {
   BestRound<Dim> best;
   Outcome outcome = first;
   while (outcome != Outcome::stopped) {
@@ -314,9 +314,9 @@ Outcome PlacementImpl<Dim>::rounds_with_spacing_held(Outcome first) {
                             outcome,
                             now_.unresolved.faults,
                             now_.unresolved.small_angles};
-    if (!best.asks_for_another(last)) break;
+    if (!best.needs_another(last)) break;
     ++rounds_of_run_;
-    const Outcome begun = hold_spacing(outcome != Outcome::not_conforming, last.level);
+    const Outcome begun = reduce_spacing(outcome != Outcome::not_conforming, last.level);
     if (begun == Outcome::not_conforming) break;
     best.offer(std::move(last));
     const Monitoring::Provisional turns(monitoring_, best.any_conforms());
@@ -336,7 +336,7 @@ Outcome PlacementImpl<Dim>::rounds_with_spacing_held(Outcome first) {
 
 template <int Dim>
 Outcome PlacementImpl<Dim>::return_to(FinishedRound<Dim> round) {
-  state_.keep_counts(*now_.level);
+  state_.add_counts_of(*now_.level);
   state_.go_back_to(std::move(round.state), *round.level);
   keep(std::move(round.level));
   // reported even if the first round is the result
@@ -351,12 +351,12 @@ Outcome PlacementImpl<Dim>::return_to(FinishedRound<Dim> round) {
 // `not_conforming` and changes nothing if there is nothing to reduce, or if the round exceeds the
 // limit of rounds or of nodes. Collective.
 template <int Dim>
-Outcome PlacementImpl<Dim>::hold_spacing(bool conforms, std::shared_ptr<Level<Dim>>& replaced) {
+Outcome PlacementImpl<Dim>::reduce_spacing(bool conforms, std::shared_ptr<Level<Dim>>& replaced) {
   PlacedSpacing<Dim> placed = now_.placed;
   const RunState before = state_;
   Outcome outcome = Outcome::not_conforming;
   try {
-    if (add_unresolved_places<Dim>(*now_.level, now_.unresolved, placed.held))
+    if (add_unresolved_points<Dim>(*now_.level, now_.unresolved, placed.held))
       outcome = begin_held_round(std::move(placed), conforms, replaced);
   } catch (const UndersampledSpacing&) {
     throw;  // retry_with_refined_tree() handles it
@@ -375,11 +375,11 @@ template <int Dim>
 Outcome PlacementImpl<Dim>::begin_held_round(PlacedSpacing<Dim> placed, bool conforms,
                                              std::shared_ptr<Level<Dim>>& replaced) {
   const Settings settings = now_.level->settings;
-  hold_down(*comm_, placed, settings);
+  apply_local_reductions(*comm_, placed, settings);
   LevelBuilder<Dim> builder = this->builder();
   std::shared_ptr<Level<Dim>> next = builder.empty_level(placed.d, settings);
   const double expected = expected_nodes(*next);
-  if (takes_too_many(expected, placed.held, conforms)) {
+  if (exceeds_node_growth(expected, placed.held, conforms)) {
     if (!conforms) state_.warn(warning_of_too_many(expected, placed.held));
     return Outcome::not_conforming;
   }
@@ -396,7 +396,7 @@ Outcome PlacementImpl<Dim>::step(std::int64_t n) {
   if (!comm_->same_on_all(static_cast<std::uint64_t>(n)))
     throw Error(ErrorKind::argument, "argument n differs between ranks");
   const PhaseTimer timer(timers_, Phase::total);
-  return taking_steps([&] {
+  return run_steps([&] {
     const std::int64_t until =
         state_.schedule.step > kNoLimit - n ? kNoLimit : state_.schedule.step + n;
     return simulation().advance(until, {0, 1});
@@ -409,7 +409,7 @@ Outcome PlacementImpl<Dim>::rebalance() {
   const PhaseTimer timer(timers_, Phase::total);
   return transaction([this] {
     if (prepare_level() == Outcome::stopped) return Outcome::stopped;
-    return with_rollback([this] {
+    return with_exact_ghosts([this] {
       simulation().rebalance();
       return Outcome::converged;
     });
@@ -424,7 +424,7 @@ Outcome PlacementImpl<Dim>::adjust_population(PopulationCounts& change) {
   const Outcome outcome = transaction([this] {
     const Outcome prepared = prepare_level();
     if (prepared != Outcome::stopped)
-      with_rollback([this] { return simulation().adjust_population(); });
+      with_exact_ghosts([this] { return simulation().adjust_population(); });
     return prepared;
   });
   change = {state_.inserted - before.inserted, state_.deleted - before.deleted};
@@ -436,7 +436,7 @@ Estimate PlacementImpl<Dim>::estimate() {
   require_kokkos();
   require_same_options();
   const Settings settings = settings_for_new_level();  // updates now_.closed
-  return estimate_of(to_place(), settings);
+  return estimate_of(placement_spacing(), settings);
 }
 
 // ------------------------------------------------------------------ checkpoints ----------------
@@ -484,7 +484,7 @@ void PlacementImpl<Dim>::continue_from(const SavedState& saved, std::vector<Save
   PlacedSpacing<Dim> placed;
   LevelBuilder<Dim> builder = this->builder();
   std::shared_ptr<Level<Dim>> next =
-      saved_level(saved, std::move(nodes), builder, to_place(), settings, placed);
+      saved_level(saved, std::move(nodes), builder, placement_spacing(), settings, placed);
   replace_level(std::move(next), std::move(placed));
   before_->restore_level();
   adopt_state(saved, state_, *now_.level);

@@ -47,7 +47,7 @@ class PlacementImpl : public Placement {
     start_from_given_ = true;
     keep(nullptr);
   }
-  void forget_nodes() override { keep(nullptr); }
+  void release_nodes() override { keep(nullptr); }
 
   Outcome initialise() override;
   Outcome step(std::int64_t n) override;
@@ -121,13 +121,15 @@ class PlacementImpl : public Placement {
   }
   // Releases the present nodes. The copy for a roll-back keeps those from the beginning of the
   // call.
-  void let_go_of_nodes();
+  void release_present_nodes();
   bool shows_its_level() const override {
     return now_.level && results_.shown() == now_.level.get();
   }
   Settings present_settings() const;
   Settings settings_for_new_level();
-  EffectiveSpacing<Dim> to_place() const { return {comm_, now_.closed, now_.spacing, options_}; }
+  EffectiveSpacing<Dim> placement_spacing() const {
+    return {comm_, now_.closed, now_.spacing, options_};
+  }
   LevelBuilder<Dim> builder();
   StartNodes<Dim> start_nodes() const;
   Outcome prepare_level();
@@ -139,18 +141,18 @@ class PlacementImpl : public Placement {
   // --- steps and finish of the present level ---
   Simulation<Dim> simulation() { return {*now_.level, state_.schedule, state_, monitoring_}; }
   template <class Work>
-  auto with_rollback(const Work& work);
+  auto with_exact_ghosts(const Work& work);
   template <class Work>
   Outcome retry_with_refined_tree(const Work& work);
   template <class Steps>
-  Outcome taking_steps(const Steps& steps);
+  Outcome run_steps(const Steps& steps);
   Outcome run_to_end();
   double count_error() const;
   Outcome run_with_corrected_number();
   Outcome steps_and_finish();
-  Outcome rounds_with_spacing_held(Outcome first);
+  Outcome repeat_with_reduced_spacing(Outcome first);
   Outcome return_to(FinishedRound<Dim> round);
-  Outcome hold_spacing(bool conforms, std::shared_ptr<Level<Dim>>& replaced);
+  Outcome reduce_spacing(bool conforms, std::shared_ptr<Level<Dim>>& replaced);
   Outcome begin_held_round(PlacedSpacing<Dim> placed, bool conforms,
                            std::shared_ptr<Level<Dim>>& replaced);
   void require_savable() const;

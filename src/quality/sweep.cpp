@@ -39,7 +39,7 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
     if (may)
       propose_move(nodes, near_edges, map, rule, i, move, proposed);
     else
-      propose_to_stay(nodes, i, proposed);
+      propose_current_position(nodes, i, proposed);
   }
 }
 
@@ -56,12 +56,12 @@ void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const Size
   for (int k = 0; k < 2; ++k) proposed[k](i) = kept.clear ? kept.position[k] : x[k];
 }
 
-void propose_to_stay(const Nodes<2>& nodes, std::int64_t i, Field<2>& proposed) {
+void propose_current_position(const Nodes<2>& nodes, std::int64_t i, Field<2>& proposed) {
   for (int k = 0; k < 2; ++k) proposed[k](i) = nodes.x[k](i);
 }
 
-void go_where_allowed(Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
-                      const Field<2>& proposed, View<char>& allowed) {
+void apply_allowed_moves(Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
+                         const Field<2>& proposed, View<char>& allowed) {
   const QualityBound bound(rule.bad_below);
   for_each("pnpbs::sweep::guard", stars.block_count(), [&](std::int64_t b) {
     guard_block(nodes, stars, rule.bad_below, bound, proposed, allowed, b);
@@ -77,7 +77,7 @@ void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_ed
            View<char>& allowed) {
   for_each("pnpbs::sweep::propose", stars.block_count(),
            [&](std::int64_t b) { propose(nodes, stars, near_edges, map, rule, proposed, b); });
-  go_where_allowed(nodes, stars, rule, proposed, allowed);
+  apply_allowed_moves(nodes, stars, rule, proposed, allowed);
 }
 
 }  // namespace pnpbs

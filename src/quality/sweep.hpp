@@ -30,10 +30,10 @@ void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_ed
 void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const SizedTree<2>& map,
                   const SweepRule& rule, std::int64_t i, Point<2> move, Field<2>& proposed);
 // Sets proposed(i) to the current position of node i.
-void propose_to_stay(const Nodes<2>& nodes, std::int64_t i, Field<2>& proposed);
+void propose_current_position(const Nodes<2>& nodes, std::int64_t i, Field<2>& proposed);
 // Moves every node to its proposed position if the guard allows it. Writes the decisions of the
 // guard to `allowed`.
-void go_where_allowed(Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
-                      const Field<2>& proposed, View<char>& allowed);
+void apply_allowed_moves(Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
+                         const Field<2>& proposed, View<char>& allowed);
 
 }  // namespace pnpbs

@@ -69,7 +69,7 @@ void NodalResults::begin_ghost_update(std::int64_t n, std::int64_t components,
     if (ghost_update_.under_way())
       throw Error(ErrorKind::state, "an update of ghosts is under way: end it before the next");
     require_components(components);
-    require_places(n);
+    require_result_indices(n);
     require_values(values, n, "values");
     ghost_update_.pack(*comm_, pattern, components, values);
   });
@@ -90,7 +90,7 @@ void NodalResults::end_ghost_update(std::int64_t n, std::int64_t components, dou
     throw Error(ErrorKind::argument, "argument components = " + std::to_string(components) +
                                          "; the update began with " +
                                          std::to_string(ghost_update_.components()));
-  require_places(n);
+  require_result_indices(n);
   require_values(values, n, "values");
   ghost_update_.unpack(values);
 }
@@ -100,7 +100,7 @@ void NodalResults::add_from_ghosts(std::int64_t n, std::int64_t components, doub
   agreed_with_same(*comm_, components, "components", [&] {
     const auto pattern = exchange_pattern();
     require_components(components);
-    require_places(n);
+    require_result_indices(n);
     require_values(values, n, "values");
     ghost_sum_.pack(*comm_, pattern, components, values);
   });
@@ -108,7 +108,7 @@ void NodalResults::add_from_ghosts(std::int64_t n, std::int64_t components, doub
   ghost_sum_.add(count(), values);
 }
 
-void NodalResults::require_places(std::int64_t n) const {
+void NodalResults::require_result_indices(std::int64_t n) const {
   const std::int64_t places = held();
   if (n != places)
     throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +

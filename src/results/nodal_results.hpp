@@ -125,8 +125,8 @@ class NodalResults {
   ElementQuality quality_;
 
  private:
-  void require_places(std::int64_t n) const;  // throws unless n is held()
-  void require_owned(std::int64_t n) const;   // throws unless n is at least count()
+  void require_result_indices(std::int64_t n) const;  // throws unless n is held()
+  void require_owned(std::int64_t n) const;           // throws unless n is at least count()
   void gather_terms(std::int64_t components, const double* x, const double* y);
   void finish_sums(double* sums);
 

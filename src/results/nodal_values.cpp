@@ -145,7 +145,7 @@ Patch<2, 3> sphere_patch_of(Results<2>& results) {
   prepare_same_stars(results);
   Patch<2, 3> patch;
   add_nodes(
-      results, [&](std::int64_t i) { return results.place_in_space(i); }, patch);
+      results, [&](std::int64_t i) { return results.point_in_space(i); }, patch);
   results.for_elements(
       [&](const auto& places) { patch.simplices.push_back(by_ids(patch.nodes, places)); });
   add_rim(results, patch);

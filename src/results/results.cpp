@@ -174,7 +174,7 @@ void Results<Dim>::put_on_sphere() const {
   for (View<double>& x : on_sphere_) x = make_view<double>("pnpbs::Results::on_sphere", n);
   spacing_on_sphere_ = make_view<double>("pnpbs::Results::spacing_on_sphere", n);
   for_each("pnpbs::Results::put_on_sphere", n, [this](std::int64_t i) {
-    const Point<3> x = place_in_space(i);
+    const Point<3> x = point_in_space(i);
     for (std::size_t k = 0; k < 3; ++k) on_sphere_[k](i) = x[k];
     spacing_on_sphere_(i) = spacing_at(i);
   });
@@ -182,7 +182,7 @@ void Results<Dim>::put_on_sphere() const {
 }
 
 template <int Dim>
-Point<3> Results<Dim>::place_in_space(std::int64_t node) const {
+Point<3> Results<Dim>::point_in_space(std::int64_t node) const {
   return embedding().in_space(level_->nodes.position(node));
 }
 

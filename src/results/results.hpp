@@ -112,7 +112,7 @@ class Results : public NodalResults {
   }
   // Return position and d of a node by its memory index, in the coordinates of the user. On a
   // sphere these are not those of the chart. In the plane z is 0.
-  Point<3> place_in_space(std::int64_t node) const;
+  Point<3> point_in_space(std::int64_t node) const;
   double spacing_at(std::int64_t node) const;
   int owner_of(std::int64_t node) const {
     return level_->tree->owner_at(level_->nodes.position(node));

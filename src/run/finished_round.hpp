@@ -40,7 +40,7 @@ template <int Dim>
 class BestRound {
  public:
   // Returns whether another round may improve the result. Records whether `last` is the best round.
-  bool asks_for_another(const FinishedRound<Dim>& last) {
+  bool needs_another(const FinishedRound<Dim>& last) {
     last_is_best_ = !best_ || is_better(last);
     if (last.conforms() && last.small_angles == 0) return false;
     const bool any_conforms = last.conforms() || (best_ && best_->conforms());

@@ -46,7 +46,7 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(const SizingField<Dim
   const auto make = [&] {
     const PhaseTimer timer(timers_, Phase::boundary);
     // The level needs a copy, because the caller may change the domain afterwards.
-    auto domain = std::make_shared<Domain<Dim>>(*closed_for(domain_, spacing));
+    auto domain = std::make_shared<Domain<Dim>>(*closed_domain(domain_, spacing));
     if (like) take_bounds(*domain, like->geometry.domain());
     level = std::make_shared<Level<Dim>>(comm_, std::move(domain),
                                          std::make_shared<const SizingField<Dim>>(spacing),
@@ -61,13 +61,13 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(const SizingField<Dim
 }
 
 template <int Dim>
-std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const EffectiveSpacing<Dim>& to_place,
-                                                              const Settings& settings,
-                                                              PlacedSpacing<Dim>& placed) {
+std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(
+    const EffectiveSpacing<Dim>& placement_spacing, const Settings& settings,
+    PlacedSpacing<Dim>& placed) {
   context_.monitoring.watch("the spacing was made", context_.results.count(), [&] {
-    placed.d = to_place.effective_spacing(settings, placed.count_factor);
-    if (settings.user_limits_growth()) limit_growth(to_place, placed.d, settings);
-    hold_down(*comm_, placed, settings);
+    placed.d = placement_spacing.effective_spacing(settings, placed.count_factor);
+    if (settings.user_limits_growth()) limit_growth(placement_spacing, placed.d, settings);
+    apply_local_reductions(*comm_, placed, settings);
   });
   std::shared_ptr<Level<Dim>> next = empty_level(placed.d, settings);
   if (!settings.user_limits_growth() && !placed.steepest_is_known) {
@@ -82,8 +82,8 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const EffectiveSpa
     context_.monitoring.watch("the growth of the spacing was limited", context_.results.count(),
                               [&] {
                                 placed.d = placed.d.without_reductions();
-                                limit_growth(to_place, placed.d, settings);
-                                hold_down(*comm_, placed, settings);
+                                limit_growth(placement_spacing, placed.d, settings);
+                                apply_local_reductions(*comm_, placed, settings);
                               });
     next = empty_level(placed.d, settings);
   }
@@ -92,10 +92,10 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::level_to_place(const EffectiveSpa
 }
 
 template <int Dim>
-void LevelBuilder<Dim>::limit_growth(const EffectiveSpacing<Dim>& to_place,
+void LevelBuilder<Dim>::limit_growth(const EffectiveSpacing<Dim>& placement_spacing,
                                      SizingField<Dim>& spacing, const Settings& settings) {
   const PhaseTimer timer(timers_, Phase::spacing);
-  to_place.limit_growth(spacing, settings);
+  placement_spacing.limit_growth(spacing, settings);
 }
 
 // ------------------------------------------------------------------ first nodes ----------------
@@ -148,7 +148,7 @@ void LevelBuilder<Dim>::take_given_nodes(BuiltLevel<Dim>& made, IncomingNodes<Di
 template <int Dim>
 void LevelBuilder<Dim>::begin_anew(BuiltLevel<Dim>& made, const Settings& settings) {
   int& coarser_levels = context_.run.coarser_levels;
-  filled_levels_ = coarser_levels = coarser_levels_that_pay(*made.level, *domain_, made.placed.d);
+  filled_levels_ = coarser_levels = useful_coarser_levels(*made.level, *domain_, made.placed.d);
   coarser_levels = std::max(coarser_levels, surface_levels_that_pay(*made.level));
   IncomingNodes<Dim> nodes;
   if (coarser_levels > 0) nodes = nodes_from_coarser_levels(made, settings, made.outcome);
@@ -198,7 +198,7 @@ IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const BuiltLevel
     std::shared_ptr<Level<Dim>> level =
         empty_level(spacing_of(l), settings_of_level(settings, l == levels), finest.level.get());
     put_first_nodes(*level, nodes, l, outcome);
-    if (coarser) run.keep_counts(*coarser);
+    if (coarser) run.add_counts_of(*coarser);
     run.forget_finish();
     coarser = std::move(level);
     context_.results.show(coarser.get());
@@ -212,7 +212,7 @@ IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const BuiltLevel
     if (outcome != Outcome::stopped && l <= filled_levels_) simulation.repair_defects();
     nodes = new_nodes<Dim>(refined(*coarser, spacing_of(l - 1)));
   }
-  if (coarser) run.keep_counts(*coarser);
+  if (coarser) run.add_counts_of(*coarser);
   if (outcome != Outcome::stopped) outcome = Outcome::converged;
   return nodes;
 }

@@ -54,7 +54,7 @@ class LevelBuilder {
   // Returns a level without nodes for the user's spacing. The growth of the spacing is limited if
   // the user requests it, or if it is too steep for nodes to follow. On entry `placed` says where d
   // is reduced; on return it has the spacing of the level.
-  std::shared_ptr<Level<Dim>> level_to_place(const EffectiveSpacing<Dim>& to_place,
+  std::shared_ptr<Level<Dim>> level_to_place(const EffectiveSpacing<Dim>& placement_spacing,
                                              const Settings& settings, PlacedSpacing<Dim>& placed);
   // Returns a level without inner nodes. It is partitioned like `like` if that is not null.
   std::shared_ptr<Level<Dim>> empty_level(const SizingField<Dim>& spacing, const Settings& settings,
@@ -65,7 +65,7 @@ class LevelBuilder {
                                    const Settings& settings, const StartNodes<Dim>& before);
 
  private:
-  void limit_growth(const EffectiveSpacing<Dim>& to_place, SizingField<Dim>& spacing,
+  void limit_growth(const EffectiveSpacing<Dim>& placement_spacing, SizingField<Dim>& spacing,
                     const Settings& settings);
   void take_kept_nodes(BuiltLevel<Dim>& made, Level<Dim>& before);
   void take_given_nodes(BuiltLevel<Dim>& made, IncomingNodes<Dim> given);

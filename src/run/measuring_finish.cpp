@@ -84,7 +84,7 @@ bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresol
   std::vector<Point<3>>& places = unresolved.places;
   const auto none = [&] { return comm.allreduce_sum(places.size()) == 0; };
   places = conformity.torn;
-  if (none()) places = places_of_other_topology(results.level());
+  if (none()) places = points_of_other_topology(results.level());
   if (none()) places = run.surface_fit.places;
   return false;
 }

@@ -5,7 +5,7 @@
 
 namespace pnpbs {
 
-bool Monitoring::asks_to_stop(double fraction, std::int64_t nodes) const {
+bool Monitoring::requests_stop(double fraction, std::int64_t nodes) const {
   return monitor_ && monitor_(fraction, run_.steps_done, nodes, run_.last_speeds.max);
 }
 
@@ -21,7 +21,7 @@ std::int64_t Monitoring::over_ranks(std::int64_t own_nodes) const {
 bool Monitoring::stops(double fraction, std::int64_t own_nodes) {
   bool stop = false;
   const std::int64_t nodes = over_ranks(own_nodes);
-  collective_try(comm_, [&] { stop = asks_to_stop(fraction, nodes); });
+  collective_try(comm_, [&] { stop = requests_stop(fraction, nodes); });
   last_asked_ = Clock::now();
   return comm_.allreduce_max(stop) > 0;
 }
@@ -57,7 +57,7 @@ void Monitoring::watch(const std::string& what, std::int64_t own_nodes,
 void Monitoring::beat() {
   if (!watched_ || !is_due()) return;
   last_asked_ = Clock::now();
-  if (asks_to_stop(0, nodes_when_watched_))
+  if (requests_stop(0, nodes_when_watched_))
     throw Error(ErrorKind::stopped, "stopped by the monitor while " + *watched_);
 }
 

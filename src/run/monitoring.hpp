@@ -37,7 +37,7 @@ class Monitoring {
   void set(Monitor monitor) { monitor_ = std::move(monitor); }
   // Calls the monitor of this rank and returns whether it requests a stop. `nodes` is the number on
   // all ranks. Local.
-  bool asks_to_stop(double fraction, std::int64_t nodes) const;
+  bool requests_stop(double fraction, std::int64_t nodes) const;
 
   // Returns whether the monitor of this rank was not called for a while. Local.
   bool is_due() const;

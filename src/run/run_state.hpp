@@ -52,7 +52,7 @@ struct RunState {
   }
   // Adds the counts of a level that is about to be released.
   template <class Level>
-  void keep_counts(const Level& level) {
+  void add_counts_of(const Level& level) {
     rebuilds_before += level.neighbourhood.rebuilds();
     rebalances_before += level.rebalances;
     unknown_uses_before += level.unknown_uses;

@@ -270,7 +270,7 @@ void Simulation<Dim>::repair_defects() {
 // it. Coincident nodes are removed first, because one of them would become a node of the row.
 template <int Dim>
 void Simulation<Dim>::lay_first_row() {
-  if (!level_.settings.lays_first_row()) return;
+  if (!level_.settings.makes_first_row()) return;
   remove_crowded();
   const PopulationCounts change = counted(pnpbs::lay_first_row(level_));
   if (change.inserted + change.deleted > 0) refresh_spacing(level_);

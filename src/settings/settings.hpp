@@ -59,7 +59,7 @@ struct Settings {
   std::int64_t metis_seed;
   double rebalance_above;  // largest over mean owned work
 
-  bool lays_first_row() const { return first_row && sweeps > 0; }  // sweeps must relax the row
+  bool makes_first_row() const { return first_row && sweeps > 0; }  // sweeps must relax the row
   bool user_limits_growth() const { return growth_limit_set && growth_limit > 0; }
   NodeLimit node_limit() const {
     NodeLimit limit(max_nodes, max_bytes);

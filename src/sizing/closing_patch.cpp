@@ -43,7 +43,7 @@ double area_of(const StereographicChart& chart) {
 
 // Returns the chart projected from the opposite point.
 StereographicChart opposite_of(const StereographicChart& chart) {
-  return {chart.radius(), opposite(chart.projected_from())};
+  return {chart.radius(), opposite(chart.projection_centre())};
 }
 
 // A spacing given in one chart, converted to the chart of the opposite side. Within `least` of the
@@ -82,7 +82,7 @@ class FromOtherSide : public Spacing<2> {
       Point<2>& u = place_of(known);
       const Point<2> v = other_.in_chart(chart_.on_sphere(u));
       const double stretch = other_.stretch(v);
-      if (!(stretch < StereographicChart::kMostStretch)) continue;
+      if (!(stretch < StereographicChart::kMaxStretch)) continue;
       known.d *= stretch / chart_.stretch(u);
       u = v;
       all[kept++] = known;
@@ -125,10 +125,10 @@ Point<3> turned(const Point<3>& x, const Point<3>& c, const Point<3>& p) {
 // inside the straight edges between the triangle's corners. In a regular lattice the circumcircles
 // of adjacent triangles pass through the point, and these triangles are flat in the chart
 // otherwise.
-void draw_in(const StereographicChart& chart, ClosingPatch& patch) {
+void shrink_rim(const StereographicChart& chart, ClosingPatch& patch) {
   constexpr double kStep = 0.94, kInside = 0.97;
   constexpr int kMostSteps = 8;
-  const Point<3> point = chart.projected_from();
+  const Point<3> point = chart.projection_centre();
   const auto all_inside = [&] {
     std::array<Point<2>, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = chart.in_chart(patch.rim[k]);
@@ -155,14 +155,14 @@ std::vector<Point<3>> turned_to_point(const StereographicChart& chart,
                                       std::vector<Point<3>> nodes) {
   Point<3> middle{};
   for (std::size_t corner = 0; corner < 3; ++corner) middle = shifted(middle, 1, nodes[corner]);
-  const Point<3> from = unit_vector(middle), to = unit_vector(chart.projected_from());
+  const Point<3> from = unit_vector(middle), to = unit_vector(chart.projection_centre());
   for (Point<3>& x : nodes) x = turned(x, from, to);
   return nodes;
 }
 
 // Removes nodes that protrude from the patch, because no lattice fits around them.
-void leave_out_those_that_stick_out(const StereographicChart& chart, const Spacing<2>& spacing,
-                                    ClosingPatch& patch) {
+void remove_protruding_nodes(const StereographicChart& chart, const Spacing<2>& spacing,
+                             ClosingPatch& patch) {
   constexpr double kNear = 1.35;  // [d at the node]
   constexpr int kFewest = 4;
   std::vector<Point<3>> all(patch.rim.begin(), patch.rim.end());
@@ -212,8 +212,8 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
     const Point<2> u = chart.in_chart(nodes[n]);
     if (dot(u, u) >= patch.edge * patch.edge) patch.nodes.push_back(u);
   }
-  leave_out_those_that_stick_out(chart, spacing, patch);
-  draw_in(chart, patch);
+  remove_protruding_nodes(chart, spacing, patch);
+  shrink_rim(chart, patch);
   return patch;
 }
 
@@ -228,12 +228,12 @@ bool is_closed_for(const PlaneDomain& domain, const Spacing<2>& spacing) {
 std::shared_ptr<const PlaneDomain> closed_before_sizing(
     const std::shared_ptr<const PlaneDomain>& domain, const SizingField<2>& spacing,
     double wanted_nodes) {
-  if (!domain->is_whole_sphere() || wanted_nodes == 0) return closed_for(domain, spacing);
+  if (!domain->is_whole_sphere() || wanted_nodes == 0) return closed_domain(domain, spacing);
   constexpr double kALittleLess = 0.99;
   const StereographicChart& chart = domain->embedding().chart();
   const double even = std::sqrt(Lattice<2>::kDensity * area_of(chart) / wanted_nodes),
                d = std::min(even, kALittleLess * kMostAtPoint * chart.radius());
-  return closed_for(domain, spacing.coarsened(d / spacing_at_point(spacing, chart)));
+  return closed_domain(domain, spacing.coarsened(d / spacing_at_point(spacing, chart)));
 }
 
 std::shared_ptr<const VolumeDomain> closed_before_sizing(
@@ -241,8 +241,8 @@ std::shared_ptr<const VolumeDomain> closed_before_sizing(
   return domain;
 }
 
-std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneDomain>& domain,
-                                              const Spacing<2>& spacing) {
+std::shared_ptr<const PlaneDomain> closed_domain(const std::shared_ptr<const PlaneDomain>& domain,
+                                                 const Spacing<2>& spacing) {
   if (!domain->is_whole_sphere() || is_closed_for(*domain, spacing)) return domain;
   auto closed = std::make_shared<PlaneDomain>(*domain);
   closed->close(closing_patch(domain->embedding().chart(), spacing));
@@ -250,8 +250,8 @@ std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneD
   return closed;
 }
 
-std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const VolumeDomain>& domain,
-                                               const Spacing<3>&) {
+std::shared_ptr<const VolumeDomain> closed_domain(const std::shared_ptr<const VolumeDomain>& domain,
+                                                  const Spacing<3>&) {
   return domain;
 }
 

@@ -15,18 +15,18 @@ namespace pnpbs {
 // Throws Error(ErrorKind::domain) if curves or fixed nodes lie in the patch, and
 // Error(ErrorKind::spacing) if d exceeds kMostAtPoint.
 // Collective.
-std::shared_ptr<const PlaneDomain> closed_for(const std::shared_ptr<const PlaneDomain>& domain,
-                                              const Spacing<2>& spacing);
-std::shared_ptr<const VolumeDomain> closed_for(const std::shared_ptr<const VolumeDomain>& domain,
-                                               const Spacing<3>& spacing);
+std::shared_ptr<const PlaneDomain> closed_domain(const std::shared_ptr<const PlaneDomain>& domain,
+                                                 const Spacing<2>& spacing);
+std::shared_ptr<const VolumeDomain> closed_domain(const std::shared_ptr<const VolumeDomain>& domain,
+                                                  const Spacing<3>& spacing);
 
 // Returns whether a whole sphere can be closed for this spacing, with the user's curves and nodes
 // outside of the patch. Returns true for all other domains.
 bool can_be_closed(const PlaneDomain& domain, const Spacing<2>& spacing);
 bool can_be_closed(const VolumeDomain& domain, const Spacing<3>& spacing);
 
-// Returns closed_for() for a spacing that is still to be multiplied for `wanted_nodes` nodes: the
-// patch is that of the uniform spacing with this number of nodes. If `wanted_nodes` is 0, the
+// Returns closed_domain() for a spacing that is still to be multiplied for `wanted_nodes` nodes:
+// the patch is that of the uniform spacing with this number of nodes. If `wanted_nodes` is 0, the
 // spacing itself is used.
 // Collective.
 std::shared_ptr<const PlaneDomain> closed_before_sizing(

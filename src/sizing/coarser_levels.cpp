@@ -63,8 +63,8 @@ Settings settings_of_level(Settings settings, bool coarsest) {
 }
 
 template <int Dim>
-int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
-                            const SizingField<Dim>& spacing) {
+int useful_coarser_levels(const Level<Dim>& finest, const Domain<Dim>& domain,
+                          const SizingField<Dim>& spacing) {
   const SpacingVariation d = spacing_variation(finest);
   const double nodes = expected_nodes(finest);
   int levels = 0;
@@ -80,8 +80,8 @@ int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
   return levels;
 }
 
-template int coarser_levels_that_pay(const Level<2>&, const PlaneDomain&, const SizingField<2>&);
-template int coarser_levels_that_pay(const Level<3>&, const VolumeDomain&, const SizingField<3>&);
+template int useful_coarser_levels(const Level<2>&, const PlaneDomain&, const SizingField<2>&);
+template int useful_coarser_levels(const Level<3>&, const VolumeDomain&, const SizingField<3>&);
 template SizingField<2> spacing_of_level(const SizingField<2>&, int);
 template SizingField<3> spacing_of_level(const SizingField<3>&, int);
 

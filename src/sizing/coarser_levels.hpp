@@ -17,8 +17,8 @@ namespace pnpbs {
 // bubbles do not come to rest on levels where d varies strongly from one to the next.
 // Collective.
 template <int Dim>
-int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
-                            const SizingField<Dim>& spacing);
+int useful_coarser_levels(const Level<Dim>& finest, const Domain<Dim>& domain,
+                          const SizingField<Dim>& spacing);
 
 // Returns the spacing of the level that is coarser than the finest by this number of levels.
 template <int Dim>

@@ -50,7 +50,7 @@ double estimated_nodes(const EffectiveSpacing<Dim>& to_place, SizingField<Dim> s
   const auto estimate_with = [&](const Spacing<Dim>& d) {
     return estimate_nodes<Dim>(
         to_place.comm(), to_place.domain(), d, settings.max_nodes,
-        {lattice_is_stretched(to_place.options()), settings.lays_first_row()}, samples);
+        {lattice_is_stretched(to_place.options()), settings.makes_first_row()}, samples);
   };
   if (!settings.user_limits_growth()) {
     const NodeEstimate<Dim> estimate = estimate_with(spacing);

@@ -69,7 +69,8 @@ double resolution_of(const VolumeDomain& domain) {
 }  // namespace
 
 template <int Dim>
-void hold_down(const Communicator& comm, PlacedSpacing<Dim>& placed, const Settings& settings) {
+void apply_local_reductions(const Communicator& comm, PlacedSpacing<Dim>& placed,
+                            const Settings& settings) {
   placed.d = placed.d.without_reductions();
   if (placed.held.places.empty()) return;
   const double growth = settings.growth_limit > 0
@@ -93,7 +94,7 @@ View<char> held_nodes(const Level<Dim>& level, const PlacedSpacing<Dim>& placed)
 }
 
 template <int Dim>
-bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
+bool add_unresolved_points(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
                            LocalReduction<Dim>& held) {
   const Communicator& comm = *level.comm;
   const auto global_count = [&] {
@@ -123,7 +124,7 @@ bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unres
 }
 
 template <int Dim>
-bool takes_too_many(double expected_nodes, const LocalReduction<Dim>& held, bool conforms) {
+bool exceeds_node_growth(double expected_nodes, const LocalReduction<Dim>& held, bool conforms) {
   const auto nodes = static_cast<double>(held.start_nodes);
   return expected_nodes >
          (conforms ? method::kMaxGrowthOfNodes * nodes
@@ -144,7 +145,7 @@ Warning warning_of_too_many(double expected_nodes, const LocalReduction<Dim>& he
 }
 
 template <int Dim>
-Warning warning_of_held_spacing(const LocalReduction<Dim>& held, std::int64_t nodes) {
+Warning warning_of_reduced_spacing(const LocalReduction<Dim>& held, std::int64_t nodes) {
   const GrowthSource<Dim>& finest = *std::ranges::min_element(
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
   return {WarningCode::spacing_held,
@@ -156,17 +157,17 @@ Warning warning_of_held_spacing(const LocalReduction<Dim>& held, std::int64_t no
           std::ssize(held.places), finest.d};
 }
 
-template void hold_down(const Communicator&, PlacedSpacing<2>&, const Settings&);
+template void apply_local_reductions(const Communicator&, PlacedSpacing<2>&, const Settings&);
 template View<char> held_nodes(const Level<2>&, const PlacedSpacing<2>&);
-template bool add_unresolved_places<2>(const Level<2>&, const Unresolved<2>&, LocalReduction<2>&);
-template bool takes_too_many(double, const LocalReduction<2>&, bool);
-template Warning warning_of_held_spacing(const LocalReduction<2>&, std::int64_t);
+template bool add_unresolved_points<2>(const Level<2>&, const Unresolved<2>&, LocalReduction<2>&);
+template bool exceeds_node_growth(double, const LocalReduction<2>&, bool);
+template Warning warning_of_reduced_spacing(const LocalReduction<2>&, std::int64_t);
 template Warning warning_of_too_many(double, const LocalReduction<2>&);
-template void hold_down(const Communicator&, PlacedSpacing<3>&, const Settings&);
+template void apply_local_reductions(const Communicator&, PlacedSpacing<3>&, const Settings&);
 template View<char> held_nodes(const Level<3>&, const PlacedSpacing<3>&);
-template bool add_unresolved_places<3>(const Level<3>&, const Unresolved<3>&, LocalReduction<3>&);
-template bool takes_too_many(double, const LocalReduction<3>&, bool);
-template Warning warning_of_held_spacing(const LocalReduction<3>&, std::int64_t);
+template bool add_unresolved_points<3>(const Level<3>&, const Unresolved<3>&, LocalReduction<3>&);
+template bool exceeds_node_growth(double, const LocalReduction<3>&, bool);
+template Warning warning_of_reduced_spacing(const LocalReduction<3>&, std::int64_t);
 template Warning warning_of_too_many(double, const LocalReduction<3>&);
 
 }  // namespace pnpbs

@@ -17,7 +17,8 @@ namespace pnpbs {
 
 // Replaces the reductions in placed.d by those of placed.held. Collective.
 template <int Dim>
-void hold_down(const Communicator& comm, PlacedSpacing<Dim>& placed, const Settings& settings);
+void apply_local_reductions(const Communicator& comm, PlacedSpacing<Dim>& placed,
+                            const Settings& settings);
 
 // Returns for this rank's nodes and ghosts whether d is reduced there; an empty view if there are
 // no reductions. Collective.
@@ -37,13 +38,13 @@ struct Unresolved {
 // or if the number of rounds is used up.
 // Collective.
 template <int Dim>
-bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
+bool add_unresolved_points(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
                            LocalReduction<Dim>& held);
 
 // Returns whether a round with this number of nodes takes far more nodes than the spacing requires.
 // The bound is higher if the last round does not conform.
 template <int Dim>
-bool takes_too_many(double expected_nodes, const LocalReduction<Dim>& held, bool conforms);
+bool exceeds_node_growth(double expected_nodes, const LocalReduction<Dim>& held, bool conforms);
 
 // Returns the warning that a round with this number of nodes was not started although elements do
 // not conform.
@@ -52,6 +53,6 @@ Warning warning_of_too_many(double expected_nodes, const LocalReduction<Dim>& he
 
 // Returns the warning that d is reduced locally, for a run with this number of nodes.
 template <int Dim>
-Warning warning_of_held_spacing(const LocalReduction<Dim>& held, std::int64_t nodes);
+Warning warning_of_reduced_spacing(const LocalReduction<Dim>& held, std::int64_t nodes);
 
 }  // namespace pnpbs

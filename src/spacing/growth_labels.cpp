@@ -29,7 +29,7 @@ TreePart<Dim> tree_of(const Communicator& comm, const Box<Dim>& bounds,
 // leaves with values within a window above the global minimum at the same time. This is nearly the
 // order of Dijkstra's algorithm, but depends on the labels only.
 template <int Dim>
-struct GrowthLabels<Dim>::Waiting {
+struct GrowthLabels<Dim>::LabelQueue {
   // Upper end of the window in units of the smallest value. A label exceeds the one that it comes
   // from by growth times the leaf width.
   static constexpr double kWindow = 1.25;
@@ -39,7 +39,7 @@ struct GrowthLabels<Dim>::Waiting {
   std::vector<std::int32_t> near_leaves, far_leaves;
   std::vector<State> state;
 
-  explicit Waiting(const std::vector<Label>& labels) : state(labels.size(), idle) {
+  explicit LabelQueue(const std::vector<Label>& labels) : state(labels.size(), idle) {
     for (std::size_t leaf = 0; leaf < labels.size(); ++leaf)
       if (labels[leaf].value < kInfinite) add(static_cast<std::int32_t>(leaf), labels[leaf].value);
   }
@@ -100,7 +100,7 @@ GrowthLabels<Dim>::GrowthLabels(const Communicator& comm, const LineOfSight<Dim>
 template <int Dim>
 void GrowthLabels<Dim>::settle(const Communicator& comm, const LineOfSight<Dim>& ways,
                                const Beat& beat) {
-  Waiting waiting(labels_);
+  LabelQueue waiting(labels_);
   std::vector<Label> copies_before;
   while (waiting.next(comm, labels_)) {
     std::vector<std::int32_t> changed;
@@ -118,7 +118,7 @@ void GrowthLabels<Dim>::settle(const Communicator& comm, const LineOfSight<Dim>&
 // domain. A segment between two points of the boundary may lie outside without crossing a facet.
 template <int Dim>
 bool GrowthLabels<Dim>::open_way(const LineOfSight<Dim>& ways, const Point<Dim>& from,
-                                 const Spot& to) const {
+                                 const LeafPoint& to) const {
   if (!to.placed || !ways.open(from, to.place)) return false;
   return to.inside || ways.inside(middle_of<Dim>(from, to.place));
 }
@@ -133,10 +133,10 @@ void GrowthLabels<Dim>::hand_on(const LineOfSight<Dim>& ways,
   for (const std::int32_t leaf : leaves) handed.push_back(label(leaf));
   for (std::size_t k = 0; k < leaves.size(); ++k) {
     if (k % kBetweenBeats == 0) beat();
-    const Spot& from = spot(leaves[k]);
+    const LeafPoint& from = spot(leaves[k]);
     for (const std::int32_t other : tree_.touching_leaves(leaves[k])) {
       if (!tree_.owns(other)) continue;
-      const Spot& to = spot(other);
+      const LeafPoint& to = spot(other);
       Label& there = labels_[static_cast<std::size_t>(other)];
       Label offer = label_at<Dim>(to.place, handed[k].source, rule_);
       if (!(offer < there)) continue;  // a longer path does not help either

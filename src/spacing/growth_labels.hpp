@@ -38,22 +38,22 @@ class GrowthLabels {
   using Label = GrowthLabel<Dim>;
   // The representative point of a leaf. `placed`: there is one; `inside`: it lies inside the
   // domain; `crossed`: the boundary crosses the leaf.
-  struct Spot {
+  struct LeafPoint {
     Point<Dim> place;
     bool placed, inside, crossed;
   };
-  struct Waiting;
+  struct LabelQueue;
 
   void settle(const Communicator& comm, const LineOfSight<Dim>& ways, const Beat& beat);
   void hand_on(const LineOfSight<Dim>& ways, const std::vector<std::int32_t>& leaves,
                std::vector<std::int32_t>& changed, const Beat& beat);
-  bool open_way(const LineOfSight<Dim>& ways, const Point<Dim>& from, const Spot& to) const;
-  const Spot& spot(std::int64_t leaf) const { return spots_[static_cast<std::size_t>(leaf)]; }
+  bool open_way(const LineOfSight<Dim>& ways, const Point<Dim>& from, const LeafPoint& to) const;
+  const LeafPoint& spot(std::int64_t leaf) const { return spots_[static_cast<std::size_t>(leaf)]; }
   const Label& label(std::int64_t leaf) const { return labels_[static_cast<std::size_t>(leaf)]; }
 
   GrowthRule<Dim> rule_;
   TreePart<Dim> tree_;
-  std::vector<Spot> spots_;  // for own leaves, then copies, like labels_
+  std::vector<LeafPoint> spots_;  // for own leaves, then copies, like labels_
   std::vector<Label> labels_;
 };
 

@@ -109,7 +109,7 @@ void GrowthLeaves<Dim>::move_into_cells(Samples& samples) const {
 // do not show how close the jump is to their common face, and the source of a leaf may be far from
 // it.
 template <int Dim>
-void GrowthLeaves<Dim>::look_beside(const SpacingEvaluator<Dim>& raw) {
+void GrowthLeaves<Dim>::sample_adjacent_cells(const SpacingEvaluator<Dim>& raw) {
   Samples beside = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; },
                               [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
                                 points_.add_points_beside(leaf, points);
@@ -164,7 +164,7 @@ void GrowthLeaves<Dim>::refine(const SpacingEvaluator<Dim>& raw,
     Samples in_slivers = samples_in_slivers();
     raw(std::ssize(in_slivers.x), in_slivers.x.data(), in_slivers.d.data());
     take_range(in_slivers);
-    if constexpr (Dim == 3) look_beside(raw);
+    if constexpr (Dim == 3) sample_adjacent_cells(raw);
     expect_known(samples, expected);
     take_sources(samples);
     require_small_node_set();

@@ -65,7 +65,7 @@ class GrowthLeaves {
   void take_range(const Samples& samples);
   Samples samples_in_slivers() const;
   void move_into_cells(Samples& samples) const;
-  void look_beside(const SpacingEvaluator<Dim>& raw);
+  void sample_adjacent_cells(const SpacingEvaluator<Dim>& raw);
   void expect_known(const Samples& samples, const GrowthSources<Dim>& known);
   void take_sources(const Samples& samples);
   bool any_open() const;

@@ -75,8 +75,8 @@ std::vector<double> GrowthLimit<Dim>::limits(std::int64_t n, const Point<Dim>* x
 }
 
 template <int Dim>
-void GrowthLimit<Dim>::take_answers_of_all(std::int64_t n, const Point<Dim>* x,
-                                           std::vector<double>& limits) const {
+void GrowthLimit<Dim>::gather_limits(std::int64_t n, const Point<Dim>* x,
+                                     std::vector<double>& limits) const {
   const TreePart<Dim>& tree = labels_.tree();
   Bytes mine;
   for (std::int64_t i = 0; i < n; ++i)
@@ -88,8 +88,8 @@ void GrowthLimit<Dim>::take_answers_of_all(std::int64_t n, const Point<Dim>* x,
 }
 
 template <int Dim>
-void GrowthLimit<Dim>::ask_owners(std::int64_t n, const Point<Dim>* x,
-                                  std::vector<double>& limits) const {
+void GrowthLimit<Dim>::query_owners(std::int64_t n, const Point<Dim>* x,
+                                    std::vector<double>& limits) const {
   const TreePart<Dim>& tree = labels_.tree();
   std::vector<Question<Dim>> questions;
   for (std::int64_t i = 0; i < n; ++i)
@@ -113,9 +113,9 @@ void GrowthLimit<Dim>::limit(std::int64_t n, const Point<Dim>* x, double* d) con
   std::vector<double> limited = limits(n, x);
   if (comm_->size() > 1) {
     if (same_points<Dim>(*comm_, n, x))
-      take_answers_of_all(n, x, limited);
+      gather_limits(n, x, limited);
     else
-      ask_owners(n, x, limited);
+      query_owners(n, x, limited);
   }
   // NaN fails this comparison and is kept, so that it is reported.
   for (std::int64_t i = 0; i < n; ++i)

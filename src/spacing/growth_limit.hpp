@@ -48,8 +48,8 @@ class GrowthLimit {
   void find_labels(const SpacingEvaluator<Dim>& raw, const SpacingHints<Dim>& known,
                    const NodeLimit& limit, const Beat& beat);
   std::vector<double> limits(std::int64_t n, const Point<Dim>* x) const;
-  void take_answers_of_all(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;
-  void ask_owners(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;
+  void gather_limits(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;
+  void query_owners(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;
 
   std::shared_ptr<const Communicator> comm_;
   GrowthRule<Dim> rule_;

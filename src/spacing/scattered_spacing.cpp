@@ -139,7 +139,7 @@ ScatteredSpacing<Dim, Across>::ScatteredSpacing(const GivenField<Dim, Across + 1
     boxes.push_back({x, x});
   }
   tree_ = BoxTree<Dim>(std::move(boxes));
-  find_known();
+  collect_hints();
 }
 
 template <int Dim, int Across>
@@ -198,16 +198,16 @@ double ScatteredSpacing<Dim, Across>::at(const Point<Dim>& x) const {
 
 template <int Dim, int Across>
 void ScatteredSpacing<Dim, Across>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
-  for_each_if_started("pnpbs::CloudSpacing::evaluate", n,
+  for_each_if_started("pnpbs::ScatteredSpacing::evaluate", n,
                       [=, this](std::int64_t i) { d[i] = at(x[i]); });
 }
 
 template <int Dim, int Across>
-void ScatteredSpacing<Dim, Across>::find_known() {
+void ScatteredSpacing<Dim, Across>::collect_hints() {
   constexpr int kNearest = Across + 1;
   const auto count = static_cast<std::int64_t>(points_.size());
   std::vector<std::array<Neighbour, kNearest>> nearest_ones(points_.size());
-  for_each_if_started("pnpbs::CloudSpacing::find_known", count, [&](std::int64_t i) {
+  for_each_if_started("pnpbs::ScatteredSpacing::collect_hints", count, [&](std::int64_t i) {
     const auto at = static_cast<std::size_t>(i);
     const Neighbours near = nearest(points_[at]);  // the first one is the point itself
     for (std::size_t k = 0; k < kNearest; ++k) {

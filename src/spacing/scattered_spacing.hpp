@@ -63,7 +63,7 @@ class ScatteredSpacing : public LocalSpacing<Dim> {
     int counting() const { return found < kNeighbours ? found : kNeighbours; }
   };
 
-  void find_known();
+  void collect_hints();
   Neighbours nearest(const Point<Dim>& x) const;
   double at(const Point<Dim>& x) const;
 

@@ -168,7 +168,7 @@ double ShapeSource<Dim>::limit(const Point<Dim>& at, double growth) const {
 
 template <int Dim>
 std::vector<ShapeSource<Dim>> shape_sources(const ShapeIndex<Dim>& index,
-                                            const ShapeDemands& demands, double max) {
+                                            const ShapeRequirements& demands, double max) {
   std::vector<ShapeSource<Dim>> sources;
   const auto add = [&](const FacetCorners<Dim>& corners, double d) {
     if (d < max) sources.push_back({corners, d});
@@ -188,7 +188,7 @@ std::vector<ShapeSource<Dim>> shape_sources(const ShapeIndex<Dim>& index,
 
 std::vector<ShapeSource<3>> sources_on_sphere(const ShapeIndex<2>& in_chart,
                                               const StereographicChart& chart,
-                                              const ShapeDemands& demands, double max) {
+                                              const ShapeRequirements& demands, double max) {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   std::vector<ShapeSource<3>> sources;
   for (const auto& [corners, d] : shape_sources<2>(in_chart, demands, kAny)) {
@@ -202,13 +202,13 @@ std::vector<ShapeSource<3>> sources_on_sphere(const ShapeIndex<2>& in_chart,
 
 template struct ShapeSource<2>;
 template struct ShapeSource<3>;
-template std::vector<ShapeSource<2>> shape_sources<2>(const ShapeIndex<2>&, const ShapeDemands&,
-                                                      double);
-template std::vector<ShapeSource<3>> shape_sources<3>(const ShapeIndex<3>&, const ShapeDemands&,
-                                                      double);
+template std::vector<ShapeSource<2>> shape_sources<2>(const ShapeIndex<2>&,
+                                                      const ShapeRequirements&, double);
+template std::vector<ShapeSource<3>> shape_sources<3>(const ShapeIndex<3>&,
+                                                      const ShapeRequirements&, double);
 
 template <int Dim>
-ShapeSpacing<Dim>::ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeDemands& demands,
+ShapeSpacing<Dim>::ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeRequirements& demands,
                                 const ShapeLimits& limits)
     : ShapeSpacing(shape_sources(index, demands, limits.max_in(index.size())), index.size(),
                    limits) {}

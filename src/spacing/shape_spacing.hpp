@@ -14,12 +14,12 @@ namespace pnpbs {
 
 // The requirements of pieces of a shape on d: by curvature, by the width of the domain, and by the
 // edge lengths of the input. 0 disables a requirement.
-struct ShapeDemands {
+struct ShapeRequirements {
   double nodes_per_turn = 0;  // nodes on a full circle with the radius of curvature
   double nodes_across = 0;    // nodes across the width of the domain
   double nodes_per_edge = 0;  // nodes on an edge of the input
 
-  bool operator==(const ShapeDemands&) const = default;
+  bool operator==(const ShapeRequirements&) const = default;
 };
 
 // A piece that limits d around it: d is at most `d` on the piece and grows with the distance from
@@ -45,13 +45,13 @@ Box<Dim> box_of(const ShapeSource<Dim>& source) {
 // Error(ErrorKind::spacing) if this makes too many pieces.
 template <int Dim>
 std::vector<ShapeSource<Dim>> shape_sources(const ShapeIndex<Dim>& index,
-                                            const ShapeDemands& demands, double max);
+                                            const ShapeRequirements& demands, double max);
 
 // Returns the same for a domain on a sphere from the index of its chart: pieces of its curves in
 // space, with d along the sphere.
 std::vector<ShapeSource<3>> sources_on_sphere(const ShapeIndex<2>& in_chart,
                                               const StereographicChart& chart,
-                                              const ShapeDemands& demands, double max);
+                                              const ShapeRequirements& demands, double max);
 
 // Bounds of a ShapeSpacing.
 struct ShapeLimits {
@@ -68,7 +68,7 @@ template <int Dim>
 class ShapeSpacing : public LocalSpacing<Dim> {
  public:
   // Computes the sources from the index, which is not stored.
-  ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeDemands& demands,
+  ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeRequirements& demands,
                const ShapeLimits& limits);
   // Uses these sources in a domain of this size.
   ShapeSpacing(std::vector<ShapeSource<Dim>> sources, double size, const ShapeLimits& limits);

@@ -173,7 +173,7 @@ void SizedTree<Dim>::Growth::expect_by_chart(const Box<Dim>& box, const CellSamp
   double along = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < samples.d.size(); ++k)
     along = std::min(along, embedding.measured_length(samples.at[k], samples.d[k]));
-  cell.min = std::min(cell.min, along * embedding.least_stretch_in(box));
+  cell.min = std::min(cell.min, along * embedding.min_stretch_in(box));
 }
 
 // Adds the point at which d is evaluated for a sample position: the position itself if it is inside

@@ -30,7 +30,7 @@ SpacingHints<2> SphereSpacing::spacing_hints() const {
   const auto add = [&](const Point<3>& x, const auto& take) {
     const Point<2> u = chart_.in_chart(x);
     const double stretch = chart_.stretch(u);
-    if (stretch < StereographicChart::kMostStretch) take(u, stretch);
+    if (stretch < StereographicChart::kMaxStretch) take(u, stretch);
   };
   for (const GrowthSource<3>& value : along.values)
     add(value.x, [&](const Point<2>& u, double stretch) {

@@ -13,7 +13,7 @@ namespace pnpbs {
 // With q = |u|^2 / (4 R^2), du dv / (1 + q)^2 is an area element on the sphere. It is the curl of
 // (-v, u) / (2 (1 + q)), so the area is a line integral. On a segment its integrand is the constant
 // (a x b) / 2 over a quadratic polynomial in the curve parameter.
-inline double area_beside(const Point<2>& a, const Point<2>& b, double radius) {
+inline double chart_area_term(const Point<2>& a, const Point<2>& b, double radius) {
   const Point<2> way{b[0] - a[0], b[1] - a[1]};
   const double unit = 4 * radius * radius;
   const double square = dot(way, way) / unit, linear = 2 * dot(a, way) / unit,

@@ -25,8 +25,8 @@ class Embedding {
   }
   static Point<3> in_space(const Point<Dim>& x) { return x; }
 
-  static double least_stretch_in(const Box<Dim>&) { return 1; }
-  static double most_stretch_in(const Box<Dim>&) { return 1; }
+  static double min_stretch_in(const Box<Dim>&) { return 1; }
+  static double max_stretch_in(const Box<Dim>&) { return 1; }
   static bool varies_much_in(const Box<Dim>&) { return false; }
 };
 
@@ -64,11 +64,11 @@ class Embedding<2> {
     return chart_ ? chart_->on_sphere(u) : Point<3>{u[0], u[1], 0};
   }
 
-  double least_stretch_in(const Box<2>& box) const {
-    return chart_ ? chart_->least_stretch_in(box) : 1;
+  double min_stretch_in(const Box<2>& box) const {
+    return chart_ ? chart_->min_stretch_in(box) : 1;
   }
-  double most_stretch_in(const Box<2>& box) const {
-    return chart_ ? chart_->most_stretch_in(box) : 1;
+  double max_stretch_in(const Box<2>& box) const {
+    return chart_ ? chart_->max_stretch_in(box) : 1;
   }
   // Returns whether the stretch varies so much in a box that a few samples of d can miss its
   // minimum.

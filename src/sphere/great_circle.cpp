@@ -11,7 +11,7 @@ namespace pnpbs {
 
 namespace {
 
-struct PlaceOnSphere {
+struct SpherePoint {
   Point<3> direction;
   Point<2> in_chart;
 };
@@ -26,14 +26,14 @@ double longest_piece(double radius, const Point<2>& u) {
   return std::min(kLongest, 4 * kAngle / away);
 }
 
-void add_between(const StereographicChart& chart, const PlaceOnSphere& a, const PlaceOnSphere& b,
+void add_between(const StereographicChart& chart, const SpherePoint& a, const SpherePoint& b,
                  std::vector<Point<2>>& points) {
   const Point<3> sum{a.direction[0] + b.direction[0], a.direction[1] + b.direction[1],
                      a.direction[2] + b.direction[2]};
   const Point<3> middle = unit_vector(sum);
-  const PlaceOnSphere m{middle, chart.in_chart(middle)};
+  const SpherePoint m{middle, chart.in_chart(middle)};
   double longest = longest_piece(chart.radius(), m.in_chart);
-  for (const PlaceOnSphere* end : {&a, &b})
+  for (const SpherePoint* end : {&a, &b})
     longest = std::min(longest, longest_piece(chart.radius(), end->in_chart));
   if (!(longest > 0) || angle_between(a.direction, b.direction) <= longest) return;
   add_between(chart, a, m, points);
@@ -47,15 +47,15 @@ double angle_between(const Point<3>& a, const Point<3>& b) {
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-double angle_to_way(const Point<3>& x, const Point<3>& a, const Point<3>& b) {
+double angle_to_arc(const Point<3>& x, const Point<3>& a, const Point<3>& b) {
   const Point<3> normal = cross(a, b);
   const bool is_beside = dot(cross(normal, a), x) > 0 && dot(cross(b, normal), x) > 0;
   if (!is_beside) return std::min(angle_between(x, a), angle_between(x, b));
   return std::fabs(std::asin(std::clamp(dot(unit_vector(normal), unit_vector(x)), -1.0, 1.0)));
 }
 
-std::vector<Point<2>> points_on_the_way(const StereographicChart& chart, const Point<3>& a,
-                                        const Point<3>& b) {
+std::vector<Point<2>> points_on_arc(const StereographicChart& chart, const Point<3>& a,
+                                    const Point<3>& b) {
   std::vector<Point<2>> points;
   add_between(chart, {unit_vector(a), chart.in_chart(a)}, {unit_vector(b), chart.in_chart(b)},
               points);

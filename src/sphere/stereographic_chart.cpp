@@ -18,7 +18,7 @@ StereographicChart::StereographicChart(double radius, const Point<3>& from) : ra
   north_ = cross(up_, east_);
 }
 
-Point<3> StereographicChart::projected_from() const {
+Point<3> StereographicChart::projection_centre() const {
   return {-radius_ * up_[0], -radius_ * up_[1], -radius_ * up_[2]};
 }
 
@@ -45,13 +45,13 @@ double StereographicChart::stretch(const Point<2>& u) const {
   return 1 + dot(u, u) / (4 * radius_ * radius_);
 }
 
-double StereographicChart::least_stretch_in(const Box<2>& box) const {
+double StereographicChart::min_stretch_in(const Box<2>& box) const {
   Point<2> near;
   for (std::size_t k = 0; k < 2; ++k) near[k] = std::clamp(0.0, box.low[k], box.high[k]);
   return stretch(near);
 }
 
-double StereographicChart::most_stretch_in(const Box<2>& box) const {
+double StereographicChart::max_stretch_in(const Box<2>& box) const {
   Point<2> far;
   for (std::size_t k = 0; k < 2; ++k)
     far[k] = std::fabs(box.low[k]) > std::fabs(box.high[k]) ? box.low[k] : box.high[k];
@@ -60,7 +60,7 @@ double StereographicChart::most_stretch_in(const Box<2>& box) const {
 
 bool StereographicChart::varies_much_in(const Box<2>& box) const {
   constexpr double kMuch = 4;
-  return most_stretch_in(box) > kMuch * least_stretch_in(box);
+  return max_stretch_in(box) > kMuch * min_stretch_in(box);
 }
 
 double StereographicChart::relative_growth(const Point<2>& u) const {

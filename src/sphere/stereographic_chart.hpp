@@ -24,7 +24,7 @@ class StereographicChart {
   bool operator==(const StereographicChart&) const = default;
 
   double radius() const { return radius_; }
-  Point<3> projected_from() const;  // The projection centre, on the sphere.
+  Point<3> projection_centre() const;  // The projection centre, on the sphere.
 
   // Returns the image of the point of the sphere on the ray from the origin through x. It is
   // infinite for the projection centre.
@@ -37,9 +37,9 @@ class StereographicChart {
   double stretch(const Point<2>& u) const;
   // Values of d that are known at points with this stretch or more are not converted to the chart,
   // because these points are too close to the projection centre.
-  static constexpr double kMostStretch = 1e12;
-  double least_stretch_in(const Box<2>& box) const;
-  double most_stretch_in(const Box<2>& box) const;
+  static constexpr double kMaxStretch = 1e12;
+  double min_stretch_in(const Box<2>& box) const;
+  double max_stretch_in(const Box<2>& box) const;
   // Returns whether the largest stretch in the box is more than four times the smallest.
   bool varies_much_in(const Box<2>& box) const;
   // Returns the relative growth of the stretch per length in the chart.

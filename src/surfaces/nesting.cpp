@@ -263,7 +263,7 @@ void find_roles_of_dividing(Triangulation& surface) {
   for (const std::int32_t source : sources) find_roles_of_source(surface, source);
 }
 
-void find_roles_by_place(Triangulation& surface) {
+void find_roles_by_location(Triangulation& surface) {
   if (std::ranges::none_of(surface.triangles, &SurfaceTriangle::by_place)) return;
   const SurfaceEdges edges(surface);
   const BoxTree<3> tree = tree_of(surface);

@@ -71,7 +71,7 @@ void give_roles(Triangulation& surface, const std::map<std::int32_t, SurfaceRole
 // cavities, and sheets and dividing walls are inner. An open surface that nothing encloses stays a
 // boundary, so that require_closed_boundary() reports its open edges. Throws
 // Error(ErrorKind::domain) if triangles cross.
-void find_roles_by_place(Triangulation& surface);
+void find_roles_by_location(Triangulation& surface);
 
 // Determines the roles of dividing triangles, for each source from its own triangles alone. Such a
 // triangle is a boundary if exactly one of its sides lies in the unbounded region of its source. A

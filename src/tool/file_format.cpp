@@ -41,7 +41,7 @@ std::string list_of_formats() {
 
 const FileFormat* format_by_name(const std::string& name) {
   const auto& formats = file_formats();
-  const auto found = std::ranges::find(formats, in_small_letters(name), &FileFormat::name);
+  const auto found = std::ranges::find(formats, to_lower_case(name), &FileFormat::name);
   return found == formats.end() ? nullptr : &*found;
 }
 

@@ -89,7 +89,7 @@ Header read_header(Words& words, std::string& word) {
       "yllcenter", "zllcenter", "cellsize", "dx",        "dy",        "dz",        "nodata_value"};
   Header header;
   while (words.next(word) && begins_with_letter(word)) {
-    const std::string name = in_small_letters(word);
+    const std::string name = to_lower_case(word);
     if (name == "nan" || name == "inf") break;
     if (std::ranges::find(known, name) == known.end()) {
       words.fail(

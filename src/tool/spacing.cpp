@@ -10,7 +10,7 @@ namespace pnpbs::tool {
 
 std::optional<SpacingFile> spacing_file(const std::string& text) {
   constexpr std::array<std::string_view, 3> endings{".vtu", ".msh", ".csv"};
-  const std::string small = in_small_letters(text);
+  const std::string small = to_lower_case(text);
   for (const std::string_view ending : endings)
     if (small.size() > ending.size() && small.ends_with(ending)) return SpacingFile{text, ""};
   for (const std::string_view ending : endings) {

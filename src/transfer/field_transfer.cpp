@@ -205,7 +205,7 @@ void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* v
   collective_try(comm, [&] { answers = answered(asked); });
   const std::vector<Message> told = comm.sparse_all_to_all(answers);
   collective_try(comm, [&] {
-    RankPlaces places;
+    RankIndices places;
     for (const Message& theirs : told) places.add(theirs.rank);
     std::vector<std::size_t> at(told.size());  // Answers are in the order of the questions.
     const std::size_t bytes = static_cast<std::size_t>(components_) * sizeof(double);

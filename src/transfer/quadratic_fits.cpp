@@ -140,7 +140,7 @@ class Fitting {
   std::int64_t sum_columns() const { return M::kAll + kOfField * components_; }
   std::vector<double> sums() const {
     std::vector<double> all(static_cast<std::size_t>(results_.count() * sum_columns()));
-    for_each("pnpbs::ParabolicFits::sums", results_.count(), [&](std::int64_t p) {
+    for_each("pnpbs::QuadraticFits::sums", results_.count(), [&](std::int64_t p) {
       double* const own = all.data() + p * sum_columns();
       std::array<double, M::kAll> here;
       for (const std::int64_t q : neighbours(p)) {
@@ -161,7 +161,7 @@ class Fitting {
   std::int64_t fit_columns() const { return 1 + M::kFitted * components_; }
   std::vector<double> fits(const std::vector<double>& sums) const {
     std::vector<double> all(static_cast<std::size_t>(results_.count() * fit_columns()));
-    for_each("pnpbs::ParabolicFits::fits", results_.count(),
+    for_each("pnpbs::QuadraticFits::fits", results_.count(),
              [&](std::int64_t p) { fit(p, sums, all.data() + p * fit_columns()); });
     return all;
   }

@@ -8,7 +8,7 @@ namespace pnpbs {
 namespace {
 
 StereographicChart opposite_chart(const StereographicChart& chart) {
-  const auto [x, y, z] = chart.projected_from();
+  const auto [x, y, z] = chart.projection_centre();
   return {chart.radius(), {-x, -y, -z}};
 }
 
@@ -33,7 +33,7 @@ SphereFits::SphereFits(Results<2>& results, const std::vector<PatchNode<3>>& nod
     : charts_{InChart(results.embedding().chart(), results, nodes, components, values),
               InChart(opposite_chart(results.embedding().chart()), results, nodes, components,
                       values)} {
-  const Point<3> from = results.embedding().chart().projected_from();
+  const Point<3> from = results.embedding().chart().projection_centre();
   for (const PatchNode<3>& node : nodes) chart_at_.push_back(dot(node.x, from) > 0 ? 1 : 0);
   std::uint64_t without = 0;
   const std::int64_t owned = results.count();

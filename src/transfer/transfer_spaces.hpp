@@ -56,7 +56,7 @@ struct SphereSpace {
   Data patch(Results<2>& results) const { return sphere_patch_of(results); }
   Searched searched(Data patch) const { return Searched(std::move(patch), radius); }
   Point<3> position(const Results<2>& results, std::int64_t node) const {
-    return results.place_in_space(node);
+    return results.point_in_space(node);
   }
 
   double measure(const std::array<Point<3>, 3>& c) const {

@@ -79,12 +79,12 @@ bool touching(const LeafCell<Dim>& a, const LeafCell<Dim>& b) {
 
 // Maps each cell to the ranks that have its leaves.
 template <int Dim>
-class Stretches {
+class LeafRanges {
  public:
-  Stretches() = default;
+  LeafRanges() = default;
   // Collects the ranges of all ranks. `own` has the leaves of this rank in Morton order and may be
   // empty. Collective.
-  Stretches(const Communicator& comm, const std::vector<LeafCell<Dim>>& own) {
+  LeafRanges(const Communicator& comm, const std::vector<LeafCell<Dim>>& own) {
     Bytes mine;
     if (!own.empty()) pack(mine, Begin{own.front().first(), comm.rank()});
     for_records<Begin>({comm.allgather(mine)},

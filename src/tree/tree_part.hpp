@@ -194,7 +194,7 @@ class TreePart {
     });
   }
 
-  Stretches<Dim> stretches_;
+  LeafRanges<Dim> stretches_;
   std::int64_t own_ = 0, before_ = 0;  // before_: number of copies from lower ranks
   std::vector<LeafCell<Dim>> cells_;
   ExchangePattern border_;

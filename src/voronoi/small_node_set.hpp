@@ -9,7 +9,7 @@
 namespace pnpbs {
 
 // Returns the last index of the node, or -1.
-inline std::int32_t place_among(std::span<const std::int32_t> nodes, std::int32_t node) {
+inline std::int32_t index_among(std::span<const std::int32_t> nodes, std::int32_t node) {
   std::int32_t place = -1;
   const std::int32_t count = static_cast<std::int32_t>(nodes.size());
   for (std::int32_t k = 0; k < count; ++k)

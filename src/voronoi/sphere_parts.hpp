@@ -17,7 +17,7 @@ namespace pnpbs {
 
 // Returns the index of a pair of sites in the row of an element. A row contains the volumes of all
 // sites, then the areas of the faces between all pairs.
-inline std::size_t place_of_pair(std::size_t sites, std::size_t a, std::size_t b) {
+inline std::size_t pair_index(std::size_t sites, std::size_t a, std::size_t b) {
   if (a > b) std::swap(a, b);
   return sites + a * (2 * sites - a - 1) / 2 + (b - a - 1);
 }
@@ -30,10 +30,9 @@ void append_parts(DividedElement<Dim, Corners>& divided, std::vector<double>& ou
   double* const row = out.data() + begin;
   for (std::size_t a = 0; a < sites; ++a)
     for (std::size_t b = a + 1; b < sites; ++b)
-      row[place_of_pair(sites, a, b)] = divided.face(a, b).measure();
+      row[pair_index(sites, a, b)] = divided.face(a, b).measure();
   for (std::size_t s = 0; s < sites; ++s)
-    row[s] =
-        divided.volume(s, [&](std::size_t other) { return row[place_of_pair(sites, s, other)]; });
+    row[s] = divided.volume(s, [&](std::size_t other) { return row[pair_index(sites, s, other)]; });
 }
 
 // Returns the arc length of a segment projected from the origin onto the unit sphere.
@@ -56,7 +55,7 @@ class SpherePartRows {
     for (std::size_t a = 0; a < sites; ++a)
       for (std::size_t b = a + 1; b < sites; ++b) {
         const std::span<const Point<3>> face = divided.face(a, b).points();
-        row[place_of_pair(sites, a, b)] = radius_ * arc_of(face);
+        row[pair_index(sites, a, b)] = radius_ * arc_of(face);
         if (face.size() == 2)
           borders_.push_back({a, b, unit_vector(face[0]), unit_vector(face[1])});
       }

@@ -33,7 +33,7 @@ class ElementParts {
                    [&] { return Writer(all, owned); });
   }
 
-  // Returns the row of an element (see place_of_pair).
+  // Returns the row of an element (see pair_index).
   std::span<const double> of(std::int32_t element) const {
     return element < owned_ ? own_.row(element) : arrived_.row(element - owned_);
   }
@@ -156,7 +156,7 @@ class CellMaker {
 
   // Returns the index of the neighbour in neighbours_, to which it is added if it is new.
   std::int32_t place_of(std::int32_t neighbour) {
-    const std::int32_t place = place_among(neighbours_, neighbour);
+    const std::int32_t place = index_among(neighbours_, neighbour);
     if (place >= 0) return place;
     neighbours_.push_back(neighbour);
     return static_cast<std::int32_t>(neighbours_.size()) - 1;
@@ -169,7 +169,7 @@ class CellMaker {
     volumes_.push_back(parts[site]);
     for (std::size_t other = 0; other < sites.size(); ++other)
       if (other != site)
-        if (const double area = parts[place_of_pair(sites.size(), site, other)]; area != 0)
+        if (const double area = parts[pair_index(sites.size(), site, other)]; area != 0)
           faces_.push_back({place_of(sites[other]), area});
     if (element.boundary == 0) return;
     x_.clear();

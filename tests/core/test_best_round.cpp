@@ -15,7 +15,7 @@ struct Rounds {
   // One that ends so: is there another one?
   bool end(Outcome outcome, std::int64_t small_angles, const pnpbs::ElementFaults& faults = {}) {
     pnpbs::FinishedRound<3> round{nullptr, {}, {}, outcome, faults, small_angles};
-    const bool more = best.asks_for_another(round);
+    const bool more = best.needs_another(round);
     if (more) best.offer(std::move(round));
     return more;
   }

@@ -52,7 +52,7 @@ START_TEST(a_bubble_is_where_it_differs) {
   const auto placement = cube_without([&](const Point3& x) {
     return is_near(x, bubble, 0.6 * kSpacing) || is_near(x, dent, 2.5 * kSpacing);
   });
-  const std::vector<Point3> places = pnpbs::places_of_other_topology(placement->level());
+  const std::vector<Point3> places = pnpbs::points_of_other_topology(placement->level());
   ck_assert_uint_gt(places.size(), 0);
   for (const Point3& x : places) quick_assert(is_near(x, bubble, 2.5 * kSpacing));
 }
@@ -62,7 +62,7 @@ END_TEST
 START_TEST(a_cut_is_where_it_differs) {
   const auto placement =
       cube_without([](const Point3& x) { return std::fabs(x[2] - 0.5) < 0.6 * kSpacing; });
-  const std::vector<Point3> places = pnpbs::places_of_other_topology(placement->level());
+  const std::vector<Point3> places = pnpbs::points_of_other_topology(placement->level());
   ck_assert_uint_gt(places.size(), 0);
   for (const Point3& x : places) quick_assert(std::fabs(x[2] - 0.5) < 2 * kSpacing);
 }

@@ -28,7 +28,7 @@ double expected_at(const Point3& place) {
   placed.d = pnpbs::SizingField<3>(std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing));
   placed.held.places.push_back({place, kHeld});
   const auto comm = pnpbs::serial_communicator();
-  pnpbs::hold_down(*comm, placed, settings);
+  pnpbs::apply_local_reductions(*comm, placed, settings);
   pnpbs::Timers timers;
   pnpbs::Level<3> level(comm, domain, std::make_shared<pnpbs::SizingField<3>>(placed.d), settings,
                         timers);

@@ -90,7 +90,7 @@ START_TEST(stars_close_over_the_hole) {
   const LevelRun lattice = lattice_with({});
   LevelRun run = lattice_with({middle_of_edge({0.3, 0.4}, 0), middle_of_edge({0.6, 0.7}, 1.05)});
   DelaunayStars stars = run.level->stars;
-  const std::vector<std::int32_t> surplus = pnpbs::take_out_surplus_nodes(run.level->nodes, stars);
+  const std::vector<std::int32_t> surplus = pnpbs::remove_surplus_nodes(run.level->nodes, stars);
   ck_assert_uint_eq(surplus.size(), 2);
   const auto triangles = [](const Level& level, const DelaunayStars& of) {
     std::multiset<std::array<std::int64_t, 3>> all;  // from each corner
@@ -117,7 +117,7 @@ START_TEST(neighbours_do_not_both_go) {
   for (std::int64_t i = 0; i < run.level->nodes.count; ++i)
     few += stars.closed(i) && stars.size(i) <= 4;
   ck_assert_int_eq(few, 2);
-  ck_assert_uint_eq(pnpbs::take_out_surplus_nodes(run.level->nodes, stars).size(), 0);
+  ck_assert_uint_eq(pnpbs::remove_surplus_nodes(run.level->nodes, stars).size(), 0);
 }
 END_TEST
 
@@ -139,7 +139,7 @@ START_TEST(good_node_with_four_neighbours_stays) {
     with_four += run.level->nodes.id(i) >= 100 && stars.size(i) == 4;
   ck_assert_uint_eq(corners, 9);
   ck_assert_int_gt(with_four, 0);
-  ck_assert_uint_eq(pnpbs::take_out_surplus_nodes(run.level->nodes, stars).size(), 0);
+  ck_assert_uint_eq(pnpbs::remove_surplus_nodes(run.level->nodes, stars).size(), 0);
 }
 END_TEST
 

@@ -17,16 +17,16 @@
 using pnpbs::BoundaryMesh;
 using pnpbs::CurveRole;
 using pnpbs::Point;
-using pnpbs::ShapeDemands;
 using pnpbs::ShapeIndex;
 using pnpbs::ShapeLimits;
+using pnpbs::ShapeRequirements;
 using pnpbs::ShapeSpacing;
 using std::numbers::pi;
 
 namespace {
 
 constexpr double kGrowth = 0.15;
-constexpr ShapeDemands kTurn{20, 0, 0}, kAcross{0, 3, 0}, kEdge{0, 0, 1};
+constexpr ShapeRequirements kTurn{20, 0, 0}, kAcross{0, 3, 0}, kEdge{0, 0, 1};
 
 template <class Domain>
 auto index_of(Domain& domain) {
@@ -331,7 +331,7 @@ END_TEST
 START_TEST(growth_and_bounds) {
   pnpbs::PlaneDomain plane;
   add_polygon(plane, {0, 0, 1, 0, 1.03, 0.02, 1.05, 0.04, 2, 0, 2, 0.3, 0.9, 0.2, 0, 1});
-  constexpr ShapeDemands all{20, 3, 1};
+  constexpr ShapeRequirements all{20, 3, 1};
   const ShapeIndex<2> index = index_of(plane);
   expect_growth_below<2>({index, all, {kGrowth}}, {{-1, -1}, {3, 2}});
   const ShapeSpacing<2> bounded(index, all, {kGrowth, 0.045, 0.06});

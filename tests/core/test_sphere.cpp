@@ -108,7 +108,7 @@ START_TEST(ways_follow_great_circles) {
     const Point<3> a = on_unit_sphere(random), b = on_unit_sphere(random);
     if (std::min(a[2], b[2]) < -0.9 || pnpbs::angle_between(a, b) > 2.5) continue;
     std::vector<Point<2>> way{chart.in_chart(a)};
-    for (const Point<2>& u : pnpbs::points_on_the_way(chart, a, b)) way.push_back(u);
+    for (const Point<2>& u : pnpbs::points_on_arc(chart, a, b)) way.push_back(u);
     way.push_back(chart.in_chart(b));
     const Point<3> normal = pnpbs::unit_vector(pnpbs::cross(a, b));
     for (std::size_t p = 0; p + 1 < way.size(); ++p) {
@@ -164,14 +164,14 @@ START_TEST(caps_hold_what_is_near) {
     const double radius = chart.radius();
     for (int k = 0; k < 300; ++k) {
       const Point<3> near_point = pnpbs::unit_vector(
-          pnpbs::shifted(times(1 / radius, chart.projected_from()),
+          pnpbs::shifted(times(1 / radius, chart.projection_centre()),
                          std::pow(10.0, random.between(-3, 0.5)), on_unit_sphere(random)));
       const Point<2> centre = chart.in_chart(near_point);
       const Point<3> at = chart.on_sphere(centre);
       const double length = radius * std::pow(10.0, random.between(-3, 0.25));
       const SphereCap cap(chart, centre, length);
       quick_assert(!cap.is_whole_sphere());
-      around += gap(at, chart.projected_from()) < length;
+      around += gap(at, chart.projection_centre()) < length;
       for (int l = 0; l < 50; ++l) {
         const Point<2> u = chart.in_chart(
             pnpbs::shifted(at, length * random.between(0, 3), on_unit_sphere(random)));
@@ -231,7 +231,7 @@ START_TEST(caps_hold_circles) {
       quick_assert(!SphereCap(chart, corner[0], 0.999 * across).holds_circle(corner[1], corner[2]));
       quick_assert(SphereCap(chart, corner[0], 1.9 * radius).holds_circle(corner[1], corner[2]));
       // The point projected from is never inside.
-      quick_assert(pnpbs::dot(normal, chart.projected_from()) <= plane);
+      quick_assert(pnpbs::dot(normal, chart.projection_centre()) <= plane);
       some += is_small;
       large += !is_small;
     }
@@ -292,7 +292,7 @@ void measures_as_coordinates_are(const Embedding<Dim>& embedding) {
   pnpbs::Box<Dim> box;
   box.low.fill(-1);
   box.high.fill(100);
-  quick_assert(embedding.least_stretch_in(box) == 1 && embedding.most_stretch_in(box) == 1);
+  quick_assert(embedding.min_stretch_in(box) == 1 && embedding.max_stretch_in(box) == 1);
   quick_assert(!embedding.varies_much_in(box));
 }
 
@@ -321,8 +321,8 @@ START_TEST(domains_on_spheres_are_measured_along_them) {
       quick_assert(embedding.in_space(u) == chart.on_sphere(u));
     }
     const pnpbs::Box<2> box{{-1, -1}, {100 * chart.radius(), 1}};
-    quick_assert(embedding.least_stretch_in(box) == chart.least_stretch_in(box));
-    quick_assert(embedding.most_stretch_in(box) == chart.most_stretch_in(box));
+    quick_assert(embedding.min_stretch_in(box) == chart.min_stretch_in(box));
+    quick_assert(embedding.max_stretch_in(box) == chart.max_stretch_in(box));
     quick_assert(embedding.varies_much_in(box));
   }
 }

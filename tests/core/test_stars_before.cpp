@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "delaunay/volume/stars_before.hpp"
+#include "delaunay/volume/previous_stars.hpp"
 #include "run_kernel_suite.hpp"
 #include "volume_box.hpp"
 #include "volume_tetrahedra.hpp"
 
-using pnpbs::StarsBefore;
+using pnpbs::PreviousStars;
 using pnpbs::VolumeStarInput;
 using pnpbs::VolumeStars;
 using volume_tetrahedra::Star;
@@ -68,13 +68,13 @@ struct Listed {
 
 // What there is to be taken: the bubbles are put, those beyond the plane are not ours, and stars
 // are found.
-StarsBefore taken(Listed& listed, const std::vector<Bubble<3>>& bubbles, double beyond,
-                  Random& random, std::uint64_t digest = 0) {
+PreviousStars taken(Listed& listed, const std::vector<Bubble<3>>& bubbles, double beyond,
+                    Random& random, std::uint64_t digest = 0) {
   listed.put(bubbles, random);
   listed.give_away(beyond);
   VolumeStars stars;
   stars.build(listed.input());
-  StarsBefore before;
+  PreviousStars before;
   before.take(listed.b.nodes, stars, digest);
   return before;
 }
@@ -97,7 +97,7 @@ Count follow(double shaken_by, double moved_by, double beyond) {
   const volume_box::Crystal crystal{9};
   std::vector<Bubble<3>> bubbles = shaken(crystal, shaken_by);
   Listed listed(crystal);
-  StarsBefore before = taken(listed, bubbles, kFar, random);
+  PreviousStars before = taken(listed, bubbles, kFar, random);
   ck_assert(before.any());
 
   move(bubbles, moved_by, random);
@@ -157,7 +157,7 @@ START_TEST(restore) {
   const volume_box::Crystal crystal{8};
   const std::vector<Bubble<3>> bubbles = shaken(crystal, 0.15);
   Listed listed(crystal);
-  StarsBefore before = taken(listed, bubbles, kBeyond, random, 7);
+  PreviousStars before = taken(listed, bubbles, kBeyond, random, 7);
   ck_assert_uint_eq(before.digest(), 7);
 
   std::vector<Bubble<3>> fewer = bubbles;
@@ -195,7 +195,7 @@ START_TEST(other_nodes) {
   const volume_box::Crystal crystal{8};
   std::vector<Bubble<3>> bubbles = shaken(crystal, 0.15);
   Listed listed(crystal);
-  StarsBefore before = taken(listed, bubbles, 1e9, random);
+  PreviousStars before = taken(listed, bubbles, 1e9, random);
   for (std::size_t k = bubbles.size() - 1; k > 0; k -= std::min<std::size_t>(k, 37)) {
     if (!bubbles[k].moves) continue;
     if (k % 2 == 0) {
@@ -226,7 +226,7 @@ START_TEST(stars_of_others) {
   VolumeStars stars;
   stars.build(listed.input());
   listed.put(bubbles, random);
-  StarsBefore before;
+  PreviousStars before;
   before.take(listed.b.nodes, stars);
   ck_assert(!before.any());
 }

@@ -82,7 +82,7 @@ struct Raster {
         const double value = whole.at(column, row);
         numbers.push_back(std::isnan(value) ? -1 : static_cast<float>(value));
       }
-    RasterMeaning meaning;
+    NumberConversion meaning;
     meaning.has_no_data = true, meaning.no_data = -1, meaning.scale = 0.5, meaning.offset = 3;
     return {cells, std::move(numbers), meaning};
   }

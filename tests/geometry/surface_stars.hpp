@@ -19,7 +19,7 @@ namespace space_shapes {
 
 struct PlacedNode {
   P position;
-  pnpbs::SurfacePlace place;
+  pnpbs::SurfaceSupport place;
 };
 
 using StarTriangle = std::array<std::int32_t, 3>;
@@ -31,16 +31,16 @@ inline StarTriangle sorted_triangle(StarTriangle t) {
 }
 
 class StarredSurface {
-  using On = pnpbs::SurfacePlace::On;
+  using On = pnpbs::SurfaceSupport::On;
 
  public:
   // Nodes on features have the first numbers.
   StarredSurface(const SurfaceCase& c, double d)
-      : c_(c), d_(d), laid_(lay_feature_nodes(c.mesh, c.features, constant(d))) {
+      : c_(c), d_(d), laid_(place_feature_nodes(c.mesh, c.features, constant(d))) {
     for (const pnpbs::FeatureNode& node : laid_.nodes)
       nodes.push_back({node.position, node.corner >= 0
-                                          ? pnpbs::SurfacePlace{On::corner, node.corner}
-                                          : pnpbs::SurfacePlace{On::edge, node.edge}});
+                                          ? pnpbs::SurfaceSupport{On::corner, node.corner}
+                                          : pnpbs::SurfaceSupport{On::edge, node.edge}});
     for (const std::vector<std::int32_t>& row : laid_.along)
       for (std::size_t n = 0; n + 1 < row.size(); ++n)
         joined_.insert(std::minmax(row[n], row[n + 1]));

@@ -66,7 +66,7 @@ void check_places(const Mesh& mesh, const Features& features, const FeatureNodes
 START_TEST(test_cube_has_equal_steps) {
   const Mesh mesh = space_shapes::cube(3).mesh(4);
   const Features features = pnpbs::find_features(mesh, kAngle);
-  const FeatureNodes laid = lay_feature_nodes(mesh, features, space_shapes::constant(0.099));
+  const FeatureNodes laid = place_feature_nodes(mesh, features, space_shapes::constant(0.099));
   check_places(mesh, features, laid);
   ck_assert_uint_eq(laid.nodes.size(), 8 + 12 * 9);
   for (const std::vector<std::int32_t>& along : laid.along)
@@ -82,7 +82,7 @@ END_TEST
 START_TEST(test_varying_spacing) {
   const Mesh mesh = space_shapes::cube(1).mesh();
   const Features features = pnpbs::find_features(mesh, kAngle);
-  const FeatureNodes laid = lay_feature_nodes(
+  const FeatureNodes laid = place_feature_nodes(
       mesh, features, space_shapes::evaluator_of([](const P& x) { return 0.02 + 0.1 * x[0]; }));
   check_places(mesh, features, laid);
   const auto integral = [](double x) { return std::log1p(5 * x) / 0.1; };
@@ -108,7 +108,7 @@ END_TEST
 START_TEST(test_large_spacing) {
   const Mesh mesh = space_shapes::cylinder(24, 4, 2).mesh();
   const Features features = pnpbs::find_features(mesh, kAngle);
-  const FeatureNodes laid = lay_feature_nodes(mesh, features, space_shapes::constant(50));
+  const FeatureNodes laid = place_feature_nodes(mesh, features, space_shapes::constant(50));
   check_places(mesh, features, laid);
   ck_assert_uint_eq(laid.nodes.size(), 6);
 
@@ -129,7 +129,7 @@ START_TEST(test_large_spacing) {
   ck_assert_uint_eq(loop.corners.size(), 1);
   ck_assert_uint_eq(loop.curves.size(), 1);
   for (const double d : {50.0, 0.1}) {
-    const FeatureNodes around = lay_feature_nodes(flat, loop, space_shapes::constant(d));
+    const FeatureNodes around = place_feature_nodes(flat, loop, space_shapes::constant(d));
     check_places(flat, loop, around);
     double length = 0;
     for (std::size_t e = 0; e < loop.curves[0].edge_count(); ++e)
@@ -145,7 +145,7 @@ START_TEST(test_too_many) {
   const Mesh mesh = space_shapes::cube(1).mesh();
   const Features features = pnpbs::find_features(mesh, kAngle);
   expect_error(pnpbs::ErrorKind::spacing, {"would mean about 68434 nodes", "max_nodes allows 1000"},
-               [&] { lay_feature_nodes(mesh, features, space_shapes::constant(0.01), 1000); });
+               [&] { place_feature_nodes(mesh, features, space_shapes::constant(0.01), 1000); });
 }
 END_TEST
 

@@ -17,23 +17,23 @@
 using pnpbs::FeatureNode;
 using pnpbs::FeatureNodes;
 using pnpbs::Surface;
-using pnpbs::SurfacePlace;
 using pnpbs::SurfaceSide;
+using pnpbs::SurfaceSupport;
 using space_shapes::Mesh;
 using space_shapes::P;
 using space_shapes::SurfaceCase;
-using On = pnpbs::SurfacePlace::On;
+using On = pnpbs::SurfaceSupport::On;
 
 namespace {
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-SurfacePlace place_of(const FeatureNode& node) {
-  return node.corner >= 0 ? SurfacePlace{On::corner, node.corner}
-                          : SurfacePlace{On::edge, node.edge};
+SurfaceSupport place_of(const FeatureNode& node) {
+  return node.corner >= 0 ? SurfaceSupport{On::corner, node.corner}
+                          : SurfaceSupport{On::edge, node.edge};
 }
 
-std::vector<SurfaceSide> sides_of(const Surface& surface, const SurfacePlace& place) {
+std::vector<SurfaceSide> sides_of(const Surface& surface, const SurfaceSupport& place) {
   std::vector<SurfaceSide> sides;
   surface.for_sides(place, [&](const SurfaceSide& side) { sides.push_back(side); });
   return sides;
@@ -76,7 +76,7 @@ START_TEST(test_sides_of_features) {
   const surfaces::Surface stairs = surfaces::cubes(
       3, [](std::int64_t i, std::int64_t j, std::int64_t k) { return i + j + k < 3; });
   const SurfaceCase c(space_shapes::turned(space_shapes::shape_of(stairs), 0.8).mesh());
-  const FeatureNodes laid = lay_feature_nodes(c.mesh, c.features, space_shapes::constant(2.5));
+  const FeatureNodes laid = place_feature_nodes(c.mesh, c.features, space_shapes::constant(2.5));
   check_sides(c, laid);
   std::size_t reentrant = 0;
   for (const FeatureNode& node : laid.nodes) {
@@ -113,10 +113,10 @@ END_TEST
 // The unit cube, and places on it with the numbers of the sides that they are on.
 struct PlacesOnCube {
   SurfaceCase c{space_shapes::cube(2).mesh()};
-  std::vector<std::pair<SurfacePlace, std::set<int>>> places;
+  std::vector<std::pair<SurfaceSupport, std::set<int>>> places;
 
   PlacesOnCube() {
-    const FeatureNodes laid = lay_feature_nodes(c.mesh, c.features, space_shapes::constant(0.5));
+    const FeatureNodes laid = place_feature_nodes(c.mesh, c.features, space_shapes::constant(0.5));
     for (std::int32_t f = 0; f < c.facet_count(); ++f)
       places.push_back({{On::facet, f}, sides(c.centre(f).position)});
     for (const FeatureNode& node : laid.nodes)
@@ -149,9 +149,9 @@ START_TEST(test_shares_a_patch_on_a_cube) {
   Random random(1);
   int shared = 0, only_in_pairs = 0;
   for (int trial = 0; trial < 400000; ++trial) {
-    std::array<SurfacePlace, 4> places;
+    std::array<SurfaceSupport, 4> places;
     std::set<int> common{0, 1, 2, 3, 4, 5};
-    for (SurfacePlace& place : places) {
+    for (SurfaceSupport& place : places) {
       const auto& [at, on] =
           cube.places[static_cast<std::size_t>(random.below(std::ssize(cube.places)))];
       place = at;
@@ -159,9 +159,9 @@ START_TEST(test_shares_a_patch_on_a_cube) {
     }
     quick_assert(surface.share_patch(places) == !common.empty());
     shared += !common.empty();
-    const bool in_pairs = std::all_of(places.begin(), places.end(), [&](const SurfacePlace& a) {
+    const bool in_pairs = std::all_of(places.begin(), places.end(), [&](const SurfaceSupport& a) {
       return std::all_of(places.begin(), places.end(),
-                         [&](const SurfacePlace& b) { return surface.sees(a, b); });
+                         [&](const SurfaceSupport& b) { return surface.sees(a, b); });
     });
     only_in_pairs += in_pairs && common.empty();
   }

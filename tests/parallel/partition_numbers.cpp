@@ -66,7 +66,7 @@ void check_sums(Owners owners, std::int64_t cells) {
     }
   message_counts::counts = {};
   std::int64_t start = 11;
-  const std::vector<std::int64_t> found = pnpbs::sums_before(*comm, cells, own, start);
+  const std::vector<std::int64_t> found = pnpbs::cell_prefix_sums(*comm, cells, own, start);
   const message_counts::Counts sent = message_counts::counts;
 
   comm->allreduce_sum(all);
@@ -127,7 +127,7 @@ void check_parts(int ranks, std::uint64_t seed) {
            number(seed, static_cast<std::uint64_t>(b.part * ranks + b.rank));
   });
   for (int part = 0; part < ranks; ++part) cells.push_back(part);
-  expect(pnpbs::relabelled(cells, kept, ranks) == ranks_by_table(table, ranks),
+  expect(pnpbs::renumbered_parts(cells, kept, ranks) == ranks_by_table(table, ranks),
          "ranks of " + std::to_string(ranks) + " parts");
 }
 

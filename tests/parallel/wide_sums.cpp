@@ -68,7 +68,7 @@ void check_running_sums() {
   for (std::int64_t cell = comm->rank(); cell < kCells; cell += comm->size())
     own.push_back({cell, kInCell});
   std::int64_t end = 0;
-  const std::vector<std::int64_t> before = pnpbs::sums_before(*comm, kCells, own, end);
+  const std::vector<std::int64_t> before = pnpbs::cell_prefix_sums(*comm, kCells, own, end);
   for (std::size_t k = 0; k < own.size(); ++k)
     expect(pnpbs::fraction_of(before[k]) == own[k].cell * kPart % (std::int64_t{1} << 32),
            "the fraction before cell " + std::to_string(own[k].cell));

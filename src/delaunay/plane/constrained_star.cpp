@@ -41,7 +41,7 @@ class GiftWrap {
   // Returns whether the reach is probably too small: there are many boundary nodes, no inner one,
   // and none whose circle with an edge of this node lies within reach. The relevant nodes are then
   // most likely farther away, and wrapping would take long to find that out.
-  bool looks_too_near() const {
+  bool reach_seems_too_short() const {
     constexpr std::size_t kMany = 64;
     if (inner_ > 0 || around_.size() <= kMany || everything_ || boundary_ < 0) return false;
     const std::int32_t edge = in_.sectors.begin(boundary_);
@@ -304,10 +304,10 @@ double constrained_star(const StarInput& input, std::int64_t i, double listed_re
                         double first_reach, std::vector<Entry>& star) {
   if (input.domain.is_in_patch(input.nodes.position(i))) return star_in_patch(input, i, star);
   const std::size_t before = star.size();
-  // Stops looks_too_near(), because a channel may contain boundary nodes only.
+  // Stops reach_seems_too_short(), because a channel may contain boundary nodes only.
   constexpr double kFar = 16;
   const auto found = [&](GiftWrap&& wrap, double reach) {
-    return (reach > kFar * first_reach || !wrap.looks_too_near()) && wrap.wrap(star);
+    return (reach > kFar * first_reach || !wrap.reach_seems_too_short()) && wrap.wrap(star);
   };
   if (listed_reach > 0 && found(GiftWrap(input, i, listed_reach), listed_reach)) return 0;
   for (double reach = first_reach;; reach *= 1.5) {

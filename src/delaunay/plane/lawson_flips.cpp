@@ -186,7 +186,7 @@ class StarRules {
 
   // Returns whether the edge to the neighbour at index `place` lies between two triangles and is
   // not locally Delaunay.
-  bool wants_flip(std::int64_t i, const Star& star, std::size_t place) const {
+  bool needs_flip(std::int64_t i, const Star& star, std::size_t place) const {
     const Entry right = star[before(star, place)], at = star[place];
     if (!right.flag() || !at.flag() || is_boundary_edge(i, at.value())) return false;
     const std::int64_t a = right.value(), b = at.value(), c = star[after(star, place)].value();
@@ -237,14 +237,14 @@ void begin_with_nearest(const StarRules& rules, DelaunayStars& stars, std::int64
   stars.begin_with(i, rules.nearest(i, [&](const auto& visit) { stars.for_neighbours(i, visit); }));
 }
 
-enum class Verdict : char { holds, wants_flips, is_broken };
+enum class Verdict : char { holds, needs_flips, is_broken };
 
 // Checks the star of node i. If it holds, the star is rotated to begin with the required neighbour.
 Verdict judge(const StarRules& rules, DelaunayStars& stars, std::int64_t i) {
   const Star star = star_of(stars, i);
   if (!rules.is_whole(i, star) || rules.turns_over(i, star)) return Verdict::is_broken;
   for (std::size_t k = 0; k < star.size(); ++k)
-    if (rules.wants_flip(i, star, k)) return Verdict::wants_flips;
+    if (rules.needs_flip(i, star, k)) return Verdict::needs_flips;
   begin_with_nearest(rules, stars, i);
   return Verdict::holds;
 }
@@ -285,7 +285,7 @@ class Flips {
       edges_.pop_back();
       const Star& star = star_to_change(i);
       const std::size_t place = place_in(star, j);
-      if (place < star.size() && rules_.wants_flip(i, star, place)) flip(i, place);
+      if (place < star.size() && rules_.needs_flip(i, star, place)) flip(i, place);
     }
   }
 
@@ -352,12 +352,12 @@ bool restore_by_flips(const Nodes<2>& nodes, const IncidentSectors& sectors, Del
   const StarRules rules(nodes, sectors);
   const std::vector<Verdict> verdicts = judge_all(nodes, rules, stars);
   if (std::count(verdicts.begin(), verdicts.end(), Verdict::is_broken) > 0) return false;
-  const auto flips = std::count(verdicts.begin(), verdicts.end(), Verdict::wants_flips);
+  const auto flips = std::count(verdicts.begin(), verdicts.end(), Verdict::needs_flips);
   if (flips == 0) return true;
   if (flips > nodes.count / kFewFlips) return false;
   Flips all(nodes, rules, stars);
   for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (verdicts[index(i)] == Verdict::wants_flips) all.look_at_edges_of(i);
+    if (verdicts[index(i)] == Verdict::needs_flips) all.look_at_edges_of(i);
   all.flip_all();
   all.write_stars();
   return true;

@@ -19,7 +19,7 @@ bool AgreedTriangles::found_by(std::int32_t node, std::int64_t a, std::int64_t b
   return false;
 }
 
-bool AgreedTriangles::collective_try(std::int64_t i, std::size_t k) const {
+bool AgreedTriangles::is_agreed(std::int64_t i, std::size_t k) const {
   const std::int32_t a = rings_.at(i, k).node, b = rings_.at(i, (k + 1) % rings_.size(i)).node;
   return found_by(a, b, i) && found_by(b, i, a);
 }
@@ -28,9 +28,7 @@ bool AgreedTriangles::collective_try(std::int64_t i, std::size_t k) const {
 void AgreedTriangles::find_gaps(std::int64_t i, std::vector<Gap>& gaps) const {
   gaps.clear();
   const std::size_t n = rings_.size(i);
-  const auto open = [&](std::size_t k) {
-    return rings_.at(i, k).triangle && !collective_try(i, k);
-  };
+  const auto open = [&](std::size_t k) { return rings_.at(i, k).triangle && !is_agreed(i, k); };
   for (std::size_t k = 0; k < n; ++k) {
     if (!open(k) || open((k + n - 1) % n)) continue;
     std::size_t end = (k + 1) % n;
@@ -117,7 +115,7 @@ void AgreedTriangles::of(std::int64_t i, std::vector<Others>& triangles) {
   triangles.clear();
   const std::size_t n = rings_.size(i);
   for (std::size_t k = 0; k < n; ++k)
-    if (rings_.at(i, k).triangle && collective_try(i, k))
+    if (rings_.at(i, k).triangle && is_agreed(i, k))
       triangles.push_back({rings_.at(i, k).node, rings_.at(i, (k + 1) % n).node});
   find_gaps(i, gaps_);
   for (const Gap& gap : gaps_)

@@ -35,7 +35,7 @@ class AgreedTriangles {
 
   bool found_by(std::int32_t node, std::int64_t a, std::int64_t b) const;
   // Returns whether both other corners of the k-th triangle of node i find the triangle, too.
-  bool collective_try(std::int64_t i, std::size_t k) const;
+  bool is_agreed(std::int64_t i, std::size_t k) const;
   void find_gaps(std::int64_t i, std::vector<Gap>& gaps) const;
   std::int32_t next_around_hole(std::int32_t node, std::int64_t from);
   bool walk_around_hole(std::int64_t i, const Gap& gap);

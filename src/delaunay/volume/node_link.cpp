@@ -75,7 +75,7 @@ NodeLink::NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedr
   open_at_.resize(ids.size());
   pieces_ = UnionFind<std::size_t>(ids.size());
   defects_ = counted_defects();
-  gains_of_disks_.assign(around.size(), kNotAsked);
+  gains_of_disks_.assign(around.size(), kNotCached);
   ids_ = std::move(ids);
 }
 
@@ -88,7 +88,7 @@ void NodeLink::flip(std::size_t place) {
 void NodeLink::change(std::size_t place) {
   flip(place);
   defects_ = counted_defects();
-  std::ranges::fill(gains_of_disks_, kNotAsked);
+  std::ranges::fill(gains_of_disks_, kNotCached);
 }
 
 int NodeLink::gain(std::initializer_list<std::size_t> places) {
@@ -100,7 +100,7 @@ int NodeLink::gain(std::initializer_list<std::size_t> places) {
 
 int NodeLink::gain_of_disks(std::size_t place) {
   int& gain = gains_of_disks_[place];
-  if (gain != kNotAsked) return gain;
+  if (gain != kNotCached) return gain;
   flip(place);
   gain = defects_of_disks() - disks_first(counted_defects());
   flip(place);
@@ -132,7 +132,7 @@ int NodeLink::euler_times_six(std::size_t place) const {
 NodeLink::Defects NodeLink::counted_defects() {
   constexpr Defects kNoFace{4, 0, 0};
   std::ranges::fill(open_at_, 0);
-  pieces_.part_all();
+  pieces_.separate_all();
   int open = 0, strays = 0, pieces = 0;
   for (const Edge& edge : edges_) {
     if (edge.used != 1) continue;

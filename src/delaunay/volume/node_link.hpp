@@ -90,7 +90,7 @@ class NodeLink {
     std::int32_t used;  // Number of elements at the face.
   };
 
-  static constexpr int kNotAsked = std::numeric_limits<int>::min();
+  static constexpr int kNotCached = std::numeric_limits<int>::min();
 
   void flip(std::size_t place);
   Defects counted_defects();
@@ -104,7 +104,7 @@ class NodeLink {
   std::vector<std::int32_t> open_at_;  // Number of open edges at each node of the link.
   UnionFind<std::size_t> pieces_{0};   // Nodes of the link, joined by open edges.
   Defects defects_;
-  std::vector<int> gains_of_disks_;  // Per tetrahedron around the node; kNotAsked if not cached.
+  std::vector<int> gains_of_disks_;  // Per tetrahedron around the node; kNotCached if not cached.
 };
 
 }  // namespace pnpbs

@@ -26,7 +26,7 @@ struct SurfaceStarInput {
   const KnownRegion<3>& known;
   const Surface& surface;
   const FeatureNodes& features;
-  std::function<SurfacePlace(std::int64_t)> place;  // Surface point of a node.
+  std::function<SurfaceSupport(std::int64_t)> place;  // Surface point of a node.
 };
 
 class SurfaceRings {

@@ -64,7 +64,7 @@ class FoundElements {
 
 // Numbers nodes in the order of their addition. It is a hash table by the last bits of the index,
 // which usually differ for nodes near each other.
-class PlacesOfNodes {
+class NodeNumbers {
  public:
   void clear() {
     count_ = 0;
@@ -266,7 +266,7 @@ class StarWriter {
   VolumeStar star_;
   FoundElements found_elements_;
   std::vector<std::int32_t> candidates_, found_;  // Indices of nodes.
-  PlacesOfNodes places_;                          // Numbers of the candidates.
+  NodeNumbers places_;                            // Numbers of the candidates.
 };
 
 }  // namespace

@@ -112,14 +112,14 @@ class VolumeStars {
   // Calls visit(places) for the tetrahedra around node i, with the indices of their other corners
   // among its neighbours. The node must have at most kMaxPlaces neighbours.
   template <class Visit>
-  void for_triangles_of_places(std::int64_t i, const Visit& visit) const {
+  void for_triangles_of_indices(std::int64_t i, const Visit& visit) const {
     const Star star = star_of(i);
     for (const std::int32_t* t = star.first + star.neighbours; t < star.last; ++t)
       visit(places_in(*t));
   }
   // Returns whether the triangle is certainly in the star. The smallest index must come first.
   // Returns false for a star of more than kMaxPlaces neighbours.
-  bool has_triangle_of_places(std::int64_t i, const Corners& places) const {
+  bool has_triangle_of_indices(std::int64_t i, const Corners& places) const {
     const Star star = star_of(i);
     return !star.wide &&
            std::find(star.first + star.neighbours, star.last, pack(places)) != star.last;
@@ -154,13 +154,13 @@ class VolumeStars {
 
   // Three indices among at most kMaxPlaces neighbours are packed into one number. For larger stars,
   // each triangle is stored as three nodes.
-  static constexpr int kPlaceBits = 10;
-  static constexpr std::int32_t kMaxPlaces = 1 << kPlaceBits;
+  static constexpr int kIndexBits = 10;
+  static constexpr std::int32_t kMaxPlaces = 1 << kIndexBits;
   static std::int32_t header(std::size_t neighbours, bool closed) {
     return static_cast<std::int32_t>(2 * neighbours + (closed ? 1 : 0));
   }
   static std::int32_t pack(const Corners& places) {
-    return places[0] | places[1] << kPlaceBits | places[2] << 2 * kPlaceBits;
+    return places[0] | places[1] << kIndexBits | places[2] << 2 * kIndexBits;
   }
 
  private:
@@ -180,7 +180,7 @@ class VolumeStars {
   }
   static Corners places_in(std::int32_t packed) {
     constexpr std::int32_t kMask = kMaxPlaces - 1;
-    return {packed & kMask, packed >> kPlaceBits & kMask, packed >> 2 * kPlaceBits};
+    return {packed & kMask, packed >> kIndexBits & kMask, packed >> 2 * kIndexBits};
   }
   static Corners unpack(const Star& star, std::int32_t packed) {
     const Corners places = places_in(packed);

@@ -82,12 +82,13 @@ struct EdgePlace {
   std::int32_t step;
 };
 
-class Layer {
+class BoundaryDiscretizer {
  public:
-  Layer(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing, std::int64_t max_nodes)
+  BoundaryDiscretizer(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing,
+                      std::int64_t max_nodes)
       : domain_(domain), spacing_(spacing) {
     for (const BoundaryCurve& curve : domain.curves()) tracks_.emplace_back(curve);
-    stations_ = lay_equal_steps(tracks_, spacing, max_nodes);
+    stations_ = equal_step_stations(tracks_, spacing, max_nodes);
     if (domain.closing()) leave_one_triangle();
     inner_points_.resize(tracks_.size());
     for (std::size_t c = 0; c < tracks_.size(); ++c) inner_points_[c] = points_between(c);
@@ -97,13 +98,13 @@ class Layer {
   Boundary run() {
     for (int round = 0;; ++round) {
       assemble();
-      const std::vector<std::int32_t> bad = edges_that_mislead();
+      const std::vector<std::int32_t> bad = inconsistent_edges();
       if (bad.empty()) break;
       if (round == kMaxRounds || !halve(bad)) reject(bad);
     }
     warn_of_halved_edges();
     ask_spacing();
-    refuse_far_too_fine();
+    require_resolvable_boundary();
     warn_of_short_edges();
     warn_of_close_edges();
     warn_of_close_fixed_nodes();
@@ -171,7 +172,7 @@ class Layer {
 
   // ------------------------------------------------------------ check of the edges
   // Returns the edges that cross others or that have nodes on the wrong side.
-  std::vector<std::int32_t> edges_that_mislead() const {
+  std::vector<std::int32_t> inconsistent_edges() const {
     const SweepResult sweep = sweep_plane(positions_, ends_);
     std::vector<std::int32_t> bad;
     for (const SweepConflict& conflict : sweep.conflicts) {
@@ -301,7 +302,7 @@ class Layer {
   // Throws Error(ErrorKind::spacing) if edges are so much shorter than d that inner nodes would see
   // far too many of them. Beyond this sum a run would take more than about a minute, or too much
   // memory.
-  void refuse_far_too_fine() const {
+  void require_resolvable_boundary() const {
     constexpr double kFine = 32, kMax = 3e7;
     // Weight of edges when d leaves no room for inner nodes: each boundary node is then tested
     // against all others, often with exact arithmetic.
@@ -451,7 +452,7 @@ std::vector<double> bubbles_on_boundary(const Boundary& boundary) {
 
 Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing,
                              std::int64_t max_nodes) {
-  return Layer(domain, spacing, max_nodes).run();
+  return BoundaryDiscretizer(domain, spacing, max_nodes).run();
 }
 
 }  // namespace pnpbs

@@ -22,7 +22,7 @@ struct Boundary : BoundaryMesh<2> {
 };
 
 // Places nodes on each curve between corners at equal steps of the integral of ds/d (see
-// lay_equal_steps). The paper's repeated bisection (section 2.1) has the same result.
+// equal_step_stations). The paper's repeated bisection (section 2.1) has the same result.
 // The edges must divide the plane as the curves do. Edges whose chord crosses another edge, or
 // passes a node on the wrong side, are therefore halved on their curve until none does; a warning
 // names the curve.

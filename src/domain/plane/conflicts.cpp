@@ -62,7 +62,7 @@ class Conflicts {
   }
   MessageText text_of_region_point_on(std::int32_t point, const std::string& name) const {
     const std::size_t k = static_cast<std::size_t>(point) - swept_.graph.vertices.size();
-    return name_and_place<2>(swept_.region_points[k]) + " lies on " + name +
+    return name_and_position<2>(swept_.region_points[k]) + " lies on " + name +
            ": move it into the region it stands for";
   }
 

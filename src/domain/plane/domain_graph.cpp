@@ -109,7 +109,7 @@ class Joiner {
                          if (other == p || root_[other] != other || is_mere_sample(other)) return;
                          if (other > p && !is_mere_sample(p)) return;
                          const bool end = given_[p].curve_end || given_[other].curve_end;
-                         const double same = end ? kSameCurveEnd : kSamePlace;
+                         const double same = end ? kSameCurveEnd : kSamePoint;
                          if (distance > same * graph_.size) return;
                          nearest = std::min(nearest, {distance, other});
                        });
@@ -199,7 +199,7 @@ class Joiner {
     const Point<2>& a = graph_.vertices[ends[0]].position;
     const Point<2>& b = graph_.vertices[ends[1]].position;
     Stops stops;
-    tree.for_each_near(a, b, kSamePlace * graph_.size, [&](std::int32_t which, double) {
+    tree.for_each_near(a, b, kSamePoint * graph_.size, [&](std::int32_t which, double) {
       const std::int32_t vertex = splitting_[which];
       if (vertex == ends[0] || vertex == ends[1]) return;
       const Point<2>& p = graph_.vertices[vertex].position;

@@ -70,10 +70,10 @@ std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(source.points.size()); ++i) {
       const bool end = source.ends_at(i);
       if (source.kind == Kind::smooth && !end) continue;
-      result.push_back({source.points[i], (end ? kSameCurveEnd : kSamePlace) * size});
+      result.push_back({source.points[i], (end ? kSameCurveEnd : kSamePoint) * size});
     }
   }
-  for (const FixedNode<2>& node : fixed_nodes) result.push_back({node.position, kSamePlace * size});
+  for (const FixedNode<2>& node : fixed_nodes) result.push_back({node.position, kSamePoint * size});
   return result;
 }
 
@@ -231,7 +231,7 @@ class Resolver {
     region_tags_ = tags_of_parts(region_points_, face_of, inside_, result_.warnings);
     number_inner_faces();
     keep_edges();
-    place_lone_vertices();
+    add_isolated_vertices();
     make_curves();
     make_corners();
     const Extent extent = extent_of(result_.curves);
@@ -267,7 +267,7 @@ class Resolver {
     return sources_[graph_.edges[edge].source].segment_name(graph_.edges[edge].segment);
   }
 
-  MessageText name_and_place(std::int32_t vertex) const {
+  MessageText name_and_position(std::int32_t vertex) const {
     return vertex_name(graph_.vertices[vertex], sources_, fixed_nodes_) + " " +
            point_text(points_[vertex]);
   }
@@ -286,7 +286,7 @@ class Resolver {
     const auto open = std::find(odd.begin(), odd.end(), 1);
     if (open == odd.end()) return;
     reject_domain("the boundary is not closed: it ends at " +
-                  name_and_place(static_cast<std::int32_t>(open - odd.begin())));
+                  name_and_position(static_cast<std::int32_t>(open - odd.begin())));
   }
 
   bool is_boundary(std::size_t edge) const {
@@ -308,7 +308,7 @@ class Resolver {
     for (std::size_t v = 0; v < graph_.vertices.size(); ++v) {
       if (graph_.vertices[v].degree != 1) continue;
       reject_domain("the segments enclose nothing: they end at " +
-                    name_and_place(static_cast<std::int32_t>(v)));
+                    name_and_position(static_cast<std::int32_t>(v)));
     }
     reject_domain("the segments enclose nothing");
   }
@@ -355,7 +355,7 @@ class Resolver {
 
   // Adds fixed nodes that lie on no curve, and vertices of graphs without segments, to the fixed
   // nodes.
-  void place_lone_vertices() {
+  void add_isolated_vertices() {
     std::vector<std::string> unused, outside;
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(graph_.vertices.size()); ++v) {
       const GraphVertex& vertex = graph_.vertices[v];

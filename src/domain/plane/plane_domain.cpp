@@ -142,15 +142,16 @@ void PlaneDomain::add_great_circles(CurveRole role, bool closed,
   const std::vector<std::int64_t> kept = apart(vertices, closed);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const bool is_last = k + 1 == kept.size();
-    add_way(source, vertices, given_tags, kept[k], is_last ? (closed ? kept[0] : -1) : kept[k + 1]);
+    add_great_circle_arc(source, vertices, given_tags, kept[k],
+                         is_last ? (closed ? kept[0] : -1) : kept[k + 1]);
   }
   add_source(std::move(source));
 }
 
 // Adds vertex v, and the arc from it to vertex next_v unless that is negative.
-void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vertices,
-                          const std::vector<std::int32_t>& tags, std::int64_t v,
-                          std::int64_t next_v) const {
+void PlaneDomain::add_great_circle_arc(CurveSource& source, const std::vector<Point<3>>& vertices,
+                                       const std::vector<std::int32_t>& tags, std::int64_t v,
+                                       std::int64_t next_v) const {
   const auto place = [&](std::int64_t i) { return vertices[static_cast<std::size_t>(i)]; };
   const auto add = [&](const Point<2>& u, bool on_the_way) {
     source.points.push_back(u);
@@ -165,14 +166,14 @@ void PlaneDomain::add_way(CurveSource& source, const std::vector<Point<3>>& vert
   if (angle_between(place(v), next) > kNearlyOpposite)
     reject("vertices " + vertex_text(v, place(v)) + " and " + vertex_text(next_v, next) +
            " are opposite points of the sphere: no way between them is the shortest");
-  if (angle_to_way(embedding_.chart().projected_from(), place(v), next) < kSame)
+  if (angle_to_arc(embedding_.chart().projection_centre(), place(v), next) < kSame)
     reject("vertex " + vertex_text(v, place(v)) +
            ", or the way from it to the next: the point that is named as outside of the domain "
            "lies on the curve");
   add(embedding_.chart().in_chart(place(v)), false);
   if (next_v < 0) return;
   add_segment();
-  for (const Point<2>& u : points_on_the_way(embedding_.chart(), place(v), next)) {
+  for (const Point<2>& u : points_on_arc(embedding_.chart(), place(v), next)) {
     add(u, true);
     add_segment();
   }
@@ -285,7 +286,7 @@ void PlaneDomain::for_given_points(const Visit& visit) const {
   for (std::size_t f = 0; f < nodes; ++f) visit(given_nodes_[f].position);
 }
 
-void PlaneDomain::reject_what_is_in(const ClosingPatch& patch) const {
+void PlaneDomain::require_patch_empty(const ClosingPatch& patch) const {
   const auto require_outside = [&](const Point<2>& u) {
     if (dot(u, u) < patch.edge * patch.edge) return;
     reject_domain(
@@ -310,7 +311,7 @@ void PlaneDomain::close(const ClosingPatch& patch) {
   }
   open_sources_ = sources_.size();
   open_nodes_ = given_nodes_.size();
-  reject_what_is_in(patch);
+  require_patch_empty(patch);
   constexpr double kEachIsACorner = 0;  // degrees
   add_great_circles(CurveRole::boundary, true, {patch.rim.begin(), patch.rim.end()}, nullptr,
                     kEachIsACorner);
@@ -377,7 +378,7 @@ double area_on_sphere(const PlaneDomain& domain) {
     if (!curve.bounds()) continue;
     double beside = 0;
     for (std::size_t p = 0; p + 1 < curve.points.size(); ++p)
-      beside += area_beside(curve.points[p], curve.points[p + 1], radius);
+      beside += chart_area_term(curve.points[p], curve.points[p + 1], radius);
     area += curve.left_inside ? beside : -beside;
   }
   return area;

@@ -164,12 +164,13 @@ class PlaneDomain : public DomainBase<2> {
 
  private:
   void add_source(CurveSource source);
-  void add_way(CurveSource& source, const std::vector<Point<3>>& vertices,
-               const std::vector<std::int32_t>& tags, std::int64_t v, std::int64_t next_v) const;
+  void add_great_circle_arc(CurveSource& source, const std::vector<Point<3>>& vertices,
+                            const std::vector<std::int32_t>& tags, std::int64_t v,
+                            std::int64_t next_v) const;
 
   void check_open_sphere();
   void follow_patch();
-  void reject_what_is_in(const ClosingPatch& patch) const;
+  void require_patch_empty(const ClosingPatch& patch) const;
   template <class Visit>
   void for_given_points(const Visit& visit) const;
   bool has_boundary_curve() const;

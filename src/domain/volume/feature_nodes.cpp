@@ -72,7 +72,7 @@ std::vector<LargePiece> largest_triangles(const BoundaryMesh<3>& mesh, const Fea
 }
 
 // Appends the points of a lattice on the piece.
-void append_places(const LargePiece& piece, std::vector<Point<3>>& places) {
+void append_lattice_points(const LargePiece& piece, std::vector<Point<3>>& places) {
   for (int i = 0; i <= kParts; ++i)
     for (int j = 0; i + j <= kParts; ++j) {
       const std::array<double, 3> share{double(i) / kParts, double(j) / kParts,
@@ -88,7 +88,7 @@ void append_places(const LargePiece& piece, std::vector<Point<3>>& places) {
 std::vector<double> largest_spacings(const std::vector<LargePiece>& pieces,
                                      const SpacingEvaluator<3>& spacing) {
   std::vector<Point<3>> places;
-  for (const LargePiece& piece : pieces) append_places(piece, places);
+  for (const LargePiece& piece : pieces) append_lattice_points(piece, places);
   std::vector<double> d(places.size());
   if (!places.empty()) spacing(std::ssize(places), places.data(), d.data());
   std::vector<double> largest;
@@ -201,15 +201,15 @@ bool FeatureNodes::joined(std::int32_t a, std::int32_t b) const {
   });
 }
 
-FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
-                               const SpacingEvaluator<3>& spacing, const NodeLimit& limit) {
+FeatureNodes place_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
+                                 const SpacingEvaluator<3>& spacing, const NodeLimit& limit) {
   require_few_on_large_facets(mesh, features, spacing, limit);
   const std::vector<std::vector<Point<3>>> lines = polylines(mesh, features);
   std::vector<PolylineTrack<3>> tracks;
   for (std::size_t c = 0; c < lines.size(); ++c)
     tracks.emplace_back(lines[c], features.curves[c].closed());
   const std::vector<std::vector<double>> stations =
-      lay_equal_steps(tracks, spacing, limit.max_nodes);
+      equal_step_stations(tracks, spacing, limit.max_nodes);
   FeatureNodes found;
   for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(features.corners.size());
        ++corner) {
@@ -249,7 +249,7 @@ CreaseAtNode crease_at(const ResolvedVolume& volume, const FeatureNode& node) {
 
 }  // namespace
 
-void put_on_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach) {
+void project_to_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach) {
   constexpr double kAside = 0.2;  // [resolution of the level set]
   if (volume.level_sets.creases.empty()) return;
   for (const auto& set : volume.level_sets.sets) {

@@ -42,13 +42,13 @@ struct FeatureNodes {
 // Places n = max(1, round(integral)) steps on each curve, and at least 3 on closed ones. Evaluates
 // d on the curves and at a few points of the largest triangles. Throws Error(ErrorKind::spacing) or
 // Error(ErrorKind::memory) if the limit does not allow that many nodes.
-FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
-                               const SpacingEvaluator<3>& spacing,
-                               const NodeLimit& limit = (std::int64_t{1} << 31) - 2);
+FeatureNodes place_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
+                                 const SpacingEvaluator<3>& spacing,
+                                 const NodeLimit& limit = (std::int64_t{1} << 31) - 2);
 
 // Moves nodes on the feature curves of level sets from the chords between mesh vertices to the true
 // edges of the level set. A node stays if no edge is found within `reach`.
-void put_on_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach);
+void project_to_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach);
 
 // Returns the unit gradients of f on both sides of a node on an edge of a level set; zeros for
 // other nodes.

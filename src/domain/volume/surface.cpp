@@ -68,17 +68,17 @@ void Surface::find_normals() {
   });
 }
 
-std::span<const SurfaceSide> Surface::feature_sides(const SurfacePlace& place) const {
-  return (place.on == SurfacePlace::On::edge ? edge_sides_ : corner_sides_).of(place.index);
+std::span<const SurfaceSide> Surface::feature_sides(const SurfaceSupport& place) const {
+  return (place.on == SurfaceSupport::On::edge ? edge_sides_ : corner_sides_).of(place.index);
 }
 
-bool Surface::sees(const SurfacePlace& a, const SurfacePlace& b) const {
+bool Surface::sees(const SurfaceSupport& a, const SurfaceSupport& b) const {
   bool seen = false;
   for_sides(a, [&](const SurfaceSide& side) { seen = seen || sees(side, b); });
   return seen;
 }
 
-bool Surface::sees(const SurfaceSide& side, const SurfacePlace& b, double least_cosine) const {
+bool Surface::sees(const SurfaceSide& side, const SurfaceSupport& b, double least_cosine) const {
   bool seen = false;
   for_sides(b, [&](const SurfaceSide& other) {
     seen = seen || (side.patch == other.patch && dot(side.normal, other.normal) > least_cosine);
@@ -86,13 +86,14 @@ bool Surface::sees(const SurfaceSide& side, const SurfacePlace& b, double least_
   return seen;
 }
 
-bool Surface::share_patch(std::span<const SurfacePlace> places, double least_cosine) const {
-  return std::all_of(places.begin(), places.end(), [&](const SurfacePlace& from) {
+bool Surface::share_patch(std::span<const SurfaceSupport> places, double least_cosine) const {
+  return std::all_of(places.begin(), places.end(), [&](const SurfaceSupport& from) {
     bool all_seen = false;
     for_sides(from, [&](const SurfaceSide& side) {
-      all_seen = all_seen || std::all_of(places.begin(), places.end(), [&](const SurfacePlace& to) {
-                   return &to == &from || sees(side, to, least_cosine);
-                 });
+      all_seen =
+          all_seen || std::all_of(places.begin(), places.end(), [&](const SurfaceSupport& to) {
+            return &to == &from || sees(side, to, least_cosine);
+          });
     });
     return all_seen;
   });

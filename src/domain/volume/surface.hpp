@@ -22,7 +22,7 @@ struct SurfacePoint {
 
 // The part of a surface that carries a node: a facet, a feature edge or a corner. `index` refers to
 // the mesh's facets, to the feature edges or to Features::corners.
-struct SurfacePlace {
+struct SurfaceSupport {
   enum class On : std::int8_t { facet, edge, corner };
   On on;
   std::int32_t index;
@@ -53,8 +53,8 @@ class Surface {
 
   // Calls visit(side) for each side around a node's location.
   template <class Visit>
-  void for_sides(const SurfacePlace& place, const Visit& visit) const {
-    if (place.on == SurfacePlace::On::facet) {
+  void for_sides(const SurfaceSupport& place, const Visit& visit) const {
+    if (place.on == SurfaceSupport::On::facet) {
       visit(SurfaceSide{patch(place.index), normal(place.index), {}, {}});
       return;
     }
@@ -64,13 +64,13 @@ class Surface {
   // Returns true if nodes at a and b interact: they share a patch, and its normals there differ by
   // less than 90 degrees. Up to that angle the patch is a graph over its tangent plane; the two
   // sheets of a thin body covered by one patch do not see each other.
-  bool sees(const SurfacePlace& a, const SurfacePlace& b) const;
+  bool sees(const SurfaceSupport& a, const SurfaceSupport& b) const;
   // Does the same for one side of a location. `least_cosine` bounds the cosine of the angle.
-  bool sees(const SurfaceSide& side, const SurfacePlace& b, double least_cosine = 0) const;
+  bool sees(const SurfaceSide& side, const SurfaceSupport& b, double least_cosine = 0) const;
   // Returns true if each location has a side that sees all the others. At a corner between three
   // patches each two locations may share a patch, but not all of them the same one. `least_cosine`
   // bounds the cosine of the angle between normals.
-  bool share_patch(std::span<const SurfacePlace> places, double least_cosine = 0) const;
+  bool share_patch(std::span<const SurfaceSupport> places, double least_cosine = 0) const;
 
   // Returns the distance to the nearest feature of the patch, or `reach` if that is smaller.
   double feature_clearance(const SurfacePoint& at, double reach) const;
@@ -82,7 +82,7 @@ class Surface {
   };
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-  std::span<const SurfaceSide> feature_sides(const SurfacePlace& place) const;
+  std::span<const SurfaceSide> feature_sides(const SurfaceSupport& place) const;
   const Point<3>& position(std::int32_t mesh_node) const {
     return mesh_->nodes[index(mesh_node)].position;
   }

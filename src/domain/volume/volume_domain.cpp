@@ -96,7 +96,8 @@ std::vector<double> likely_distances(const LevelSet& set, const Middles& middles
   const std::span<const Point<3>> points = middles.points, normals = middles.normals;
   for (std::size_t begin = 0; begin < points.size(); begin += kPointsAtOnce) {
     const std::size_t n = std::min(kPointsAtOnce, points.size() - begin);
-    for (const double way : set.ways_along(points.subspan(begin, n), normals.subspan(begin, n)))
+    for (const double way :
+         set.distances_along(points.subspan(begin, n), normals.subspan(begin, n)))
       distances.push_back(way <= set.resolution() ? way
                                                   : set.resolution());  // also if `way` is NaN
   }
@@ -117,7 +118,7 @@ double distance_to_triangles(const ResolvedVolume& volume, const LevelSet& set) 
   return largest_distance(far, [&](std::size_t k) { return projected[k]; });
 }
 
-// Returns the largest distance by which put_on_creases() moves midpoints of feature edges.
+// Returns the largest distance by which project_to_creases() moves midpoints of feature edges.
 double distance_to_creases(const ResolvedVolume& volume) {
   const Features& features = volume.features;
   FeatureNodes middles;
@@ -133,7 +134,7 @@ double distance_to_creases(const ResolvedVolume& volume) {
                                curve.first_edge + static_cast<std::int32_t>(e)});
     }
   }
-  put_on_creases(volume, middles, std::numeric_limits<double>::infinity());
+  project_to_creases(volume, middles, std::numeric_limits<double>::infinity());
   return largest_distance(before, [&](std::size_t k) { return middles.nodes[k].position; });
 }
 

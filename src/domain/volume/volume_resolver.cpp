@@ -169,7 +169,7 @@ class Resolver {
     require_triangles_of_all();
     if (filled_) {
       find_roles_of_dividing(surface_);
-      find_roles_by_place(surface_);
+      find_roles_by_location(surface_);
     }
     require_boundary();
     SurfaceEdges edges(surface_);
@@ -179,12 +179,12 @@ class Resolver {
     tree_ = tree_of(surface_);
     reject_crossings(surface_, tree_);
     segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
-    check_segments(segments_, surface_, tree_, kSamePlace * size_);
+    check_segments(segments_, surface_, tree_, kSamePoint * size_);
     regions_.emplace(surface_, edges, tree_);
     inside_ = inside_by_parity(surface_, *regions_);
     result_.wound_once = is_wound_once();
     turn_outwards();
-    heed_region_points();
+    apply_region_points();
     make_mesh();
     find_features_of(surfaces_, result_);
   }
@@ -336,15 +336,15 @@ class Resolver {
     const RegionPoint<3>& it = region_points_[k];
     const std::int32_t on = triangle_at(it.point);
     if (on >= 0)
-      reject_domain(name_and_place<3>(it) + " lies on " + surface_.triangle_name(on) +
+      reject_domain(name_and_position<3>(it) + " lies on " + surface_.triangle_name(on) +
                     ": move it into the region it stands for");
     return regions_->around(it.point);
   }
 
-  void heed_region_points() {
+  void apply_region_points() {
     const auto given = std::ranges::find(region_points_, false, &RegionPoint<3>::from_file);
     if (!filled_ && given != region_points_.end())
-      reject_domain(name_and_place<3>(*given) +
+      reject_domain(name_and_position<3>(*given) +
                     ": a domain of surfaces alone has no inside, of which to take out or tag any");
     if (!filled_) return;
     const auto region_of = [this](std::size_t k) { return region_of_point(k); };
@@ -354,7 +354,7 @@ class Resolver {
 
   // Returns the first triangle within the tolerance of the point, or -1.
   std::int32_t triangle_at(const Point<3>& x) const {
-    const double reach = kSamePlace * size_;
+    const double reach = kSamePoint * size_;
     std::int32_t found = -1;
     tree_.for_near(
         x, [&] { return reach * reach; },
@@ -493,7 +493,7 @@ class Resolver {
   }
 
   void reject_on_segment(const FixedNode<3>& node, const BoxTree<3>& segments) const {
-    const double reach = kSamePlace * size_;
+    const double reach = kSamePoint * size_;
     segments.for_near(
         node.position, [&] { return reach * reach; },
         [&](std::int32_t s) {

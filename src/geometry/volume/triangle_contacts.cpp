@@ -147,7 +147,7 @@ constexpr double kTouching = 1e-9;  // Largest gap due to rounding. [length of t
 
 // Returns a corner of only one triangle, or a point where edges without a common corner intersect;
 // if there is neither, a common corner.
-Point<3> place_of_contact(const FacetCorners<3>& a, const FacetCorners<3>& b) {
+Point<3> contact_point(const FacetCorners<3>& a, const FacetCorners<3>& b) {
   if (const auto corner = corner_in_contact(a, b)) return *corner;
   const auto common = std::find_first_of(a.begin(), a.end(), b.begin(), b.end());
   Point<3> place = common != a.end() ? *common : a[0];
@@ -239,12 +239,12 @@ Contact contact_of(const FacetCorners<3>& a, const FacetCorners<3>& b) {
     }
   const bool flat = std::all_of(
       b.begin(), b.end(), [&](const Point<3>& x) { return orientation(a[0], a[1], a[2], x) == 0; });
-  return {flat ? Contact::Kind::overlap : Contact::Kind::touch, place_of_contact(a, b)};
+  return {flat ? Contact::Kind::overlap : Contact::Kind::touch, contact_point(a, b)};
 }
 
 Point<3> meeting_point(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {
   if (ends_are_apart(p, q, triangle)) return crossing_point(p, q, triangle);
-  return place_of_contact({p, q, q}, triangle);
+  return contact_point({p, q, q}, triangle);
 }
 
 }  // namespace pnpbs

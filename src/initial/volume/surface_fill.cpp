@@ -340,7 +340,7 @@ std::vector<Pieces> cell_by_cell(const std::vector<SurfacePiece>& pieces) {
 
 // Returns, for each patch that meets cells of this rank, one entry without a cell and then one
 // entry per cell with pieces.
-std::vector<PiecesInCell> what_to_sum(const std::vector<PatchPieces>& patches) {
+std::vector<PiecesInCell> entries_to_sum(const std::vector<PatchPieces>& patches) {
   std::vector<PiecesInCell> found;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     if (!patches[p].met) continue;
@@ -396,7 +396,7 @@ std::vector<SurfacePoint> surface_fill(const Communicator& comm, const Surface& 
                                        const RankCells& cells) {
   const std::vector<PatchPieces> patches = cut_to_pieces(comm, surface, spacing, limit, cells);
   const std::vector<PatchSums> sums =
-      sums_over_patches(comm, surface.features().patches, what_to_sum(patches));
+      sums_over_patches(comm, surface.features().patches, entries_to_sum(patches));
   const std::vector<std::vector<std::int32_t>> facets = facets_of_patches(surface.features());
   std::vector<SurfacePoint> nodes;
   auto sum = sums.begin();

@@ -116,7 +116,7 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps, const StopT
     const PhaseTimer timer(level.timers, Phase::sweeps);
     std::vector<std::int32_t> surplus;
     collective_try(*level.comm, [&] {
-      if (done == 0 && repairs) surplus = take_out_surplus_nodes(level.nodes, level.stars);
+      if (done == 0 && repairs) surplus = remove_surplus_nodes(level.nodes, level.stars);
     });
     sweep_to_means(level, std::min(kBlock, sweeps - done));
     const bool last = done + kBlock >= sweeps;

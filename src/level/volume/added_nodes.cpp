@@ -17,7 +17,7 @@ std::int64_t add_nodes(Level<3>& level, IncomingNodes<3> more) {
   IncomingNodes<3> inner, laid;
   for (const IncomingNode<3>& node : more) (node.is_inner() ? inner : laid).push_back(node);
   find_leaves(level, inner);
-  sort_by_place(level, inner);
+  sort_by_leaf(level, inner);
   number_and_store(level, std::move(inner), BoundaryNodes<3>(std::move(laid)));
   return added;
 }

@@ -25,7 +25,7 @@ bool is_free(const Level<3>& level, std::int64_t i) {
 // it. All ranks must call it, and if one rank throws, all ranks throw.
 std::vector<char> nodes_off(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);
-  const std::set<std::int64_t> extra = pieces_too_many(level, pieces);
+  const std::set<std::int64_t> extra = surplus_pieces(level, pieces);
   std::vector<char> off(static_cast<std::size_t>(level.nodes.count), 0);
   collective_try(*level.comm, [&] {
     for_each("pnpbs::nodes_off", level.nodes.count, [&](std::int64_t i) {

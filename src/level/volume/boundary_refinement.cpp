@@ -43,7 +43,7 @@ struct SurfaceBall {
 
 // The defects that refinement must reduce: boundary faces with inner nodes, and nodes without a
 // disk.
-struct Strays {
+struct BoundaryDefects {
   std::vector<SurfaceBall> balls;
   std::uint64_t count = 0;
 };
@@ -100,7 +100,7 @@ std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corne
 }
 
 // Adds the defects at node i. A face is counted at its node with the smallest id.
-void add_strays_at(const Level<3>& level, std::int64_t i, Strays& strays) {
+void add_strays_at(const Level<3>& level, std::int64_t i, BoundaryDefects& strays) {
   const Nodes<3>& nodes = level.nodes;
   const FaceFan fan = open_faces(level, i);
   const auto is_free = [&](std::int64_t j) { return nodes.carrier(j) == Carrier::free; };
@@ -135,8 +135,8 @@ bool has_strays(const Level<3>& level, std::int64_t i) {
          lacks_disks(level, i, fan);
 }
 
-Strays strays_of_own(const Level<3>& level) {
-  Strays strays;
+BoundaryDefects strays_of_own(const Level<3>& level) {
+  BoundaryDefects strays;
   for (const std::int64_t i : indices_where("pnpbs::strays_of_own", level.nodes.count,
                                             [&](std::int64_t k) { return has_strays(level, k); }))
     add_strays_at(level, i, strays);
@@ -148,7 +148,7 @@ Strays strays_of_own(const Level<3>& level) {
 bool is_taken(const Level<3>& level, const IncomingNode<3>& middle, double radius) {
   const Nodes<3>& nodes = level.nodes;
   const LevelGeometry<3>& geometry = level.geometry;
-  const SurfacePlace at = geometry.place(middle.carrier, middle.boundary_node);
+  const SurfaceSupport at = geometry.place(middle.carrier, middle.boundary_node);
   const Buckets<3>& buckets = level.neighbourhood.buckets();
   bool taken = false;
   buckets.for_neighbours(level.tree->tree().leaf_at(middle.position), [&](std::int32_t b) {
@@ -192,9 +192,9 @@ IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>
 
 // Returns the defects at the owned nodes. All ranks must call it, and if one rank throws, all ranks
 // throw.
-Strays find_strays(Level<3>& level) {
+BoundaryDefects find_strays(Level<3>& level) {
   const PhaseTimer timer(level.timers, Phase::conformity);
-  Strays own;
+  BoundaryDefects own;
   collective_try(*level.comm, [&] { own = strays_of_own(level); });
   return own;
 }
@@ -218,7 +218,7 @@ std::int64_t add_boundary_nodes(Level<3>& level) {
   for (int round = 0; round < method::kMaxBallRounds; ++round) {
     make_finish_stars(level, {});
     settle_elements(level, kQuickRounds);
-    const Strays own = find_strays(level);
+    const BoundaryDefects own = find_strays(level);
     const std::uint64_t strays = level.comm->allreduce_sum(own.count);
     if (strays == 0 || (round >= method::kBallRoundsAnyway && strays >= std::max(before, kFew)))
       break;

@@ -89,9 +89,10 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   constexpr double kFewNodes = 1000;  // small bodies need no limit
   const double most_in_vain =
       method::kMaxInVain * std::max(kFewNodes, static_cast<double>(sum(level.owned_count())));
-  std::uint64_t in_vain = 0;
+  std::uint64_t failed_attempts = 0;
   for (std::int64_t round = 0; round < rule.rounds; ++round) {
-    if (sum(repair.slivers(below)) == 0 || static_cast<double>(in_vain) > most_in_vain) break;
+    if (sum(repair.slivers(below)) == 0 || static_cast<double>(failed_attempts) > most_in_vain)
+      break;
     collective_try(*level.comm, [&] { repair.draw(round, below); });
     if (level.distributed()) {
       const auto draws = level.ghosts.tell<SliverDraw>(
@@ -100,7 +101,7 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
       collective_try(*level.comm, [&] { repair.take(draws); });
     }
     collective_try(*level.comm, [&] { repair.move(); });
-    in_vain += sum(repair.in_vain());
+    failed_attempts += sum(repair.failed_attempts());
     if (!level.distributed()) continue;
     const auto news =
         level.ghosts.tell<ChangedTetrahedron>(*level.comm, level.nodes, repair.moved_nodes(),

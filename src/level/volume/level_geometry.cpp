@@ -14,8 +14,8 @@ LevelGeometry<3>::LevelGeometry(std::shared_ptr<const VolumeDomain> domain,
       spacing_(std::move(spacing)),
       bounds_(widened(domain_->bounds(), domain_->mesh().node_distance)),
       surface_(domain_->mesh(), domain_->features()) {
-  features_ = lay_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), limit);
-  put_on_creases(domain_->resolved(), features_, boundary().node_distance);
+  features_ = place_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), limit);
+  project_to_creases(domain_->resolved(), features_, boundary().node_distance);
   const Features& features = domain_->features();
   patch_bounds_.assign(index(features.patches), 0);
   for (std::size_t f = 0; f < features.patch.size(); ++f)
@@ -29,11 +29,11 @@ SpacingEvaluator<3> LevelGeometry<3>::evaluator() const {
   };
 }
 
-SurfacePlace LevelGeometry<3>::place(Carrier carrier, std::int32_t on) const {
-  if (carrier == Carrier::surface) return {SurfacePlace::On::facet, on};
+SurfaceSupport LevelGeometry<3>::place(Carrier carrier, std::int32_t on) const {
+  if (carrier == Carrier::surface) return {SurfaceSupport::On::facet, on};
   const FeatureNode& node = features_.nodes[index(on)];
-  if (node.corner >= 0) return {SurfacePlace::On::corner, node.corner};
-  return {SurfacePlace::On::edge, node.edge};
+  if (node.corner >= 0) return {SurfaceSupport::On::corner, node.corner};
+  return {SurfaceSupport::On::edge, node.edge};
 }
 
 IncomingNodes<3> LevelGeometry<3>::feature_nodes() const {

@@ -54,8 +54,8 @@ class LevelGeometry<3> {
 
   // Returns the part of the surface that a boundary node lies on. `on` is its boundary_node, now or
   // at the last event.
-  SurfacePlace place(Carrier carrier, std::int32_t on) const;
-  SurfacePlace place(const Nodes<3>& nodes, std::int64_t i) const {
+  SurfaceSupport place(Carrier carrier, std::int32_t on) const;
+  SurfaceSupport place(const Nodes<3>& nodes, std::int64_t i) const {
     return place(nodes.carrier(i), nodes.boundary_node(i));
   }
   // Returns whether the domain lies on only one side of the facet.

@@ -32,12 +32,12 @@ bool is_on_feature(Carrier carrier) {
 
 // Returns the nodes of all surplus pieces of all ranks, sorted by piece and id. All ranks must call
 // it, and if one rank throws, all ranks throw.
-std::vector<PieceNode> nodes_of_pieces_too_many(const Level<3>& level) {
+std::vector<PieceNode> nodes_of_surplus_pieces(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);
   const Nodes<3>& nodes = level.nodes;
   std::vector<PieceNode> own;
   collective_try(*level.comm, [&] {
-    const std::set<std::int64_t> extra = pieces_too_many(level, pieces);
+    const std::set<std::int64_t> extra = surplus_pieces(level, pieces);
     for (std::int64_t i = 0; i < nodes.count; ++i)
       if (const std::int64_t piece = pieces.of[static_cast<std::size_t>(i)];
           nodes.owned(i) != 0 && extra.contains(piece))
@@ -101,7 +101,7 @@ std::vector<std::int64_t> beside_elements(const Level<3>& level,
 
 }  // namespace
 
-std::set<std::int64_t> pieces_too_many(const Level<3>& level, const BoundaryPieces& pieces) {
+std::set<std::int64_t> surplus_pieces(const Level<3>& level, const BoundaryPieces& pieces) {
   std::vector<std::pair<std::int64_t, std::int64_t>> by_size;
   for (const auto& [piece, nodes] : pieces.nodes) by_size.emplace_back(nodes, piece);
   std::ranges::sort(by_size);
@@ -113,7 +113,7 @@ std::set<std::int64_t> pieces_too_many(const Level<3>& level, const BoundaryPiec
 }
 
 std::vector<std::int64_t> ids_of_loose_pieces(Level<3>& level) {
-  const std::vector<PieceNode> all = nodes_of_pieces_too_many(level);
+  const std::vector<PieceNode> all = nodes_of_surplus_pieces(level);
   std::vector<std::int64_t> ids;
   for (auto begin = all.begin(); begin != all.end();) {
     const auto end = std::find_if(

@@ -18,7 +18,7 @@ namespace pnpbs {
 
 // Returns the surplus pieces: as many as there are more pieces than the surfaces have, those with
 // the fewest nodes.
-std::set<std::int64_t> pieces_too_many(const Level<3>& level, const BoundaryPieces& pieces);
+std::set<std::int64_t> surplus_pieces(const Level<3>& level, const BoundaryPieces& pieces);
 
 // Returns the ids of the nodes of surplus pieces smaller than half of d, ascending and the same on
 // all ranks. The caller removes them; feature nodes among them are added to level.left_out. d does

@@ -32,7 +32,7 @@ class VisibilityInSpace {
 
  private:
   bool bubbles_on_surfaces() const { return nodes_.moving == Carrier::surface; }
-  SurfacePlace place(std::int64_t i) const {
+  SurfaceSupport place(std::int64_t i) const {
     return geometry_.place(nodes_.carrier(i), nodes_.reference_on(i));
   }
   bool in_sight(std::int64_t i, std::int64_t j) const;

@@ -56,7 +56,7 @@ bool is_torn_around(const Level<3>& level, std::int64_t i) {
 bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners) {
   // Cosine: allows rough creases, but not the step from sheet to sheet.
   constexpr double kFold = -0.5;
-  std::array<SurfacePlace, 3> places;
+  std::array<SurfaceSupport, 3> places;
   for (std::size_t k = 0; k < 3; ++k) {
     if (level.nodes.carrier(corners[k]) == Carrier::free) return false;
     places[k] = level.geometry.place(level.nodes, corners[k]);

@@ -72,8 +72,8 @@ void BadTriangleRepair::find_values(std::int64_t i, const Point<2>& x,
 }
 
 // Returns whether a triangle gets worse that is or becomes bad.
-bool BadTriangleRepair::spoils(const std::vector<double>& before,
-                               const std::vector<double>& after) const {
+bool BadTriangleRepair::makes_bad_worse(const std::vector<double>& before,
+                                        const std::vector<double>& after) const {
   for (std::size_t t = 0; t < after.size(); ++t)
     if (after[t] < std::min(before[t], measure_.bad_below)) return true;
   return false;
@@ -90,7 +90,7 @@ Point<2> BadTriangleRepair::allowed_place(std::int64_t i, const Point<2>& x) con
 
 // Searches for the position of the candidate that improves its worst triangle most, at ever smaller
 // distances.
-void BadTriangleRepair::look_around(Candidate& candidate) const {
+void BadTriangleRepair::find_better_position(Candidate& candidate) const {
   const std::int64_t i = candidate.node;
   const Point<2> x = nodes_.position(i);
   std::vector<double> before, after;
@@ -106,7 +106,7 @@ void BadTriangleRepair::look_around(Candidate& candidate) const {
           allowed_place(i, {x[0] + way * d * direction[0], x[1] + way * d * direction[1]});
       find_values(i, place, after);
       const double worst = *std::min_element(after.begin(), after.end());
-      if (worst <= best || spoils(before, after)) continue;
+      if (worst <= best || makes_bad_worse(before, after)) continue;
       best = worst;
       candidate.goal = place;
       candidate.wants = true;
@@ -131,8 +131,9 @@ bool BadTriangleRepair::comes_first(const Candidate& candidate) const {
 }
 
 std::int64_t BadTriangleRepair::round() {
-  for_each("pnpbs::BadTriangleRepair::look_around", static_cast<std::int64_t>(candidates_.size()),
-           [&](std::int64_t c) { look_around(candidates_[static_cast<std::size_t>(c)]); });
+  for_each("pnpbs::BadTriangleRepair::find_better_position",
+           static_cast<std::int64_t>(candidates_.size()),
+           [&](std::int64_t c) { find_better_position(candidates_[static_cast<std::size_t>(c)]); });
   std::int64_t moved = 0;
   for (const Candidate& candidate : candidates_) {
     if (!candidate.wants || !comes_first(candidate)) continue;

@@ -60,9 +60,9 @@ class BadTriangleRepair {
   };
 
   void find_values(std::int64_t i, const Point<2>& x, std::vector<double>& values) const;
-  bool spoils(const std::vector<double>& before, const std::vector<double>& after) const;
+  bool makes_bad_worse(const std::vector<double>& before, const std::vector<double>& after) const;
   Point<2> allowed_place(std::int64_t i, const Point<2>& x) const;
-  void look_around(Candidate& candidate) const;
+  void find_better_position(Candidate& candidate) const;
   const Candidate* candidate_of(std::int64_t i) const;
   bool comes_first(const Candidate& candidate) const;
 

@@ -57,11 +57,11 @@ bool BoundaryApexes::is_regular(std::int32_t edge) const {
   const auto& [a, b] = map_.corners(edge);
   const double wanted = 0.5 * (spacing_(e.begin) + spacing_(e.end)), length = distance<2>(a, b);
   return length > method::kRegularEdgeMin * wanted && length < method::kRegularEdgeMax * wanted &&
-         goes_straight_on(e.begin) && goes_straight_on(e.end);
+         is_smooth_at(e.begin) && is_smooth_at(e.end);
 }
 
 // Returns whether exactly two edges meet at the boundary node, with a turn of less than 30 degrees.
-bool BoundaryApexes::goes_straight_on(std::int32_t boundary_node) const {
+bool BoundaryApexes::is_smooth_at(std::int32_t boundary_node) const {
   const std::int32_t first = sectors_.begin(boundary_node);
   if (sectors_.end(boundary_node) - first != 2) return false;
   const auto to = [&](std::int32_t other) {

@@ -43,7 +43,7 @@ class BoundaryApexes {
 
  private:
   bool is_regular(std::int32_t edge) const;
-  bool goes_straight_on(std::int32_t boundary_node) const;
+  bool is_smooth_at(std::int32_t boundary_node) const;
   BoundaryApex made_over(std::int32_t edge, bool left) const;
   bool is_visible(const BoundaryApex& apex, const Point<2>& middle) const;
   bool is_crowded(const BoundaryApex& apex) const;

@@ -63,7 +63,7 @@ class FirstRowChoice {
       if (occupants[k] >= 0)
         row.moved.push_back({occupants[k], apex.place});
       else
-        give_birth_at(apex, row.change);
+        insert_node_at(apex, row.change);
     }
     for (std::int32_t i = 0; i < nodes_.count; ++i) {
       const Relation& r = relation(i);
@@ -170,7 +170,7 @@ class FirstRowChoice {
 
   // Inserts a node at the apex with the first node of the edge as its parent. Does nothing if that
   // node is not owned, or if it has no inner nodes in its list, as in a level without bubbles.
-  void give_birth_at(const BoundaryApex& apex, PopulationChange<2>& change) const {
+  void insert_node_at(const BoundaryApex& apex, PopulationChange<2>& change) const {
     const std::int32_t parent = first_node_of(apex);
     if (!nodes_.owned(parent) || !sees_inner_nodes(parent)) return;
     change.born.push_back({apex.place, nodes_.id(parent), nodes_.d(parent)});

@@ -88,7 +88,7 @@ void take_out(const Nodes<2>& nodes, DelaunayStars& stars, std::int64_t i, const
 
 }  // namespace
 
-std::vector<std::int32_t> take_out_surplus_nodes(const Nodes<2>& nodes, DelaunayStars& stars) {
+std::vector<std::int32_t> remove_surplus_nodes(const Nodes<2>& nodes, DelaunayStars& stars) {
   std::vector<std::int32_t> surplus;
   std::vector<Filling> fillings;
   for (std::int64_t i = 0; i < nodes.count; ++i) {

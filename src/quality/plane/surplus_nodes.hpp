@@ -14,6 +14,6 @@ namespace pnpbs {
 // Removes surplus nodes from the stars where this raises the smallest quality, and returns them in
 // memory order. The caller must delete them from the nodes. Two adjacent candidates both stay, so
 // that the decision for a node depends on the stars of its neighbours alone.
-std::vector<std::int32_t> take_out_surplus_nodes(const Nodes<2>& nodes, DelaunayStars& stars);
+std::vector<std::int32_t> remove_surplus_nodes(const Nodes<2>& nodes, DelaunayStars& stars);
 
 }  // namespace pnpbs

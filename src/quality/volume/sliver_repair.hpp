@@ -108,7 +108,7 @@ class SliverRepair {
   std::int64_t slivers(double below = 90) const;
   // Returns the number of failed attempts of this rank in the last round. An attempt on a surface
   // counts kWorkOfSurfaceMove times.
-  std::int64_t in_vain() const { return in_vain_; }
+  std::int64_t failed_attempts() const { return in_vain_; }
   // Returns the total number of stars that this rank has searched for slivers.
   NodesWorkedFor stars_looked_at() const { return stars_looked_at_; }
   // Returns how often attempts of this rank used stars that this rank does not know. If this is not

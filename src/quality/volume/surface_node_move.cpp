@@ -89,7 +89,7 @@ const SurfaceNodeMove::Star& SurfaceNodeMove::star_before(std::int32_t i) {
 
 // Returns whether the star computed for the old position equals the existing one.
 bool SurfaceNodeMove::is_as_before(std::int32_t i) {
-  return star_before(i).tetrahedra == star_there(i);
+  return star_before(i).tetrahedra == existing_star(i);
 }
 
 // Computes the elements in the stars of the centres after the move. Returns false if an element is
@@ -113,7 +113,7 @@ bool SurfaceNodeMove::find_stars_after(std::vector<Found>& found) {
 }
 
 // Returns the existing elements around node i.
-std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::star_there(std::int32_t i) const {
+std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::existing_star(std::int32_t i) const {
   std::vector<Found> there;
   stars_.for_simplices(i, [&](const StarChanges::Corners& c) {
     there.push_back(found({i, c[0], c[1], c[2]}));
@@ -122,12 +122,12 @@ std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::star_there(std::int32_t i) 
   return there;
 }
 
-std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::stars_there(
+std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::existing_stars(
     const std::vector<std::int32_t>& centres) const {
   std::vector<Found> there;
   for (const std::int32_t i : centres) stars_.count_if_unknown(i);
   for (const std::int32_t i : centres) {
-    const std::vector<Found> star = star_there(i);
+    const std::vector<Found> star = existing_star(i);
     there.insert(there.end(), star.begin(), star.end());
   }
   sort_unique(there);
@@ -148,7 +148,7 @@ void SurfaceNodeMove::go_to(const Point<3>& x, std::int32_t on) {
   stars_.for_neighbours(change_.node,
                         [&](std::int64_t j) { centres_.push_back(static_cast<std::int32_t>(j)); });
   sort_unique(centres_);
-  there_ = stars_there(centres_);
+  there_ = existing_stars(centres_);
   for (const Found& t : there_) change_.gone.push_back(t.oriented);
   for (const Found& t : after.tetrahedra) change_.made.push_back(t.oriented);
 }

@@ -59,8 +59,8 @@ class SurfaceNodeMove {
                   const Tetrahedron& corners);
   bool is_as_before(std::int32_t i);
   bool find_stars_after(std::vector<Found>& found);
-  std::vector<Found> star_there(std::int32_t i) const;
-  std::vector<Found> stars_there(const std::vector<std::int32_t>& centres) const;
+  std::vector<Found> existing_star(std::int32_t i) const;
+  std::vector<Found> existing_stars(const std::vector<std::int32_t>& centres) const;
   Found found(const TetrahedronNodes& t) const { return {stars_.by_id(t), t}; }
 
   const Nodes<3>& nodes_;

@@ -53,7 +53,7 @@ std::size_t chosen_field(const std::vector<FieldName>& fields, const std::string
   };
   std::size_t found = fields.size(), meant = 0;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (wanted.empty() && fields[i].components == 1 && fields[i].may_be_meant) {
+    if (wanted.empty() && fields[i].components == 1 && fields[i].default_candidate) {
       ++meant;
       found = i;
     }

@@ -39,7 +39,7 @@ FileField parse_csv_field(std::string_view text, const std::string& name,
 struct FieldName {
   std::string name;
   std::int64_t components = 1;
-  bool may_be_meant = true;  // false: chosen only by name
+  bool default_candidate = true;  // false: chosen only by name
 };
 // Returns the index of the field `wanted`, which may be empty as above. Throws
 // Error(ErrorKind::file), which lists the fields.

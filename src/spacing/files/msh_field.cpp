@@ -10,7 +10,7 @@ namespace pnpbs {
 
 FileField parse_msh_field(std::string_view bytes, const std::string& name,
                           const std::string& wanted) {
-  const MshMesh mesh = parse_msh(bytes, name, MshWanted::mesh_and_node_values);
+  const MshMesh mesh = parse_msh(bytes, name, MshSections::mesh_and_node_values);
   std::vector<FieldName> fields;
   for (const MshNodeValues& field : mesh.node_values)
     fields.push_back({field.name, field.components});

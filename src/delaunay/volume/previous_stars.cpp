@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "delaunay/volume/stars_before.hpp"
+#include "delaunay/volume/previous_stars.hpp"
 
 #include <algorithm>
 #include <array>
@@ -114,7 +114,7 @@ bool KeptStar::gather(std::int64_t i) {
   sphere_error_ = volume_error_ * longest;
   for (std::int32_t p = 0; p < n; ++p)
     std::fill_n(third_.begin() + p * kMaxNeighbours, n, std::int8_t{-1});
-  stars_.for_triangles_of_places(i, [&](const Corners& triangle) {
+  stars_.for_triangles_of_indices(i, [&](const Corners& triangle) {
     triangles_.push_back(triangle);
     for (std::size_t k = 0; k < 3; ++k)
       third_[index(triangle[k] * kMaxNeighbours + triangle[(k + 1) % 3])] =
@@ -166,10 +166,10 @@ void for_chunks(const char* label, std::int64_t count, const Body& body) {
 
 // Maps the ids of the nodes for which counts(i) holds to their indices. It uses a table if the ids
 // are dense.
-class PlacesById {
+class IndexById {
  public:
   template <class Counts>
-  PlacesById(const Nodes<3>& nodes, const Counts& counts) {
+  IndexById(const Nodes<3>& nodes, const Counts& counts) {
     std::int64_t end = 0, count = 0;
     for (std::int64_t i = 0; i < nodes.count; ++i) {
       if (!counts(i)) continue;
@@ -215,11 +215,12 @@ class Uses {
 std::vector<char> doubted(const VolumeStarInput& input, const VolumeStars& stars,
                           const std::vector<char>& kept) {
   std::vector<char> fails(kept.size(), 0);
-  for_chunks("pnpbs::StarsBefore::check", input.nodes.count, [&](std::int64_t i, std::int64_t end) {
-    KeptStar star(input, stars);
-    for (; i < end; ++i)
-      if (kept[index(i)]) star.check(i, [&](std::int32_t j) { set(fails, j); });
-  });
+  for_chunks("pnpbs::PreviousStars::check", input.nodes.count,
+             [&](std::int64_t i, std::int64_t end) {
+               KeptStar star(input, stars);
+               for (; i < end; ++i)
+                 if (kept[index(i)]) star.check(i, [&](std::int32_t j) { set(fails, j); });
+             });
   return fails;
 }
 
@@ -237,7 +238,7 @@ bool has_tetrahedron(const VolumeStars& stars, std::int64_t i,
   const std::size_t first =
       static_cast<std::size_t>(std::min_element(places.begin(), places.end()) - places.begin());
   return places[first] >= 0 &&
-         stars.has_triangle_of_places(
+         stars.has_triangle_of_indices(
              i, {places[first], places[(first + 1) % 3], places[(first + 2) % 3]});
 }
 
@@ -262,7 +263,7 @@ std::vector<char> contradicted(const VolumeStarInput& input, const VolumeStars& 
       look_at(c[2], {node, c[1], c[0]});
     });
   };
-  for_chunks("pnpbs::StarsBefore::compare", input.nodes.count,
+  for_chunks("pnpbs::PreviousStars::compare", input.nodes.count,
              [&](std::int64_t i, std::int64_t end) {
                for (; i < end; ++i)
                  if (kept[index(i)] || found[index(i)]) compare(i, kept[index(i)] ? found : kept);
@@ -276,7 +277,7 @@ bool any_set(const std::vector<char>& flags) {
 
 }  // namespace
 
-void StarsBefore::take(const Nodes<3>& nodes, VolumeStars& stars, std::uint64_t digest) {
+void PreviousStars::take(const Nodes<3>& nodes, VolumeStars& stars, std::uint64_t digest) {
   if (!stars.are_of(nodes)) return;
   ids_.assign(nodes.id.data(), nodes.id.data() + nodes.count);
   owned_.assign(nodes.owned.data(), nodes.owned.data() + nodes.count);
@@ -284,11 +285,12 @@ void StarsBefore::take(const Nodes<3>& nodes, VolumeStars& stars, std::uint64_t 
   stars_ = std::exchange(stars, VolumeStars());
 }
 
-void StarsBefore::forget() { *this = StarsBefore(); }
+void PreviousStars::forget() { *this = PreviousStars(); }
 
 template <class Counts>
-StarsBefore::Places StarsBefore::find_places(const Nodes<3>& nodes, const Counts& counts) const {
-  const PlacesById by_id(nodes, counts);
+PreviousStars::Places PreviousStars::find_places(const Nodes<3>& nodes,
+                                                 const Counts& counts) const {
+  const IndexById by_id(nodes, counts);
   Places places{std::vector<std::int32_t>(ids_.size()),
                 std::vector<std::int32_t>(index(nodes.count), -1)};
   for (std::size_t k = 0; k < ids_.size(); ++k) {
@@ -302,8 +304,8 @@ StarsBefore::Places StarsBefore::find_places(const Nodes<3>& nodes, const Counts
 // Puts back the stars of the nodes i for which keeps(i, previous index) holds, if all nodes of the
 // star still exist. Returns flags of these nodes.
 template <class Keeps>
-std::vector<char> StarsBefore::put_in_place(const Places& places, const Keeps& keeps,
-                                            VolumeStars& stars) {
+std::vector<char> PreviousStars::put_in_place(const Places& places, const Keeps& keeps,
+                                              VolumeStars& stars) {
   std::vector<char> kept(places.before.size(), 0);
   Uses uses(std::ssize(ids_));
   for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -323,7 +325,7 @@ std::vector<char> StarsBefore::put_in_place(const Places& places, const Keeps& k
   return kept;
 }
 
-std::vector<char> StarsBefore::restore(const VolumeStarInput& input, VolumeStars& stars) {
+std::vector<char> PreviousStars::restore(const VolumeStarInput& input, VolumeStars& stars) {
   const Nodes<3>& nodes = input.nodes;
   return put_in_place(
       find_places(nodes, [](std::int64_t) { return true; }),
@@ -333,8 +335,8 @@ std::vector<char> StarsBefore::restore(const VolumeStarInput& input, VolumeStars
       stars);
 }
 
-void StarsBefore::find_stars(const VolumeStarInput& input, std::vector<char> wanted,
-                             VolumeStars& stars) {
+void PreviousStars::find_stars(const VolumeStarInput& input, std::vector<char> wanted,
+                               VolumeStars& stars) {
   const Nodes<3>& nodes = input.nodes;
   std::vector<char> kept = put_in_place(
       find_places(nodes, [&](std::int64_t i) { return nodes.owned(i) != 0; }),

@@ -21,7 +21,7 @@
 
 namespace pnpbs {
 
-class StarsBefore {
+class PreviousStars {
  public:
   // Moves the stars of the owned nodes from `stars` if they are of these nodes. `digest` identifies
   // the nodes for which they are correct (level/node_digest.hpp); 0 if it is unknown.

@@ -10,7 +10,7 @@
 namespace pnpbs {
 
 // A map from ranks to list indices.
-class RankPlaces {
+class RankIndices {
  public:
   // Returns the index of a rank, or -1 if it is not in the list.
   int of(int rank) const {
