@@ -4,23 +4,20 @@
 # of one or more configurations.
 #
 #   quick     the default: the release build and the tests that find most faults in the shortest
-#   time,
-#             for every module and every language available, on one and several ranks. The list is
-#             tests/selections.cmake
+#             time, for every module and every language available, on one and several ranks. The
+#             list is tests/selections.cmake
 #   full      the release build with all tests except those of nightly. After quick in one call,
-#   only
-#             the tests that quick leaves out
+#             only the tests that quick leaves out
 #   nightly   searches for differences between ranks with the date as seed, soak tests, and studies;
 #             the build of full
 #   sanitize  with Clang and address and undefined-behaviour sanitizers, including mutated input, on
 #             the oldest supported Kokkos; without Fortran, whose compiler cannot link with Clang's
 #             sanitizers. Tests of the interface, of ranks and of the command
 #   no-mpi    without MPI, with the static library, on a shared Kokkos of a host program. Tests of
-#   what
-#             can differ: linkage, installed copies, some tests of each language
+#             what can differ: linkage, installed copies, some tests of each language
 #   inner     as sanitize, for the internal tests (tests/geometry, tests/core)
 #   files     compiles every file separately with Clang, as users' builds without a preset do; no
-#   tests
+#             tests
 #
 # usage: scripts/test.sh [configuration]...
 set -euo pipefail
