@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Whether the Fortran module is built, and how our own Fortran is compiled.
+# Decides whether the Fortran modules are built, and sets how the project's Fortran is compiled.
 
 if(NOT DEFINED PNPBS_BUILD_FORTRAN)
   set(build_fortran OFF)
@@ -17,11 +17,12 @@ if(NOT PNPBS_BUILD_FORTRAN)
 endif()
 
 enable_language(Fortran)
-# Whose module files are installed: those of another major version may be unreadable.
+# The compiler of the installed module files, which another major version may be unable to read.
 string(REGEX MATCH "^[0-9]+" fortran_major "${CMAKE_Fortran_COMPILER_VERSION}")
 set(PNPBS_FORTRAN_COMPILER "${CMAKE_Fortran_COMPILER_ID} ${fortran_major}")
 
-# The language of the module and of its tests. Other compilers take their own defaults.
+# The language standard and warnings of the modules and their tests. Other compilers use their
+# defaults.
 add_library(pnpbs_fortran_2003 INTERFACE)
 if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
   set(fortran_flags -std=f2003 -fimplicit-none -Wall)

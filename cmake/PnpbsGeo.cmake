@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds GDAL, whose OGR reads GeoJSON, shapefiles and others, and projects by PROJ. Only
-# libpnpbs_geo, a library of its own, is linked with it. Sets PNPBS_HAVE_GEO.
+# Finds GDAL. Its OGR reads GeoJSON, shapefiles and other formats, and projects with PROJ. Only
+# libpnpbs_geo, a separate library, is linked with it. Sets PNPBS_HAVE_GEO.
 
 set(PNPBS_ENABLE_GEO
     AUTO
@@ -11,12 +11,12 @@ set(PNPBS_HAVE_GEO 0)
 if(NOT PNPBS_ENABLE_GEO)
   return()
 endif()
-# Not with sanitizers unless asked for: what GDAL and PROJ keep to the end cannot be told from leaks.
+# With sanitizers only on request: memory that GDAL and PROJ keep until the end looks like leaks.
 if(PNPBS_ENABLE_GEO STREQUAL "AUTO" AND PNPBS_SANITIZE)
   return()
 endif()
 
-# 3.2: OSRDemoteTo2D and axes in the order of geographers.
+# Version 3.2 introduced OSRDemoteTo2D and the axis order of geographic systems.
 find_package(GDAL 3.2 QUIET)
 if(GDAL_FOUND)
   set(PNPBS_HAVE_GEO 1)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds HDF5, by which checkpoints are written and read, and .vtkhdf and .xdmf files written. One
-# rank alone calls it, to lay out a file and to read how one is laid out; the ranks then write and
-# read their rows by themselves. So any HDF5 will do, serial or parallel; a parallel one only in a
-# build with MPI, whose header it needs.
+# Finds HDF5, which is used for checkpoints and for .vtkhdf and .xdmf files. One rank calls it to
+# create or to inspect the layout of a file; the ranks then write and read their rows themselves. So
+# a serial HDF5 suffices. A parallel one requires a build with MPI, because of its header.
 #
-# It is not linked but opened by its path at run time (src/io/hdf5_library.cpp): a program that uses
-# PNPBS may have an HDF5 of its own, which must not meet ours, and neither the shared nor the static
-# library then asks anything of its users.
-# Sets PNPBS_HAVE_HDF5 (0 or 1), PNPBS_HDF5_INCLUDE_DIR, PNPBS_HDF5_DEFINITIONS, what that file
-# must know, and PNPBS_HDF5_TEXT for the build's description.
+# It is not linked but opened by its path at run time (src/io/hdf5_library.cpp). A program that uses
+# PNPBS may have an HDF5 of its own, which must not be mixed with this one, and neither the shared
+# nor the static library then adds a dependency for its users.
+#
+# Sets PNPBS_HAVE_HDF5 (0 or 1), PNPBS_HDF5_INCLUDE_DIR, PNPBS_HDF5_DEFINITIONS (for
+# hdf5_library.cpp) and PNPBS_HDF5_TEXT (for the description of the build).
 
 set(PNPBS_WITH_HDF5
     AUTO
@@ -22,7 +22,7 @@ if(NOT PNPBS_WITH_HDF5)
   return()
 endif()
 
-# The value that a header of HDF5's defines a macro to.
+# Sets `output` to the value of a macro in a header of HDF5.
 function(pnpbs_hdf5_macro header name output)
   set(value "")
   if(EXISTS "${header}")
@@ -34,7 +34,7 @@ function(pnpbs_hdf5_macro header name output)
   set(${output} "${value}" PARENT_SCOPE)
 endfunction()
 
-# Debian has one beside the other, in folders of their own.
+# Debian installs several variants side by side, in folders of their own.
 set(why_not "no hdf5.h with a shared library")
 foreach(flavour plain serial openmpi mpich)
   set(folder "hdf5/${flavour}")
@@ -78,7 +78,7 @@ if(NOT PNPBS_HAVE_HDF5)
   return()
 endif()
 
-# The name that outlives updates of the package is the one in the library itself.
+# Uses the name stored in the library, which is stable over updates of the package.
 get_filename_component(hdf5_dir "${library}" DIRECTORY)
 get_filename_component(hdf5_file "${library}" REALPATH)
 get_filename_component(hdf5_name "${hdf5_file}" NAME)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What is installed, and how other projects find it: CMake's find_package(pnpbs) and pkg-config.
-# The shared library needs nothing from its users: neither names Kokkos, MPI or C++.
+# Installs the project, and the files by which other projects find it: CMake's find_package(pnpbs)
+# and pkg-config. Users of the shared library need neither Kokkos nor MPI nor C++.
 
 include(CMakePackageConfigHelpers)
 set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc/pnpbs")
@@ -14,11 +14,12 @@ if(NOT PNPBS_HAVE_GEO)
 endif()
 install(DIRECTORY include/pnpbs DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         FILES_MATCHING PATTERN "*.h" ${headers_without_library})
-# A shared Kokkos or an MPI outside the system's folders is found again where it was linked.
+# The run path points to a shared Kokkos, or an MPI outside the system's folders, where it was
+# linked.
 foreach(library pnpbs ${PNPBS_LEVEL_LIBRARIES})
   set_target_properties(${library} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
   if(PNPBS_KOKKOS_IS_SHARED)
-    # By name, because CMake leaves out what lies inside the source tree (.deps).
+    # Given explicitly, because CMake leaves out folders inside the source tree (.deps).
     set_target_properties(${library} PROPERTIES INSTALL_RPATH
                                                 "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
   endif()
@@ -36,7 +37,7 @@ if(PNPBS_INSTALL_STATIC)
 endif()
 
 if(PNPBS_HAVE_GEO)
-  # It finds libpnpbs beside it.
+  # It finds libpnpbs in its own folder.
   set_target_properties(pnpbs_geo PROPERTIES INSTALL_RPATH "$ORIGIN"
                                              INSTALL_RPATH_USE_LINK_PATH ON)
   install(TARGETS pnpbs_geo EXPORT pnpbsGeoTargets LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
@@ -74,7 +75,7 @@ configure_package_config_file(
   cmake/pnpbsConfig.cmake.in "${PROJECT_BINARY_DIR}/pnpbsConfig.cmake"
   INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO
   PATH_VARS fortran_source_dir)
-# While the major version is 0, a new minor version may change the interface.
+# In major version 0, a new minor version may change the interface.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/pnpbsConfigVersion.cmake"
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/pnpbsConfig.cmake"
@@ -87,21 +88,21 @@ if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDE
   set(PNPBS_PC_LIBDIR "${CMAKE_INSTALL_FULL_LIBDIR}")
   set(PNPBS_PC_INCLUDEDIR "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
 else()
-  # From the place of the file itself, so that an installed tree may be moved.
+  # Relative to the file itself, so that an installed tree may be moved.
   file(RELATIVE_PATH up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
   string(REGEX REPLACE "/$" "" up "${up}")
   set(PNPBS_PC_PREFIX "\${pcfiledir}/${up}")
   set(PNPBS_PC_LIBDIR "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
   set(PNPBS_PC_INCLUDEDIR "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
 endif()
-# Programs find the library where it lies. Not in the system's own folders, where the loader looks
-# by itself and packagers want no run path.
+# Programs find the library in its folder. Not in the system's own folders, which the loader
+# searches anyway and for which packagers reject a run path.
 set(PNPBS_PC_RPATH " -Wl,-rpath,\${libdir}")
 if("${CMAKE_INSTALL_FULL_LIBDIR}" IN_LIST CMAKE_PLATFORM_IMPLICIT_LINK_DIRECTORIES
    OR "${CMAKE_INSTALL_FULL_LIBDIR}" STREQUAL "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}")
   set(PNPBS_PC_RPATH "")
 endif()
-# What only `pkg-config --static` asks for, and only where there is a static library.
+# Libraries that only `pkg-config --static` returns, if there is a static library.
 set(PNPBS_PC_LIBS_PRIVATE "")
 if(PNPBS_INSTALL_STATIC)
   foreach(part kokkossimd kokkosalgorithms kokkoscontainers kokkoscore)
@@ -134,7 +135,7 @@ if(PNPBS_INSTALL_STATIC)
   install(FILES "${PROJECT_BINARY_DIR}/pnpbsStatic.cmake" DESTINATION "${package_dir}")
 endif()
 
-# A module in front of that one, of the same prefix.
+# Installs a .pc file with the same prefix.
 function(pnpbs_install_pc module)
   configure_file(pkgconfig/${module}.pc.in "${PROJECT_BINARY_DIR}/pkgconfig/${module}.pc" @ONLY)
   install(FILES "${PROJECT_BINARY_DIR}/pkgconfig/${module}.pc"
@@ -150,7 +151,7 @@ if(PNPBS_BUILD_FORTRAN AND PNPBS_HAVE_GEO)
   pnpbs_install_pc(pnpbs-geo-fortran)
 endif()
 if(PNPBS_HAVE_MPI)
-  # Nothing where the compiler finds MPI by itself.
+  # Empty if the compiler finds MPI by itself.
   set(PNPBS_PC_MPI_CFLAGS "")
   foreach(folder IN LISTS MPI_C_INCLUDE_DIRS)
     string(APPEND PNPBS_PC_MPI_CFLAGS " -I${folder}")
@@ -166,14 +167,15 @@ endif()
 
 # ------------------------------------------------------------------ texts, examples -------------
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION "${doc_dir}")
-# In folders as here, for the links between them.
+# The folders are kept, because pages link to each other.
 install(DIRECTORY docs DESTINATION "${doc_dir}" PATTERN "pnpbs.1" EXCLUDE)
 install(DIRECTORY abi packaging DESTINATION "${doc_dir}" PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY examples DESTINATION "${data_dir}" PATTERN ".clang-format" EXCLUDE
         PATTERN "__pycache__" EXCLUDE)
 
-# Symbolic links for what the pages lead to and what lies elsewhere once installed: `link` in one
-# installed folder to `to` in another. Relative, so that an installed tree may be moved.
+# Creates symbolic links for targets of links in the pages that are installed elsewhere: `link` in
+# one installed folder leads to `to` in another. Links are relative, so that an installed tree may
+# be moved.
 function(pnpbs_install_link folder link to)
   get_filename_component(destination "${folder}/${link}" DIRECTORY)
   get_filename_component(from "${destination}" ABSOLUTE BASE_DIR "${CMAKE_INSTALL_PREFIX}")
@@ -191,7 +193,7 @@ pnpbs_install_link("${doc_dir}" bindings/fortran "${data_dir}/fortran")
 pnpbs_install_link("${data_dir}" docs "${doc_dir}/docs")
 
 # ------------------------------------------------------------------ Julia -----------------------
-# Beside the library: the package looks for it in the prefix it lies in.
+# Installed beside the library, which the package searches in its own prefix.
 install(DIRECTORY bindings/julia/PNPBS.jl DESTINATION "${data_dir}/julia")
 
 # ------------------------------------------------------------------ Python ----------------------

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds Kokkos 4.5 to 5.x: first the user's own, then the one scripts/setup.sh has built.
-# Sets PNPBS_KOKKOS_IS_SHARED and PNPBS_KOKKOS_LINKAGE.
+# Finds Kokkos 4.5 to 5.x: first the user's own, then the one built by scripts/setup.sh. Sets
+# PNPBS_KOKKOS_IS_SHARED and PNPBS_KOKKOS_LINKAGE.
 
-# With Kokkos_DIR in the cache from an earlier configure, the first search finds the same again.
+# If the cache has Kokkos_DIR from an earlier configure, the first search finds the same one again.
 find_package(Kokkos 4.5 QUIET CONFIG)
 if(NOT Kokkos_FOUND)
   set(PNPBS_DEPS_DIR "${PROJECT_SOURCE_DIR}/.deps")
@@ -23,7 +23,7 @@ if(NOT Kokkos_FOUND AND PNPBS_FETCH_KOKKOS)
   FetchContent_Declare(
     Kokkos
     URL https://github.com/kokkos/kokkos/releases/download/4.7.00/kokkos-4.7.00.tar.gz)
-  # Not FetchContent_MakeAvailable: Kokkos must not become a part of our own installation.
+  # FetchContent_MakeAvailable would add Kokkos to the installation.
   FetchContent_GetProperties(Kokkos)
   if(NOT kokkos_POPULATED)
     FetchContent_Populate(Kokkos)
@@ -49,8 +49,8 @@ if(Kokkos_VERSION VERSION_GREATER_EQUAL 6)
                       "name one from 4.5 to 5.x with -DKokkos_ROOT=<prefix>.")
 endif()
 
-# A static Kokkos is hidden inside the library; a shared one is the process's own, which a host
-# program may have started already.
+# A static Kokkos is hidden inside the library. A shared one belongs to the process, and a host
+# program may have started it already.
 get_target_property(pnpbs_kokkos_type Kokkos::kokkoscore TYPE)
 if(pnpbs_kokkos_type STREQUAL "SHARED_LIBRARY")
   set(PNPBS_KOKKOS_IS_SHARED TRUE)

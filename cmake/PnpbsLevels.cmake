@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# A library that runs on every x86-64 processor uses vectors of two doubles. Since version 2.33,
-# glibc's loader looks beside each library it searches by name, in folders for the levels of
-# processors that the x86-64 psABI defines (ld.so(8), "glibc-hwcaps"), and takes the best that the
-# machine can run. So the shared library is built once more for such levels.
+# Builds the shared library once more for higher levels of x86-64 processors. The portable library
+# uses vectors of two doubles. Since version 2.33, glibc's loader searches beside each library in
+# folders for the processor levels of the x86-64 psABI (ld.so(8), "glibc-hwcaps"), and loads the
+# best one that the machine supports.
 # Sets PNPBS_LEVELS, PNPBS_LEVELS_FOLDER and PNPBS_LEVEL_LIBRARIES (targets).
 include(CheckCXXCompilerFlag)
 include(CheckSymbolExists)
@@ -15,7 +15,8 @@ set(PNPBS_LEVELS_FOLDER glibc-hwcaps)
 set(PNPBS_LEVELS "")
 set(PNPBS_LEVEL_LIBRARIES "")
 
-# Does AUTO mean x86-64-v3? Not if flags of the environment choose a processor, as Spack's do.
+# Decides whether AUTO means x86-64-v3. It does not if flags of the environment select a processor,
+# as those of Spack do.
 function(pnpbs_wants_v3 wanted)
   set(${wanted} FALSE PARENT_SCOPE)
   if(PNPBS_ARCH OR PNPBS_SANITIZE OR CMAKE_CXX_FLAGS MATCHES "-march=")

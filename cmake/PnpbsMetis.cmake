@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds METIS, which has no CMake package of its own in most distributions: METIS::METIS. Only a
-# build with MPI partitions anything. 32- and 64-bit METIS export the same symbols; the width is the
-# one of the metis.h found beside the library, and idx_t stays out of our interface.
+# Finds METIS, which has no CMake package in most distributions, and defines METIS::METIS. Only
+# builds with MPI use it. 32- and 64-bit METIS export the same symbols. The width is that of the
+# metis.h found beside the library, and idx_t does not occur in the interface of PNPBS.
 #
-# A program that uses PNPBS may have a METIS of its own, and must not meet ours: a static one that
-# can be linked into a shared library is hidden inside libpnpbs.so; a shared one is not linked but
-# opened by its path at run time (src/partition/metis_functions.cpp).
-# Sets PNPBS_METIS_STATIC_LIBRARIES, what a program with libpnpbs.a must link besides, and
-# PNPBS_METIS_DEFINITIONS, what metis_functions.cpp must know of a shared one.
+# A program that uses PNPBS may have a METIS of its own, which must not be mixed with this one. A
+# static METIS that can be linked into a shared library is hidden inside libpnpbs.so. A shared one
+# is not linked but opened by its path at run time (src/partition/metis_functions.cpp).
+#
+# Sets PNPBS_METIS_STATIC_LIBRARIES, which a program with libpnpbs.a must link as well, and
+# PNPBS_METIS_DEFINITIONS for metis_functions.cpp.
 set(PNPBS_METIS_STATIC_LIBRARIES "")
 set(PNPBS_METIS_DEFINITIONS "")
 if(NOT PNPBS_HAVE_MPI)
@@ -28,8 +29,8 @@ if(NOT width)
                       "(IDXTYPEWIDTH 32 or 64): not a METIS 5 that we know.")
 endif()
 
-# Whether the static library beside it can be used: it must be position-independent, and METIS from
-# 5.2 on has parts of it in a library of their own, GKlib.
+# Tests whether the static library beside it can be used. It must be position-independent, and since
+# version 5.2 a part of METIS is in a separate library, GKlib.
 find_library(PNPBS_METIS_STATIC_LIBRARY libmetis.a HINTS ${METIS_ROOT} ENV METIS_ROOT
              PATH_SUFFIXES lib)
 find_library(PNPBS_GKLIB_STATIC_LIBRARY libGKlib.a HINTS ${METIS_ROOT} ENV METIS_ROOT
@@ -69,7 +70,7 @@ elseif(PNPBS_METIS_LIBRARY MATCHES "\\.a$")
                       "with -DCMAKE_POSITION_INDEPENDENT_CODE=ON, or as a shared library; METIS 5.2 "
                       "and later need GKlib beside it, built likewise.")
 else()
-  # The name that outlives updates of the package is the one in the library itself.
+  # Uses the name stored in the library, which is stable over updates of the package.
   get_filename_component(metis_file "${PNPBS_METIS_LIBRARY}" REALPATH)
   get_filename_component(metis_name "${metis_file}" NAME)
   if(CMAKE_READELF)

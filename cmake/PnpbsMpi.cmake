@@ -14,8 +14,8 @@ if(NOT MPI_C_FOUND)
 endif()
 set(PNPBS_HAVE_MPI 1)
 
-# The implementation's name and version, from the macros that its mpi.h defines. Running a program
-# to ask would not work when compiling for another machine.
+# Determines name and version of the implementation from macros in its mpi.h. Running a program
+# would not work when cross-compiling.
 find_file(PNPBS_MPI_HEADER mpi.h HINTS ${MPI_C_INCLUDE_DIRS} NO_DEFAULT_PATH)
 find_file(PNPBS_MPI_HEADER mpi.h)
 mark_as_advanced(PNPBS_MPI_HEADER)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What a user may choose, and the compiler flags that follow from it.
+# Options of the build, and the compiler flags that follow from them.
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug, RelWithDebInfo" FORCE)
@@ -35,27 +35,27 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
-# Warnings for everything that is ours.
+# Warnings for the project's own code.
 add_library(pnpbs_warnings INTERFACE)
 target_compile_options(pnpbs_warnings INTERFACE -Wall -Wextra -Wpedantic)
 if(CMAKE_UNITY_BUILD)
-  # Files compiled as one: what one names at its top another may name within, and captures of a
-  # lambda may have a type that is local to its file.
+  # In unity builds, names of one file may shadow those of another, and captures of a lambda may
+  # have types that are local to their file.
   target_compile_options(pnpbs_warnings
                          INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 else()
   target_compile_options(pnpbs_warnings INTERFACE -Wshadow)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14)
-  # Loops that compilers are to vectorise join conditions by | and &, which do not branch; where no
-  # optimisation is asked for, they are not vectorised.
+  # Loops to be vectorised combine conditions by | and &, which do not branch. They are not
+  # vectorised without optimisation.
   target_compile_options(
     pnpbs_warnings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-bitwise-instead-of-logical>
                              $<$<COMPILE_LANGUAGE:CXX>:-Wno-pass-failed>)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC bug 105651: false alarms inside std::string, of which all but the first are reported where
-  # its header is precompiled.
+  # GCC bug 105651: false alarms inside std::string. With a precompiled header all but the first are
+  # reported.
   target_compile_options(
     pnpbs_warnings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict> $<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds>
                              $<$<COMPILE_LANGUAGE:CXX>:-Wno-stringop-overflow>
@@ -65,10 +65,10 @@ if(PNPBS_WARNINGS_AS_ERRORS)
   target_compile_options(pnpbs_warnings INTERFACE -Werror)
 endif()
 
-# How the library's own code is compiled. Results must not depend on where a node lies in memory,
-# so no -ffast-math and no contraction into fused multiply-adds: a vector loop and its remainder
-# then give the same bits. The two flags about maths functions change no value; without them
-# square roots and comparisons keep the loops from being vectorised.
+# Compiler flags of the library's own code. Results must not depend on where a node lies in memory,
+# so -ffast-math and contraction into fused multiply-adds are excluded: a vector loop and its
+# remainder then give the same bits. The two flags about mathematical functions change no value, but
+# without them square roots and comparisons prevent vectorisation.
 add_library(pnpbs_arithmetic INTERFACE)
 target_compile_options(pnpbs_arithmetic INTERFACE -ffp-contract=off -fno-math-errno
                                                   -fno-trapping-math -fopenmp-simd)
@@ -76,9 +76,10 @@ if(PNPBS_ARCH)
   target_compile_options(pnpbs_arithmetic INTERFACE -march=${PNPBS_ARCH})
 endif()
 
-# Optimised builds compile the kernels with -O3, whose vector loops they need, also where a project or
-# distribution sets CMAKE_CXX_FLAGS_RELEASE to -O2. All other code is compiled with -O1: it takes half of
-# the compiler's time of -O3, and runs take about one per cent longer. A level below -O2 in CMAKE_CXX_FLAGS_RELEASE is kept.
+# Optimised builds compile the kernels with -O3, which their vector loops need, even if a project or
+# distribution sets CMAKE_CXX_FLAGS_RELEASE to -O2. All other code is compiled with -O1, which
+# halves the compile time of -O3 and makes runs about one per cent longer. A level below -O2 in
+# CMAKE_CXX_FLAGS_RELEASE is kept.
 add_library(pnpbs_kernel_optimisation INTERFACE)
 add_library(pnpbs_other_optimisation INTERFACE)
 foreach(build_type Release RelWithDebInfo)
@@ -90,18 +91,19 @@ foreach(build_type Release RelWithDebInfo)
   endif()
 endforeach()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # GCC collects its garbage only from 512 MiB on, which saves a twelfth of its time.
+  # GCC collects its garbage only above 512 MiB, which saves a twelfth of its time.
   foreach(optimisation kernel other)
     target_compile_options(pnpbs_${optimisation}_optimisation INTERFACE --param=ggc-min-heapsize=524288)
   endforeach()
 endif()
 
-# Sanitizers go into every target, the tests' included.
+# Sanitizers apply to every target, including the tests.
 if(PNPBS_SANITIZE)
   add_compile_options(-fsanitize=${PNPBS_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${PNPBS_SANITIZE})
-  # Programs in C link with the library, but Clang gives them no run-time of these two, of C++ alone.
+  # C programs link with the library, but Clang does not give them the run-time library of these two
+  # checks, which exist for C++ only.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND PNPBS_SANITIZE MATCHES "undefined")
     add_compile_options(-fno-sanitize=vptr,function)
   endif()

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes README.md's tables of all cases against every other tool, between two comments, from the pages
-of the comparisons in the plane and in space. The test docs_peers compares them.
+"""Writes README.md's tables of all cases against every other tool, between two comments, from the
+pages of the comparisons in the plane and in space. The test docs_peers compares them.
+
 usage: peer_tables.py [<folder of the sources>]"""
 
 import pathlib
@@ -14,13 +15,14 @@ QUALITY = "quality: mean / 99 % above / least"
 
 
 class Page(NamedTuple):
-    """What of a page the tables show: the names of its columns, and by column of the tables the tool."""
+    """The part of a page that the tables show: the names of its columns, and the tool for each
+    column of the tables."""
     where: str
     speed: str
     unit: str
-    least: str  # the quality of all, or of those where the domain is wide
+    least: str  # smallest quality of all triangles, or of those where the domain is wide
     tools: dict
-    cases: dict  # as the headings name them, without "d for 100 000 nodes"
+    cases: dict  # as in the headings, without "d for 100 000 nodes"
 
 
 PAGES = {
@@ -56,7 +58,7 @@ PAGES = {
 
 
 class Unknown(Exception):
-    """A page has something that has no place here, or lacks what has; tells what."""
+    """A page has an unknown entry or lacks a required one. The message names it."""
 
 
 def cells(line):
@@ -64,7 +66,7 @@ def cells(line):
 
 
 def tables(text):
-    """By case, its rows by tool, each by title."""
+    """Returns the rows of each case by tool, each as a dictionary by column title."""
     found, case, titles = {}, None, None
     for line in text.splitlines():
         if line.startswith("## "):
@@ -79,8 +81,8 @@ def tables(text):
 
 
 def figures(row, page):
-    """As the tables show them: mean, 1 % and least of the quality, and thousand nodes a second. None for a
-    tool that failed."""
+    """Returns the numbers of the tables: mean, 1 % and smallest quality, and thousand nodes per
+    second. None for a tool that failed."""
     if not row.get(QUALITY):
         return None
     mean, one_percent = row[QUALITY].split(" / ")[:2]
@@ -94,7 +96,8 @@ def value(text):
 
 
 def lines_of(root, name, page):
-    """By case and column, its figures, or None; a tool that the page does not have is not there."""
+    """Returns the figures by case and column, or None for a failed tool. Tools that the page does
+    not contain are left out."""
     on_page = tables((root / name).read_text(encoding="utf-8"))
     if not on_page:
         raise Unknown(f"{name} has no table of a case")
@@ -113,7 +116,7 @@ def lines_of(root, name, page):
 
 
 def table(title, columns, found, which):
-    """A row for each case; the best of each figure is bold."""
+    """Returns a table with a row for each case; the best of each figure is bold."""
     rows = ["| " + " | ".join([title, *columns]) + " |", "| --- |" + " --- |" * len(columns)]
     for case, tools in found.items():
         shown = {column: one[which] for column, one in tools.items() if one}
@@ -139,7 +142,8 @@ def block(root):
 
 
 def parts(text):
-    """What is before, between and behind the two comments, these included in the middle."""
+    """Splits README.md into the text before, between and after the two comments, which belong to
+    the middle part."""
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
         raise Unknown(f"README.md must have '{BEGIN}' and '{END}' once each, in this order")
     end = text.index(END) + len(END)

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# On a fresh machine, everything up to nodes in a real lake and a body: installs what is missing,
-# builds, places 104 000 nodes in Lake Victoria, fine in its middle, and some ten thousand in a
-# bracket. Leaves lake.png and bracket.png (the pictures; the bracket's is cut open), lake.vtu and
-# bracket.vtu (for ParaView) and a report of each in the folder out.
+# Sets up a fresh machine up to a first result: installs what is missing, builds, places 104 000
+# nodes in Lake Victoria, fine in its middle, and some ten thousand in a bracket. Writes lake.png
+# and bracket.png (pictures; the bracket is cut open), lake.vtu and bracket.vtu (for ParaView) and a
+# report of each to the folder out.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what this machine lacks to build and run PNPBS, and builds Kokkos where there is none.
-# Run it as often as you like: what is there already is left alone.
+# Installs what this machine lacks to build and run PNPBS, and builds Kokkos if there is none. It
+# can be run repeatedly; existing installations are left unchanged.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -52,12 +52,12 @@ done
 say() { printf '== %s\n' "$*"; }
 
 # ---------------------------------------------------------------- packages ------------------
-# Each need is a question to the machine and the Debian package that answers it, so that a
-# compiler, MPI or CMake from elsewhere is as good as Debian's.
+# Each requirement is a test on the machine and the Debian package that satisfies it, so a compiler,
+# MPI or CMake from another source is accepted as well.
 have() { command -v "$1" > /dev/null 2>&1; }
 cxx() { have "${CXX:-c++}" && have "${CC:-cc}"; }
 header() { echo "#include <$1>" | "${CXX:-c++}" -std=c++20 -E -x c++ - > /dev/null 2>&1; }
-# Optional to build; without it there are no checkpoints, no .vtkhdf and no .xdmf files.
+# Optional. Without HDF5 there are no checkpoints, no .vtkhdf and no .xdmf files.
 hdf5() {
   header hdf5.h || header hdf5/serial/hdf5.h || header hdf5/openmpi/hdf5.h ||
     [ -e "${HDF5_ROOT:-/nowhere}/include/hdf5.h" ]
@@ -77,7 +77,7 @@ clang_links() { echo 'int main() {}' | clang++ "$1" -x c++ - -o /dev/null > /dev
 wants_clang() { case " ${more_kokkos[*]-} " in *-clang\ *) ;; *) return 1 ;; esac; }
 no_kokkos() { ! find_kokkos; }
 
-# Does CMake find a Kokkos that is new enough, be it the user's or the one built here?
+# Tests whether CMake finds a Kokkos that is new enough, the user's or the one built here.
 find_kokkos() {
   if [ -e .deps/kokkos/lib/cmake/Kokkos/KokkosConfig.cmake ]; then return 0; fi
   cxx && new_cmake || return 1
@@ -92,7 +92,7 @@ find_kokkos() {
 }
 
 missing() {
-  # The compiler first: the questions about headers need it.
+  # The compiler comes first, because the tests for headers need it.
   cxx || echo g++
   have make || have ninja || echo ninja-build
   new_cmake || echo cmake
@@ -112,11 +112,11 @@ missing() {
     have ccache || echo ccache
     module check || echo check
     have "${FC:-gfortran}" || echo gfortran
-    # Its Fortran module files, which some distributions have apart from mpicc.
+    # Its Fortran module files, which some distributions package separately from mpicc.
     have mpifort || echo libopenmpi-dev
   fi
   if [ $with_all = yes ]; then
-    # Optional to build; in the tests GeoJSON and shapefiles are read.
+    # Optional to build; the tests read GeoJSON and shapefiles.
     have gdal-config || echo libgdal-dev
     header CGAL/Constrained_Delaunay_triangulation_2.h || echo libcgal-dev
   fi
@@ -159,7 +159,7 @@ if [ -n "$packages" ]; then
 fi
 
 # ---------------------------------------------------------------- Python --------------------
-# An environment of our own: pip for the source packages, and the readers that the tests use.
+# A separate environment: pip for the source packages, and the readers that the tests use.
 python_environment() {
   if [ ! -x .deps/venv/bin/pip ]; then
     say "making a Python environment in .deps/venv"
@@ -179,15 +179,15 @@ if [ $with_tests = yes ]; then install_python tests/requirements.txt; fi
 if [ $with_all = yes ]; then install_python tests/requirements_all.txt; fi
 
 # ---------------------------------------------------------------- Julia ---------------------
-# For the tests of the Julia package, which are left out where there is none.
+# For the tests of the Julia package, which are skipped without it.
 if [ $with_all = yes ] && ! have julia && [ ! -x .deps/julia/bin/julia ]; then
   say "getting a Julia into .deps/julia"
   scripts/setup_julia.sh .deps/julia || say "no Julia: its tests will be left out"
 fi
 
 # ---------------------------------------------------------------- Kokkos --------------------
-# Two source packages on PyPI carry the Kokkos releases we build; a machine that reaches nothing
-# but package registries gets them there.
+# Two source packages on PyPI contain the Kokkos releases, so a machine that reaches only package
+# registries can build it.
 build_kokkos() { # version, static, shared or clang, prefix
   local version=$1 kind=$2 prefix=$3 package package_version sum folder
   case $version in
@@ -210,7 +210,7 @@ build_kokkos() { # version, static, shared or clang, prefix
   if ! echo "$sum  $archive" | sha256sum --check --status 2> /dev/null; then
     python_environment
     say "downloading Kokkos $version (in $package $package_version from PyPI)"
-    # With the hash in a file, pip checks it before it runs anything of the package.
+    # With the hash in a file, pip verifies the package before it runs any of it.
     echo "$package==$package_version --hash=sha256:$sum" > "$downloads/$package.txt"
     .deps/venv/bin/pip download -q --no-deps --no-binary "$package" --require-hashes \
       -r "$downloads/$package.txt" -d "$downloads"
@@ -228,8 +228,8 @@ build_kokkos() { # version, static, shared or clang, prefix
     compilers=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
   fi
   if have ninja; then generator=(-G Ninja); fi
-  # No Kokkos_ARCH_*: Kokkos would hand its -march on to everything that links it. What is hot is
-  # in headers and compiled with our own flags.
+  # No Kokkos_ARCH_*: Kokkos would pass its -march on to everything that links it. Its
+  # performance-critical parts are in headers and compiled with the project's flags.
   if ! {
     cmake -S "$work/$package-$package_version/$folder" -B "$work/build" "${generator[@]}" "${compilers[@]}" \
       -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_STANDARD=20 -DCMAKE_CXX_EXTENSIONS=OFF \
@@ -244,7 +244,7 @@ build_kokkos() { # version, static, shared or clang, prefix
     echo "setup.sh: building Kokkos failed; the whole log: $work/log" >&2
     exit 1
   fi
-  # Installed aside and moved: a prefix is there only when it is complete.
+  # Installed in a temporary folder and moved, so that a prefix exists only when it is complete.
   rm -rf "$prefix"
   mv "$PWD/.deps/new$prefix" "$prefix"
   rm -rf "$work" "$PWD/.deps/new"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Puts a Julia into a folder of its own, for machines on which there is none: Debian 12 has no
-# package of it. Debian 11's Julia 1.5.3 runs there as long as it finds Debian 11's libraries first,
-# libunwind above all: with a newer one, every exception ends the process. Nothing outside of the
-# folder changes, and packages are verified as apt verifies all of them.
+# Installs Julia into a separate folder, for machines without it: Debian 12 has no package. Debian
+# 11's Julia 1.5.3 runs there if it finds the libraries of Debian 11 first, above all libunwind:
+# with a newer one, every exception ends the process. Nothing outside the folder changes, and apt
+# verifies the packages as usual.
 # usage: scripts/setup_julia.sh FOLDER     (then run FOLDER/bin/julia)
 set -euo pipefail
 folder=${1:?usage: scripts/setup_julia.sh FOLDER}
@@ -28,7 +28,7 @@ mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Cr
   awk '$3 == "main" && $1 ~ /\/debian\/?$/ && $2 !~ /-/ { print $1; exit }')
 [ -n "$mirror" ] || fail "apt knows no mirror of Debian's archive"
 
-# An apt of our own, with its own lists: the machine's are left as they are.
+# A separate apt configuration with its own lists, so that those of the machine stay unchanged.
 work=$(mktemp -d)
 trap 'rm -rf "$work" "$folder.new"' EXIT
 mkdir -p "$work"/{parts,lists/partial,cache/archives/partial,debs}
@@ -42,7 +42,7 @@ private_apt() {
 private_apt update || fail "cannot reach $release"
 (cd "$work/debs" && private_apt download "${packages[@]}") || fail "cannot download ${packages[*]}"
 
-# Made aside and moved: the folder is there only when it is complete.
+# Created in a temporary folder and moved, so that the folder exists only when it is complete.
 mkdir -p "$folder.new/bin"
 for deb in "$work"/debs/*.deb; do dpkg-deb -x "$deb" "$folder.new"; done
 cat > "$folder.new/bin/julia" << 'WRAPPER'

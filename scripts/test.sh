@@ -1,22 +1,23 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# On a fresh machine, everything up to the last test: installs what is missing, builds, and runs the
-# tests of one or more configurations.
+# Sets up a fresh machine up to the last test: installs what is missing, builds, and runs the tests
+# of one or more configurations.
 #
-#   quick     the default: the release build and the tests that find most faults in the shortest time,
-#             of every module and every language the machine has, on one and several ranks. The list
-#             is tests/selections.cmake
-#   full      the release build with all tests but those of nightly. After quick in one call, only the
-#             tests that quick has left out
-#   nightly   hunts for differences between ranks with the date as seed, soak, and studies; the build
-#             of full
-#   sanitize  by Clang with address and undefined-behaviour sanitizers, mutated inputs included, on
-#             the oldest Kokkos we promise; no Fortran, whose compiler cannot link with Clang's
+#   quick     the default: the release build and the tests that find most faults in the shortest
+#             time, for every module and every language available, on one and several ranks. The
+#             list is tests/selections.cmake
+#   full      the release build with all tests except those of nightly. After quick in one call,
+#             only the tests that quick leaves out
+#   nightly   searches for differences between ranks with the date as seed, soak tests, and studies;
+#             the build of full
+#   sanitize  with Clang and address and undefined-behaviour sanitizers, including mutated input, on
+#             the oldest supported Kokkos; without Fortran, whose compiler cannot link with Clang's
 #             sanitizers. Tests of the interface, of ranks and of the command
-#   no-mpi    without MPI, with the static library, on a shared Kokkos that a host program brings: what
-#             can differ there: linkage, installed copies, some tests of each language
-#   inner     as sanitize, the tests of the inside (tests/geometry, tests/core)
-#   files     every file compiled by itself, by Clang, as users' builds without a preset do; no tests
+#   no-mpi    without MPI, with the static library, on a shared Kokkos of a host program. Tests of
+#             what can differ: linkage, installed copies, some tests of each language
+#   inner     as sanitize, for the internal tests (tests/geometry, tests/core)
+#   files     compiles every file separately with Clang, as users' builds without a preset do; no
+#             tests
 #
 # usage: scripts/test.sh [configuration]...
 set -euo pipefail
@@ -53,14 +54,14 @@ scripts/setup.sh "${setup[@]}"
 if command -v ninja > /dev/null; then export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}; fi
 export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 export CTEST_PARALLEL_LEVEL=${CTEST_PARALLEL_LEVEL:-$(nproc)}
-# What has been compiled before, in this clone or another, need not be compiled again.
+# ccache avoids compiling again what was compiled before, in this clone or another.
 if command -v ccache > /dev/null; then
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
   export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 fi
 
 say "checking the format"
-# Versions of clang-format differ in taste; 14 is the one the files are written with.
+# Versions of clang-format differ in their output; the files are formatted with version 14.
 if clang-format --version | grep -q 'version 14\.'; then
   find include src tests examples \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cpp' \) \
     -print0 | xargs -0 clang-format --dry-run --Werror || failed+=(format)

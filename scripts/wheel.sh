@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds a wheel that holds everything: the Python package, the library without MPI for every x86-64
-# processor (and for those with AVX2), the command, and the libraries that these need. pip installs it
-# on other machines, which need Python and NumPy alone.
+# Builds a self-contained wheel: the Python package, the library without MPI for every x86-64
+# processor (and for those with AVX2), the command, and the libraries that these need. It can be
+# installed with pip on other machines, which need only Python and NumPy.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -45,7 +45,8 @@ if [ ! -x $tools/bin/auditwheel ]; then
 fi
 built=$(mktemp -d)
 trap 'rm -rf "$built"' EXIT
-# The terms of what is linked into the wheel or copied into it, as Debian and others keep them.
+# The licence terms of everything that is linked into the wheel or copied into it, as Debian and
+# others provide them.
 mkdir "$built/notices"
 if [ $command = ON ]; then
   parts=(libcairo2-dev libpixman-1-dev libfontconfig-dev libfreetype-dev libpng-dev libbrotli-dev
@@ -63,6 +64,6 @@ $tools/bin/pip wheel --no-deps --disable-pip-version-check --wheel-dir "$built" 
   -C cmake.define.PNPBS_PYTHON_NOTICES="$built/notices" \
   -C cmake.define.PNPBS_PYTHON_COMMAND=$command -C cmake.define.PNPBS_STATIC_CAIRO=$command \
   ./bindings/python
-# Copies into the wheel what a Linux may lack, such as libgomp, under names of its own, and names the
-# oldest glibc that will do.
+# Copies libraries that a Linux system may lack, such as libgomp, into the wheel under unique names,
+# and sets the oldest supported glibc.
 PATH=$PWD/$tools/bin:$PATH $tools/bin/auditwheel repair --strip --wheel-dir "$folder" "$built"/pnpbs-*.whl

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The constants of a header as parameters."""
+"""The constants of a header as Fortran parameters."""
 
 import re
 
@@ -13,7 +13,7 @@ VERSION = "The version this module was written for; pnpbs_version tells the libr
 
 
 def status_lines(text):
-    """The list of outcomes and errors, each with its meaning behind it."""
+    """Returns the lines of the status codes, each followed by its meaning."""
     found = re.findall(r'\bX\(\s*(PNPBS_\w+),\s*(-?\d+),\s*"([^"]*)"\s*\)', text)
     code = [f"  {STATUS}{name} = {value}" for name, value, _ in found]
     column = max(map(len, code), default=0) + 2
@@ -22,7 +22,7 @@ def status_lines(text):
 
 
 def defined(text):
-    """{name: value} of the macros that are integers."""
+    """Returns {name: value} of the macros that are integers."""
     return {name: value for name, value in c_header.constants(text).items()
             if re.search(rf"^#define\s+{name}\b", text, re.M)}
 
@@ -33,7 +33,8 @@ def parameters(comment, constants):
 
 
 def constant_lines(header):
-    """All constants: statuses, those with a comment in the header, the version."""
+    """Returns the lines of all constants: statuses, constants with a comment in the header, and the
+    version."""
     groups = [status_lines(header.text)]
     rest = defined(header.text)
     for entry in header.entries:

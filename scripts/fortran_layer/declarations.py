@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a Fortran interface body declares for an argument of C, and for a result.
+"""Derives the declarations in a Fortran interface body for the arguments and the result of a C
+function.
 
-The type says most of it. Whether an address that is not const is an array, and whether an array may
-be NULL, say the comments of the header: the texts of parameters ("[n][dim] ..., or NULL") and
-sentences like "any array may be NULL"."""
+Most of it follows from the C type. Whether a non-const pointer is an array, and whether an array
+may be NULL, follows from the comments of the header: the texts of parameters ("[n][dim] ..., or
+NULL") and sentences such as "any array may be NULL"."""
 
 import re
 from typing import NamedTuple
@@ -16,10 +17,11 @@ NUMBERS = {"int8_t": "integer(c_int8_t)", "int32_t": "integer(c_int32_t)",
 TEXT = "character(kind=c_char)"
 ADDRESS = "type(c_ptr)"
 
-# Whose filled arrays the module passes by address, though their comments do not say NULL.
+# Functions whose output arrays the module passes by address, although their comments do not mention
+# NULL.
 BY_ADDRESS = {"pnpbs_placement_get_adjacency", "pnpbs_placement_get_exchange",
               "pnpbs_placement_get_stars"}
-# What it always passes, though it may be NULL.
+# Arguments that the module always passes, although they may be NULL.
 BY_REFERENCE = {("pnpbs_geo_grid_values", "inside"), ("pnpbs_geo_depth_spacing", "slopes")}
 
 MAY_BE_NULL = re.compile(r"\b(arrays?|outputs?) may be NULL")
@@ -28,16 +30,17 @@ MAY_BE_NULL = re.compile(r"\b(arrays?|outputs?) may be NULL")
 class Declaration(NamedTuple):
     type: str  # with attributes: "real(c_double), intent(in)"
     entity: str  # "coordinates(*)"
-    note: str = ""  # the type in C of an address
+    note: str = ""  # the C type behind an address
 
 
 def handles(text):
-    """The types of handles in a header."""
+    """Returns the handle types of a header."""
     return frozenset(re.findall(r"^typedef struct \w+ \*(\w+);", text, re.M))
 
 
 def is_input(argument):
-    """Whether a call reads what an address leads to: of "const char **" it fills the address."""
+    """Returns whether a call reads the target of a pointer. A "const char **" is an output, since
+    the call fills the pointer."""
     return argument.type.startswith("const ") and argument.type != "const char **"
 
 
@@ -46,7 +49,7 @@ def description(entry):
 
 
 class Header:
-    """What a header says of the arguments of its functions."""
+    """The comments of a header about the arguments of its functions."""
 
     def __init__(self, text, included=""):
         self.text = text
@@ -55,7 +58,8 @@ class Header:
         self.of_function = {name: entry for entry in self.entries for name in entry.functions}
 
     def parameter(self, function, name):
-        """The text of a parameter; "as pnpbs_..." leads to another function."""
+        """Returns the text of a parameter, following references such as "as pnpbs_..." to another
+        function."""
         if function not in self.of_function:
             raise ValueError(f"parameters refer to {function}, which has no comment")
         for one in self.of_function[function].comment.parameters:
@@ -79,7 +83,7 @@ class Header:
 
     # ------------------------------------------------------------ declarations ------------------
     def declaration(self, function, argument):
-        """For an argument of a function."""
+        """Returns the declaration of an argument of a function."""
         c_type, name = argument.type, argument.name
         simple = self.simple_declaration(argument)
         if simple:
@@ -90,14 +94,14 @@ class Header:
         if self.is_array(function, argument):
             if self.may_be_null(function, argument):
                 return Declaration(f"{ADDRESS}, value", name, c_type)
-            # A call that fails leaves what is in the array: not out.
+            # A failed call leaves the array unchanged, so it cannot be intent(out).
             intent = "in" if is_input(argument) else "inout"
             return Declaration(f"{pointee}, intent({intent})", f"{name}(*)")
         intent = "inout" if function.endswith("_destroy") else "out"
         return Declaration(f"{pointee}, intent({intent})", name)
 
     def simple_declaration(self, argument):
-        """For what is passed by value, or None."""
+        """Returns the declaration of an argument passed by value, or None."""
         c_type, name = argument.type, argument.name
         if c_type in NUMBERS:
             return Declaration(f"{NUMBERS[c_type]}, value", name)
@@ -110,7 +114,7 @@ class Header:
         return None
 
     def pointee(self, where, argument):
-        """The Fortran type of what an address in C leads to."""
+        """Returns the Fortran type of the target of a C pointer."""
         if argument.type in ("const char **", "const char *const *"):
             return ADDRESS
         match = re.fullmatch(r"(?:const )?(\w+) \*", argument.type)
@@ -121,7 +125,8 @@ class Header:
         raise ValueError(f"{where}: no Fortran type for '{argument.type} {argument.name}'")
 
     def callback_declaration(self, callback, argument, comment):
-        """For an argument of a callback: arrays have the shapes that its comment gives them."""
+        """Returns the declaration of a callback's argument. Its comment contains the shapes of
+        arrays."""
         simple = self.simple_declaration(argument)
         if simple:
             return simple
@@ -142,11 +147,11 @@ def result_type(function, c_type):
 
 
 def fortran_shape(text):
-    """Of [n][dim]: dim, n."""
+    """Returns the Fortran shape of [n][dim]: dim, n."""
     return re.findall(r"\w+", text)[::-1]
 
 
 def with_fortran_shapes(text):
-    """A comment in which x[n][dim] is x(dim,n)."""
+    """Replaces shapes in a comment: x[n][dim] becomes x(dim,n)."""
     return re.sub(r"\b(\w+)((?:\[\w+\])+)",
                   lambda match: f"{match[1]}({','.join(fortran_shape(match[2]))})", text)

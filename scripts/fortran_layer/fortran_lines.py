@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lines of Fortran that are not longer than WIDTH."""
+"""Formats Fortran source in lines of at most WIDTH characters."""
 
 import textwrap
 
@@ -7,7 +7,7 @@ WIDTH = 100
 
 
 def statement(text, indent):
-    """The lines of a statement, continued by & where there is a blank."""
+    """Returns the lines of a statement, broken at blanks with continuation marks."""
     lines = textwrap.wrap(text, WIDTH - len(" &"), initial_indent=indent,
                           subsequent_indent=indent + "  ", break_long_words=False,
                           break_on_hyphens=False)
@@ -15,14 +15,14 @@ def statement(text, indent):
 
 
 def comment(text, indent, hanging=""):
-    """The lines of a comment for the documentation, deeper by `hanging` after the first."""
+    """Returns the lines of a documentation comment, indented by `hanging` after the first line."""
     return textwrap.wrap(text, WIDTH, initial_indent=f"{indent}!> ",
                          subsequent_indent=f"{indent}!> {hanging}", break_long_words=False,
                          break_on_hyphens=False)
 
 
 def commented(code, text, column):
-    """The lines of a statement with a comment behind it, which begins at a column."""
+    """Returns the lines of a statement with a trailing comment that begins at a column."""
     room = " " * column
     lines = textwrap.wrap(text, WIDTH, initial_indent=f"{room}!< ",
                           subsequent_indent=f"{room}!< ", break_long_words=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The interface bodies of functions and callbacks."""
+"""Generates the interface bodies of functions and callbacks."""
 
 import c_header
 import fortran_lines
@@ -7,7 +7,8 @@ from declarations import description, result_type, with_fortran_shapes
 
 
 def declaration_lines(declarations):
-    """A line each, or one for all in a row that differ only in their names."""
+    """Returns one line per declaration; consecutive ones that differ only in their names share a
+    line."""
     groups = []
     for one in declarations:
         if groups and not one.note and groups[-1][0] == (one.type, ""):
@@ -22,7 +23,7 @@ def declaration_lines(declarations):
 
 
 def rows(head, entities):
-    """As many declarations as the names take."""
+    """Yields as many declarations as the names need."""
     line = head + entities[0]
     for one in entities[1:]:
         if len(f"{line}, {one}") > fortran_lines.WIDTH:
@@ -65,7 +66,7 @@ def callback_body(header, name, function, entry):
 
 
 def separated(bodies):
-    """The lines of all, with an empty one between two."""
+    """Joins the lines of all bodies, separated by empty lines."""
     lines = []
     for one in bodies:
         lines += ([""] if lines else []) + one

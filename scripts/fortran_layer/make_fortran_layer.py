@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the interface bodies of the Fortran layer, bindings/fortran/pnpbs_c.f90 and
-pnpbs_geo_c.f90, from the headers: constants, callbacks and functions with their arguments.
+pnpbs_geo_c.f90, from the C headers: constants, callbacks and functions with their arguments.
 
 usage: make_fortran_layer.py [--check]
 
---check writes nothing and fails if a file that is there differs from what would be written.
+--check writes nothing and fails if an existing file differs from the generated one.
 """
 
 import difflib
@@ -14,7 +14,7 @@ import sys
 from typing import NamedTuple
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# The parser of the headers, and of their comments.
+# The parser of the headers and of their comments.
 sys.path[1:1] = [str(ROOT / "scripts" / "reference"), str(ROOT / "tests" / "linkage")]
 import fortran_lines
 from constants import constant_lines
@@ -27,7 +27,7 @@ COMMAND = "cmake --build <folder> --target pnpbs-fortran-layer"
 class Module(NamedTuple):
     name: str
     header: str
-    included: str  # the header that has more types, or ""
+    included: str  # text of the header with further types, or ""
     purpose: str
 
     @property
@@ -76,7 +76,8 @@ def opening(module):
 
 
 def layer(module, text, included=""):
-    """The file of a module, of the text of its header and of the one that this includes."""
+    """Returns the file of a module, from the text of its header and of the header that this
+    includes."""
     header = Header(text, included)
     constants, callbacks = constant_lines(header), callback_bodies(header)
     made = opening(module)
@@ -97,7 +98,7 @@ def layer_of(root, module):
 
 
 def differences(name, there, made):
-    """Lines of a diff between a file that is there and the one made."""
+    """Returns the lines of a diff between an existing file and the generated one."""
     return list(difflib.unified_diff(there.splitlines(), made.splitlines(), f"{name} as it is",
                                      f"{name} as it should be", lineterm="", n=1))
 

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user of pnpbs.f90 and pnpbs_geo.f90 can call, and which C functions each of it calls, as plain data."""
+"""Extracts the procedures that users of pnpbs.f90 and pnpbs_geo.f90 can call, and the C functions
+that each of them calls, as plain data."""
 
 import re
 from typing import NamedTuple
 
 
 class Procedure(NamedTuple):
-    call: str  # "call placement%get_nodes(xy, ids, tags, spacing)", as a user writes it
+    call: str  # as a user writes it: "call placement%get_nodes(xy, ids, tags, spacing)"
     name: str  # in the module: "placement_get_nodes"
-    declarations: tuple  # of its arguments but self, stat and errmsg
+    declarations: tuple  # of its arguments except self, stat and errmsg
     notes: tuple  # of the comment above: (argument, text)
     calls: frozenset  # C functions
 
@@ -18,7 +19,8 @@ def joined(text):
 
 
 def bindings(text):
-    """{module procedure: (type, the name it is called by)} of the public names of the types."""
+    """Returns {module procedure: (type, the name it is called by)} of the public names of the
+    types."""
     found = {}
     for match in re.finditer(r"^  type :: pnpbs_(?:geo_)?(\w+)$(.*?)^  end type$", text, re.S | re.M):
         for line in match[2].splitlines():
@@ -36,7 +38,7 @@ def public_names(text):
 
 
 def notes_of(comment):
-    """((argument, text), ...) of the indented lines of a comment."""
+    """Returns ((argument, text), ...) of the indented lines of a comment."""
     notes = []
     for line in comment:
         item = re.fullmatch(r"  (\w+(?:, \w+)*)  +(\S.*)", line)
@@ -48,7 +50,7 @@ def notes_of(comment):
 
 
 def declarations_of(body, arguments):
-    """Declarations of arguments, but for those that every procedure has."""
+    """Returns the declarations of arguments, except those that every procedure has."""
     found = []
     for line in body:
         left, colons, right = line.partition("::")
@@ -62,7 +64,7 @@ HEAD = re.compile(r"(subroutine|function) (\w+)\(([^)]*)\)(?: result\((\w+)\))?$
 
 
 def procedures(text, c_names):
-    """Every procedure that a user can name, in the order of the module."""
+    """Returns every procedure that a user can name, in the order of the module."""
     bound, public = bindings(joined(text)), public_names(joined(text))
     found, comment, name = [], [], None
     for line in (one.strip() for one in joined(text).splitlines()):
@@ -90,7 +92,7 @@ def procedure(kind, name, given, result, body, notes, binding, c_names):
     target = "%".join(binding) if binding else name
     left = "call " if kind == "subroutine" else f"{result} = "
     arguments = f"({', '.join(shown)})" if shown or kind == "function" else ""
-    # Called, or handed on to a procedure that calls it.
+    # The function is called directly, or passed to a procedure that calls it.
     called = {"pnpbs_" + one for one in re.findall(r"\bc_(\w+)\b", "\n".join(body))}
     return Procedure(left + target + arguments, name,
                      declarations_of(body, shown + ([result] if result else [])), notes,
@@ -98,8 +100,8 @@ def procedure(kind, name, given, result, body, notes, binding, c_names):
 
 
 def of_c_function(c_name, every):
-    """The procedures that stand for a C function. One that has a namesake in C stands for that
-    alone, whatever else it asks on the way."""
+    """Returns the procedures that correspond to a C function. A procedure with the same name as a C
+    function corresponds to that one only, whatever else it calls."""
     def namesake(one):
         return one.name if one.name.startswith("pnpbs_") else "pnpbs_" + one.name
     return [one for one in every if c_name in one.calls

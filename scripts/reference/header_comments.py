@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the comments of the C headers say, as plain data: sections, and in each the entries, which
-are a comment with the declarations that it stands above."""
+"""Extracts the comments of the C headers as plain data: sections, and in each the entries, which
+are a comment and the declarations below it."""
 
 import pathlib
 import re
@@ -19,15 +19,15 @@ class Parameter(NamedTuple):
 
 class Comment(NamedTuple):
     blocks: tuple  # of ("text", paragraph) and ("item", (word, text))
-    errors: str  # the sentence on errors, or ""
+    errors: str  # the sentence about errors, or ""
     parameters: tuple
     reach: str  # "Collective", "Local" or ""
 
 
 class Entry(NamedTuple):
     comment: Comment
-    functions: dict  # {name: c_header.Function}; for types and constants it is empty
-    declaration: str  # the lines below the comment as they are
+    functions: dict  # {name: c_header.Function}; empty for types and constants
+    declaration: str  # the lines below the comment, unchanged
 
 
 class Section(NamedTuple):
@@ -39,13 +39,14 @@ PARAMETER = re.compile(r"@param(?:\[(in|out)\])?\s+(\w+(?:,\s?\w+)*)\s+")
 
 
 def bare_lines(comment):
-    """The lines of a comment without its stars."""
+    """Returns the lines of a comment without its stars."""
     body = re.sub(r"^/\*\*?|\*/$", "", comment.strip())
     return [re.sub(r"^\s*\* ?", "", line).rstrip() for line in body.splitlines()]
 
 
 def blocks_of(lines):
-    """Paragraphs, and lists where lines are indented: deeper lines go on with the item above."""
+    """Returns paragraphs, and lists where lines are indented. Deeper lines continue the item above.
+    """
     lines = [line[1:] if line.startswith(" ") else line for line in lines]
     depths = [len(line) - len(line.lstrip()) for line in lines if line.startswith("  ")]
     blocks = []
@@ -84,7 +85,7 @@ def comment_of(text):
     reach = set(re.findall(r"\b(Collective|Local)\b", description))
     if len(reach) > 1:
         raise ValueError(f"both collective and local: {text}")
-    # A sentence that says nothing else is told by the badge.
+    # A sentence without further content is shown by the badge.
     head = re.sub(r"(^|(?<=[.)]))\s*(Collective|Local)\.(?=\s|$)", "", head)
     return Comment(blocks_of(head.splitlines()),
                    " ".join((errors_word + errors).split()), tuple(parameters),
@@ -92,7 +93,7 @@ def comment_of(text):
 
 
 def entries_of(text):
-    """The documented declarations of a part of the header."""
+    """Returns the documented declarations of a part of the header."""
     entries = []
     pieces = re.split(r"(?=^/\*\*)", text, flags=re.M)
     for piece in pieces:
@@ -107,7 +108,7 @@ def entries_of(text):
 
 
 def inline_functions(text):
-    """{name: Function} of what the header itself defines."""
+    """Returns {name: Function} of the inline functions in the header."""
     found = {}
     for match in re.finditer(r"^static inline (\w+) (pnpbs_\w+)\(([^)]*)\) \{", text, re.M):
         found[match[2]] = c_header.Function(match[1], c_header.arguments_of(match[3]))
@@ -115,14 +116,14 @@ def inline_functions(text):
 
 
 def sections(text):
-    """The parts of a header that lines of dashes divide."""
+    """Returns the sections of a header, which are separated by lines of dashes."""
     pieces = re.split(r"^/\* -{10,} (.*?) -+ \*/$", text, flags=re.M)
     return tuple(Section(title, entries_of(body))
                  for title, body in zip(pieces[1::2], pieces[2::2]))
 
 
 def opening(text):
-    """{title: ((word, text), ...)} of the lists that the header begins with."""
+    """Returns {title: ((word, text), ...)} of the lists at the beginning of the header."""
     comment = re.match(r"/\*.*?\*/", text, re.S)[0]
     lists, title = {}, None
     for line in bare_lines(comment):

@@ -1,34 +1,34 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user of PNPBS.jl can call, by its docstrings, and which C functions each of it reaches,
-as plain data."""
+"""Extracts the functions that users of PNPBS.jl can call, from its docstrings, and the C functions
+that each of them reaches, as plain data."""
 
 import re
 from typing import NamedTuple
 
-# Every call passes through these; what they ask is no service of the function that was called.
+# Every call passes through these. The C functions that they call do not belong to the caller.
 CHECKS = {"check", "check_without_context", "check_geo", "live"}
-# What reaches the user in another way than through a function that he calls.
+# C functions that users reach in other ways than by calling a function.
 OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError",
              "pnpbs_mesh_get_connectivity_int32": "DistributedMesh"}
 
-# What a function calls on its way, but does not stand for.
+# C functions that a function uses internally without corresponding to them.
 IN_PASSING = {"write_mesh": {"pnpbs_mesh_create", "pnpbs_mesh_destroy"}}
 
 
 class Docstring(NamedTuple):
-    names: tuple  # what it documents: ("set_spacing!",)
+    names: tuple  # the documented names: ("set_spacing!",)
     signatures: tuple
     text: str
     file: str
 
     def first_object(self):
-        """What is given first: "placement"."""
+        """Returns the first argument, such as "placement"."""
         found = re.search(r"\((\w+)", self.signatures[0])
         return found[1] if found else ""
 
 
 def signatures_of(lines):
-    """What begins further in continues the line before."""
+    """Joins indented lines with the line before."""
     return tuple(re.split(r"\n(?! )", "\n".join(lines)))
 
 
@@ -38,7 +38,7 @@ def docstrings(text, file):
         head, _, rest = body.partition("\n\n")
         lines = head.rstrip().splitlines()
         if not all(line.startswith("    ") for line in lines):
-            continue  # of a module
+            continue  # the docstring of a module
         signatures = signatures_of(line[4:] for line in lines)
         names = dict.fromkeys(re.match(r"[\w.]+!?", line)[0] for line in signatures)
         found.append(Docstring(tuple(names), signatures, rest.strip(), file))
@@ -46,7 +46,7 @@ def docstrings(text, file):
 
 
 def definitions(text):
-    """[(function's name, its source)] of what is defined at the left margin."""
+    """Returns [(function's name, its source)] of the definitions at the left margin."""
     text = re.sub(r'^"""\n.*?^"""$', "", text, flags=re.S | re.M)
     text = re.sub(r"#.*$", "", text, flags=re.M)
     found = []
@@ -62,7 +62,7 @@ class Package:
         texts = {path.name: path.read_text() for path in sorted((folder / "src").glob("*.jl"))}
         raw = texts.pop("LibPNPBS.jl") + texts.pop("LibPNPBSGeo.jl")
         self.raw = set(re.findall(r"^(pnpbs_\w+)\(", raw, re.M))
-        texts.pop("library.jl")  # the raw layer's own
+        texts.pop("library.jl")  # the raw layer
         self.docstrings = [one for file, text in texts.items() for one in docstrings(text, file)]
         self.sources = {}
         for text in texts.values():
@@ -71,7 +71,8 @@ class Package:
         self.documented = {name: one for one in self.docstrings for name in one.names}
 
     def reached(self, name, seen=None):
-        """C functions that a function calls, itself or through functions without a docstring."""
+        """Returns the C functions that a function calls, directly or through functions without a
+        docstring."""
         seen = seen if seen is not None else {name}
         source = self.sources.get(name, "")
         found = set(re.findall(r"LibPNPBS(?:Geo)?\.(pnpbs_\w+)", source))
@@ -82,7 +83,7 @@ class Package:
         return found
 
     def of_c_function(self, c_name):
-        """The docstrings of the functions that stand for a C function."""
+        """Returns the docstrings of the functions that correspond to a C function."""
         if c_name in OTHERWISE:
             return [self.documented[OTHERWISE[c_name]]]
         return [one for one in self.docstrings

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the languages have for a C function, as parts of its entry."""
+"""Formats the counterparts of a C function in the other languages, as parts of its entry."""
 
 import re
 import textwrap
@@ -21,13 +21,13 @@ def fortran_part(procedures):
 
 
 def fortran_interface(name, text):
-    """The interface of a callback as pnpbs_c.f90 has it."""
+    """Returns the interface of a callback from pnpbs_c.f90."""
     match = re.search(rf"^( *)function {name}\(.*?end function", text, re.S | re.M)
     return textwrap.dedent(match[0]) if match else None
 
 
 def described(one, place, here, shown, text):
-    """The text of a function once where its place is, elsewhere a link to it."""
+    """Returns the text of a function once in its own section, and a link to it elsewhere."""
     if place not in here:
         return [f"Described at [`{re.sub(r'.*#', '', place)}`]({place})."]
     if one in shown:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of options, statistics and formats, asked of the built library."""
+"""The tables of options, statistics and formats, queried from the built library."""
 
 import ctypes
 
@@ -9,7 +9,7 @@ class Library:
         self.library = ctypes.CDLL(str(path))
 
     def rows(self, table, texts, flags=0):
-        """Rows of pnpbs_<table>_info: its strings, then its integers."""
+        """Yields the rows of pnpbs_<table>_info: its strings, then its integers."""
         count = ctypes.c_int32()
         self.call(f"pnpbs_{table}_count", ctypes.byref(count))
         for index in range(count.value):
@@ -25,13 +25,13 @@ class Library:
             raise RuntimeError(f"{name} returned {status}")
 
     def options(self):
-        """[name, type, default, range, help] each."""
+        """Returns rows of [name, type, default, range, help]."""
         return list(self.rows("option", 5))
 
     def statistics(self):
-        """[name, type, help] each."""
+        """Returns rows of [name, type, help]."""
         return list(self.rows("statistic", 3))
 
     def formats(self):
-        """[name, help, binary, elements] each."""
+        """Returns rows of [name, help, binary, elements]."""
         return list(self.rows("format", 2, 2))

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/reference: every function of the C header with its comment, and beside it what the
-Fortran module, the Julia package and the Python package have for it, read from their sources; the
-tables that the built library tells; and the constants of the method.
+"""Writes docs/reference: every function of the C header with its comment, and its counterparts in
+the Fortran module, the Julia package and the Python package, read from their sources; the tables
+queried from the built library; and the constants of the method.
 
 usage: make_reference.py <libpnpbs.so> [--check]
 
---check writes nothing and fails if the pages that are there differ from what would be written.
+--check writes nothing and fails if the existing pages differ from the generated ones.
 """
 
 import difflib
@@ -28,7 +28,7 @@ NOTE = "<!-- Made by scripts/reference/make_reference.py from the sources: chang
 
 
 class Sources:
-    """Everything that the pages are made of."""
+    """All sources of the pages."""
 
     def __init__(self, root):
         header = (root / "include/pnpbs/pnpbs.h").read_text()
@@ -53,7 +53,8 @@ class Sources:
         self.python = python_functions.Package(root / "bindings/python/pnpbs", called)
 
     def underlying(self, name):
-        """What the languages call: the function, or what an inline one of the header calls."""
+        """Returns the C functions that the languages call: the function itself, or those that an
+        inline function of the header calls."""
         entry = self.functions[name]
         if not entry.declaration.startswith("static inline"):
             return [name]
@@ -71,7 +72,7 @@ class Sources:
                                   for one in self.python.of_c_function(c)))
 
     def gaps(self):
-        """What the languages lack, a line each."""
+        """Yields what the languages lack, one line each."""
         for name, entry in self.functions.items():
             if not entry.comment.reach:
                 yield f"{name}: the comment does not say whether it is collective or local"
@@ -83,13 +84,13 @@ class Sources:
                 yield f"{name}: nothing in the Python package calls it"
 
 
-# ---------------------------------------------------------------- where things are ---------------
+# ---------------------------------------------------------------- links --------------------------
 def page_name(section):
     return section.title.lower().replace(" ", "_") + ".md"
 
 
 def entry_names(entry):
-    """The names that an entry declares: functions, or types, or constants."""
+    """Returns the names that an entry declares: functions, types or constants."""
     if entry.functions:
         return list(entry.functions)
     if "PNPBS_STATUS_LIST" in entry.declaration:
@@ -103,11 +104,11 @@ def anchor(name):
 
 
 class Links:
-    """From names to where they are described."""
+    """Maps names to the sections that describe them."""
 
     def __init__(self, sources):
         self.c, self.julia, self.python = {}, {}, {}
-        reached = {}  # by a docstring of Julia: C functions
+        reached = {}  # C functions by docstring of Julia
         for section in sources.sections:
             for entry in section.entries:
                 for name in entry_names(entry):
@@ -122,12 +123,12 @@ class Links:
         self.julia_names = {name: place for one, place in self.julia.items() for name in one.names}
 
     def place_of(self, docstring, names):
-        """That of the object that comes first in it, else the first that there is."""
+        """Returns the section of the docstring's first argument, or else the first one."""
         own = [name for name in names if name.startswith(f"pnpbs_{docstring.first_object()}_")]
         return self.c[(own or names)[0]] if names else "README.md#beyond-c"
 
     def linked(self, text):
-        """Text of the header with its names as links; what is in backquotes stays."""
+        """Returns a text of the header with its names as links; text in backquotes is unchanged."""
         def link(match):
             name = match[0]
             return f"[`{name}`]({self.c[name]})" if name in self.c else f"`{name}`"
@@ -137,7 +138,7 @@ class Links:
         return "".join(parts)
 
     def resolved(self, docstring):
-        """A docstring with Julia's cross-references as links."""
+        """Returns a docstring with Julia's cross-references as links."""
         def link(match):
             place = self.julia_names.get(match[1])
             return f"[`{match[1]}`]({place})" if place else f"`{match[1]}`"
@@ -338,7 +339,7 @@ and offsets count from 1 in Fortran and Julia, from 0 in C and Python. More: [fo
 
 
 def pages(root, library):
-    """{file name: text} of the reference."""
+    """Returns {file name: text} of the reference."""
     sources = Sources(root)
     gaps = list(sources.gaps())
     if gaps:
@@ -353,7 +354,7 @@ def pages(root, library):
 
 
 def differences(folder, made):
-    """Lines of a diff between the pages that are there and those made."""
+    """Yields the lines of a diff between the existing pages and the generated ones."""
     there = {path.name: path.read_text() for path in folder.glob("*.md")}
     for name in sorted(there.keys() | made.keys()):
         yield from difflib.unified_diff(there.get(name, "").splitlines(),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pieces of Markdown."""
+"""Helpers that format Markdown."""
 
 import re
 import textwrap
@@ -10,7 +10,7 @@ WIDTH = 104
 def wrapped(text, indent=""):
     lines = textwrap.wrap(text, WIDTH, subsequent_indent=indent, break_long_words=False,
                           break_on_hyphens=False)
-    # What begins a line must not be taken for a list or a heading.
+    # A line must not begin like a list item or a heading.
     return "\n".join([lines[0]] + [re.sub(r"^(\s*)([-+*#>]|\d+\.)(\s)", r"\1\\\2\3", line)
                                    for line in lines[1:]]) if lines else ""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of the constants of the method, src/method/constants.hpp."""
+"""Reads the table of the constants of the method, src/method/constants.hpp."""
 
 import re
 from typing import NamedTuple
@@ -14,7 +14,7 @@ PARTS = re.compile(r"(.+\.) \[([^]]+)\] (.+)\.")
 class Constant(NamedTuple):
     section: str
     name: str
-    text: str  # of the value
+    text: str  # the value as text
     unit: str
     meaning: str
     source: str
@@ -26,7 +26,7 @@ class Constant(NamedTuple):
 
 
 def constants(root):
-    """All of them, in order. A constant that the table does not explain is an error."""
+    """Returns all constants in order. A constant without an explanation is an error."""
     found, section, comment = [], None, []
     lines = (root / FILE).read_text().partition("namespace pnpbs::method {")[2].splitlines()
     for line in lines:

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user of the Python package can call, by its docstrings, and which C functions each of it
-reaches, as plain data."""
+"""Extracts the functions that users of the Python package can call, from its docstrings, and the C
+functions that each of them reaches, as plain data."""
 
 import ast
 import inspect
 import re
 from typing import NamedTuple
 
-# Of which C functions the methods of a class call by the rest of the name, and how an object of it
-# is called in signatures.
+# For each class: the prefix of the C functions that its methods call by the rest of the name, and
+# the name of an object in signatures.
 CLASSES = {"Context": ("context", "context"), "Domain": ("domain", "domain"),
            "Placement": ("placement", "placement"), "Results": ("placement", "placement"),
            "Fields": ("placement", "placement"), "Meshes": ("placement", "placement"),
@@ -16,12 +16,12 @@ CLASSES = {"Context": ("context", "context"), "Domain": ("domain", "domain"),
            "PlacementHandle": ("placement", "placement"), "Transfer": ("transfer", "transfer"),
            "Particles": ("particles", "particles"), "Shapes": ("geo", "shapes"),
            "GeoGrid": ("geo_grid", "grid")}
-# What reaches the user in another way than through a function that he calls.
+# C functions that users reach in other ways than by calling a function.
 OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError",
              "pnpbs_last_error_data": "PNPBSError", "pnpbs_last_error_point": "PNPBSError",
              "pnpbs_status_string": "Status", "pnpbs_placement_write": "placement.write",
              "pnpbs_mesh_get_connectivity_int32": "DistributedMesh"}
-# What a function calls on its way, but does not stand for.
+# C functions that a function uses internally without corresponding to them.
 IN_PASSING = {"placement.write_mesh": {"pnpbs_mesh_create", "pnpbs_mesh_destroy"}}
 SETTERS = ("_set", "_set_int64", "_set_double")
 
@@ -48,7 +48,7 @@ class Package:
                       for one in self.functions}
         self.documented = {one.name: one for one in self.functions}
 
-    # ------------------------------------------------------------ what there is -----------------
+    # ------------------------------------------------------------ public functions --------------
     def read(self, module):
         for node in module.body:
             if isinstance(node, ast.FunctionDef):
@@ -76,7 +76,7 @@ class Package:
                 self.add(method, prefix, f"{called}.{method.name}")
 
     def public_bases(self, node):
-        """What it inherits from, directly or not, and is described with it."""
+        """Yields the public base classes, direct or indirect."""
         for base in node.bases:
             one = self.classes.get(getattr(base, "id", None))
             if one is not None:
@@ -89,9 +89,9 @@ class Package:
         if text and ("." in name or name in self.public) and not name.split(".")[-1].startswith("_"):
             self.functions.append(Function(name, signature(node, name), inspect.cleandoc(text)))
 
-    # ------------------------------------------------------------ what it calls -----------------
+    # ------------------------------------------------------------ called C functions ------------
     def reached(self, name, seen=None):
-        """C functions that a function calls, itself or through private ones."""
+        """Returns the C functions that a function calls, directly or through private ones."""
         seen = seen if seen is not None else {name}
         node, prefix = self.bodies.get(name, (None, None))
         found = set()
@@ -104,7 +104,7 @@ class Package:
         return found - (set(OTHERWISE) if name.split(".")[-1] != "write" else set())
 
     def named_by(self, call, prefix):
-        """Of self._call("run"): pnpbs_placement_run."""
+        """Returns the C function of self._call("run"): pnpbs_placement_run."""
         texts = [one.value for one in call.args
                  if isinstance(one, ast.Constant) and isinstance(one.value, str)]
         if isinstance(call.func, ast.Name) and call.func.id == "_set_option":
@@ -128,14 +128,14 @@ class Package:
         return self.reached(other, seen)
 
     def of_c_function(self, c_name):
-        """The functions that stand for a C function."""
+        """Returns the functions that correspond to a C function."""
         if c_name in OTHERWISE:
             return [self.documented[OTHERWISE[c_name]]]
         return [one for one in self.functions if c_name in self.reach[one]]
 
 
 def exported(module):
-    """Names in __all__."""
+    """Returns the names in __all__."""
     return [name.value for node in module.body if isinstance(node, ast.Assign)
             and getattr(node.targets[0], "id", "") == "__all__" for name in node.value.elts]
 

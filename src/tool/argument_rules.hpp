@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which arguments go together, and with which domains.
+// Rules about combinations of command-line arguments, and about arguments that apply to one
+// dimension only.
 #pragma once
 
 #include <string>
@@ -8,16 +9,18 @@
 
 namespace pnpbs::tool {
 
-// Throws BadInput that names --help.
+// Throws BadInput with `what` and a hint at --help.
 [[noreturn]] void refuse(const std::string& what);
 
-// Those that are missing, and those that exclude or need one another. Throws BadInput.
+// Throws BadInput if required arguments are missing, or if arguments exclude or require one
+// another.
 void require_arguments_that_fit(const Arguments& arguments);
 
-// Files of particles want their volumes, and some their density. Throws BadInput.
+// Requests volumes if an output format stores particles. Throws BadInput if such a format also
+// requires a density and none is given.
 void ask_for_what_files_need(Arguments& arguments);
 
-// What only domains of the other dimension have. Throws BadInput.
+// Throws BadInput if an argument is given that applies only to domains of another dimension.
 void refuse_other_dimension(const Arguments& arguments, int dimension);
 
 }  // namespace pnpbs::tool

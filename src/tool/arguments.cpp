@@ -17,8 +17,7 @@
 namespace pnpbs::tool {
 namespace {
 
-// Functions that take the values of options from their text. They throw BadInput for text that is
-// no such value.
+// Functions that parse the values of options. They throw BadInput if the text is not a valid value.
 
 void take_angle(const std::string& option, const std::string& text, std::optional<double>& angle) {
   const auto numbers = numbers_between_commas(text);
@@ -28,7 +27,7 @@ void take_angle(const std::string& option, const std::string& text, std::optiona
 }
 
 void take_sphere(const std::string& text, Arguments& arguments) {
-  // Of Antarctica, the place farthest from any sea.
+  // The point of Antarctica that is farthest from any sea.
   constexpr Point<2> deep_in_land{55, -82};
   const auto numbers = numbers_between_commas(text);
   const bool fits = numbers && (numbers->size() == 1 || numbers->size() == 3) &&
@@ -71,7 +70,8 @@ void take_bound(const std::string& option, const std::string& text, std::optiona
   bound = numbers->front();
 }
 
-// An option of the library, but one that is a number of nodes: 1e6 will do.
+// Passes the text on as an option of the library. A number of nodes may have an exponent, as in
+// 1e6.
 void take_nodes(const std::string& text, Arguments& arguments) {
   std::optional<double> nodes;
   take_bound("--nodes", text, nodes);
@@ -85,9 +85,9 @@ void take_places(const std::string& text, Arguments& arguments) {
     refuse("--nodes-at: unknown value '" + text + "' (known: boundary, centers, walls)");
 }
 
-// With one layer nodes would have to lie on a surface that is no body.
+// At least two layers are required: a single layer would be a surface, which bounds no body.
 void take_wall_layers(const std::string& text, Arguments& arguments) {
-  constexpr int most = 1000;  // more than any kernel reaches
+  constexpr int most = 1000;  // larger than the support of any particle kernel
   int layers = 0;
   const char* end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, layers);
@@ -97,7 +97,7 @@ void take_wall_layers(const std::string& text, Arguments& arguments) {
   arguments.wall_layers = layers;
 }
 
-// 0 if it is none.
+// Returns 0 if `text` is not an integer.
 std::int32_t tag_in(std::string_view text) {
   std::int32_t tag = 0;
   const char* end = text.data() + text.size();
@@ -167,7 +167,7 @@ struct Questions {
   bool help = false, version = false, statistics = false;
 };
 
-// Each occurrence takes one value: "--output a --output b".
+// Adds an option that may be repeated, with one value per occurrence: "--output a --output b".
 void add_repeatable(CLI::App& app, const std::string& name, std::vector<std::string>& values,
                     const std::string& help) {
   app.add_option(name, values, help)->allow_extra_args(false)->take_all();
@@ -271,7 +271,7 @@ void add_curves(CLI::App& app, Arguments& arguments) {
       ->group(group);
 }
 
-// Of files that GDAL reads.
+// Adds the options of files that GDAL reads.
 void add_geo(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to fill";
   app.add_option_function<std::string>(
@@ -321,7 +321,7 @@ void add_nodes_at(CLI::App& app, Arguments& arguments) {
       ->group("What to fill");
 }
 
-// Texts that become values when all of them are there.
+// Texts that are converted to values after all arguments have been parsed.
 struct Texts {
   std::vector<std::string> settings, names, regions;
 };
@@ -472,7 +472,7 @@ void add_general(CLI::App& app, Arguments& arguments, Questions& questions) {
   app.add_flag("--list-statistics", questions.statistics, "the keys of the report")->group(group);
 }
 
-// Short ways to say --set key=value, for those of these options that the library has.
+// Adds short forms of --set key=value for those of these options that the library has.
 void add_library_options(CLI::App& app, Arguments& arguments, Texts& texts) {
   const std::string group = "How to do it";
   add_repeatable(app, "--set", texts.settings,
@@ -507,7 +507,7 @@ void refuse_unknown(const CLI::App& app) {
   }
 }
 
-// One empty line between groups is enough.
+// Removes all but one of several empty lines between groups.
 std::string compact(std::string text) {
   for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
   return text;

@@ -36,7 +36,8 @@ CheckpointInterval checkpoint_interval_in(const std::string& text) {
   return interval;
 }
 
-// By steps it is due at the same ones in every run, and after a restart, too.
+// With an interval in steps, checkpoints are due at the same steps in every run and after a
+// restart.
 bool Checkpoints::is_due(std::int64_t step) const {
   if (interval_.steps > 0) {
     const std::int64_t last = std::max(first_step_, written_step_);
@@ -46,7 +47,7 @@ bool Checkpoints::is_due(std::int64_t step) const {
 }
 
 bool Checkpoints::turn(double fraction, std::int64_t step, bool stop) {
-  if (path_.empty() || fraction == 0) return stop;  // not all ranks' turn then
+  if (path_.empty() || fraction == 0) return stop;  // a call that is not collective
   finish_callbacks();
   if (first_step_ < 0) first_step_ = step;
   stop = ranks_.any(stop);
@@ -54,7 +55,8 @@ bool Checkpoints::turn(double fraction, std::int64_t step, bool stop) {
   return stop;
 }
 
-// In some turns it cannot be: then the next one does it, and until then the file stays as it is.
+// Some events do not allow a checkpoint (PNPBS_ERROR_STATE). The file then stays as it is, and the
+// next event tries again.
 void Checkpoints::try_to_write(std::int64_t step) {
   const pnpbs_status status = pnpbs_placement_write_checkpoint(placement_, path_.c_str());
   if (status == PNPBS_ERROR_STATE) return;

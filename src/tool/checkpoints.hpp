@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checkpoints of a run: every so often, when it is asked to stop, and at its end.
+// Checkpoints of a run. They are written at intervals, when the run is stopped, and at its end.
 #pragma once
 
 #include <chrono>
@@ -12,18 +12,19 @@
 
 namespace pnpbs::tool {
 
-// From one to the next: so many steps, or so much time; neither: only at the end.
+// Interval between checkpoints, in steps or in time. If both are 0, a checkpoint is written only at
+// the end.
 struct CheckpointInterval {
   std::int64_t steps = 0;
   std::chrono::duration<double> time{0};
 };
 
-// "500" steps, or "90s", "30min", "2h". Throws BadInput.
+// Parses "500" (steps), "90s", "30min" or "2h". Throws BadInput.
 CheckpointInterval checkpoint_interval_in(const std::string& text);
 
 class Checkpoints {
  public:
-  // An empty path: none are written. All must outlive this object.
+  // An empty path disables checkpoints. All arguments must outlive this object.
   Checkpoints(std::string path, CheckpointInterval interval, pnpbs_placement placement,
               pnpbs_context context, const Ranks& ranks)
       : path_(std::move(path)),
@@ -32,13 +33,13 @@ class Checkpoints {
         context_(context),
         ranks_(ranks) {}
 
-  // The monitor's turn at a step, on all ranks or, with fraction 0, on any of them; whether the run
-  // is to stop.
+  // Handles one call of the monitor, and writes a checkpoint if one is due or the run stops.
+  // Returns whether the run is to stop. Collective unless `fraction` is 0.
   bool turn(double fraction, std::int64_t step, bool stop);
-  // Writes one now; throws Failure. Collective.
+  // Writes a checkpoint now. Collective. Throws Failure.
   void write();
 
-  // What is told of a run that was stopped.
+  // Returns the message for a run that was stopped.
   std::string words_at_stop() const;
 
  private:
@@ -53,8 +54,8 @@ class Checkpoints {
   pnpbs_context context_;
   const Ranks& ranks_;
   Clock::time_point written_at_ = Clock::now();
-  std::int64_t written_step_ = -1;  // of this run's last one
-  std::int64_t first_step_ = -1;    // that a turn told
+  std::int64_t written_step_ = -1;  // step of the last checkpoint of this run
+  std::int64_t first_step_ = -1;    // first step that turn() received
   bool warned_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where pictures cut a body open.
+// The plane along which pictures cut a body open.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace pnpbs::tool {
 
-// Of "x=62" (or y, z) or "a,b,c,d", which means a x + b y + c z = d. Throws BadInput.
+// Parses "x=62" (or y, z) or "a,b,c,d", which means a x + b y + c z = d. Throws BadInput.
 picture::CutPlane cut_plane_in(const std::string& text);
 
-// The wanted plane, or, if none is asked for, one through the middle. Throws BadInput if it misses
-// the body.
+// Returns the plane given by `text`, or one through the middle of the body if `text` is empty.
+// Throws BadInput if the plane misses the body.
 picture::CutPlane cut_plane_for(const std::string& text, pnpbs_domain domain,
                                 pnpbs_context context);
 

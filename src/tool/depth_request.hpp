@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --depth-rule asks for: d by the depth in a raster.
+// The values of --depth-rule, which derives d from the depth in a raster.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,25 @@
 namespace pnpbs::tool {
 
 struct DepthRequest {
-  std::string text;              // as the user gives it
-  std::string grid;              // [NAME=]FILE[:VARIABLE], as --spacing-grid has it
-  DepthRule rule;                // but for its metres, which are
-  std::optional<double> metres;  // per unit of length, if the user gives them
-  bool elevations = false;       // the values are positive up
+  std::string text;              // as given on the command line
+  std::string grid;              // [NAME=]FILE[:VARIABLE], as for --spacing-grid
+  DepthRule rule;                // without metres per unit, which are in `metres`
+  std::optional<double> metres;  // metres per unit of length, if given
+  bool elevations = false;       // whether the values are positive upwards
 
   static constexpr const char* option = "--depth-rule";
-  static constexpr const char* name = "by_depth";  // of this d in formulas
+  static constexpr const char* name = "by_depth";  // name of this d in formulas
 };
 
-// Throws BadInput.
+// Parses the value of --depth-rule. Throws BadInput.
 DepthRequest depth_request_in(const std::string& text);
 
-// Metres per unit of length of a domain whose unit has this name, "" if it is not known; on a
-// sphere it is not. Throws BadInput where neither that nor the user says it, or both differ.
+// Returns the metres per unit of length of a domain with a unit of this name. `unit` is "" if it is
+// unknown, as on a sphere. Throws BadInput if neither `unit` nor the request defines the factor, or
+// if the two disagree.
 double metres_per_unit(const DepthRequest& request, const std::string& unit);
 
-// The formula where the user gives none, with these bounds of d if there are any.
+// Returns the default formula of d by depth, with these bounds of d if present.
 std::string formula_by_depth(const std::optional<double>& least, const std::optional<double>& most);
 
 }  // namespace pnpbs::tool

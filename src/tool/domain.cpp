@@ -70,7 +70,7 @@ namespace {
 
 constexpr std::size_t numbers_before_formula = 7;
 
-// Behind so many commas; npos if there are fewer.
+// Returns the position after the given number of commas, or npos if there are fewer.
 std::size_t behind_commas(const std::string& text, std::size_t commas) {
   std::size_t at = 0;
   for (std::size_t k = 0; k < commas; ++k) {
@@ -112,7 +112,7 @@ void LevelSet::add_to(pnpbs_domain domain, pnpbs_context context) const {
 
 namespace {
 
-constexpr std::size_t max_bytes = std::size_t{1} << 30;  // an endless stream is an error
+constexpr std::size_t max_bytes = std::size_t{1} << 30;  // limit for an endless stream
 
 std::string standard_input() {
   std::string text;
@@ -128,7 +128,7 @@ std::string standard_input() {
   }
 }
 
-// 3 for surfaces, TetGen's .poly and a .msh that is not in a plane.
+// Returns 3 for surfaces, TetGen's .poly, and .msh files that are not planar.
 int dimension_of(const std::string& path, bool surfaces_only) {
   if (path == "-") return 2;
   if (surfaces_only && extension_of(path) == "msh") return 3;
@@ -137,7 +137,7 @@ int dimension_of(const std::string& path, bool surfaces_only) {
   return dimension;
 }
 
-// A group by its name or its number.
+// Returns the tag of a group that is given by its name or number.
 std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& names) {
   std::vector<std::string> known;
   for (const GroupName& each : names) {
@@ -156,7 +156,7 @@ std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& name
                  (known.empty() ? " (the domain has no named ones)" : " (known: " + list + ")"));
 }
 
-// Many coasts in use cross themselves or each other somewhere, by a few metres.
+// Many coastlines in use cross themselves or each other somewhere, by a few metres.
 std::string advice_on(pnpbs_context context) {
   std::int32_t reason = PNPBS_REASON_OTHER;
   check(pnpbs_last_error_data(context, &reason, nullptr), context);
@@ -285,7 +285,8 @@ void DomainSource::read_msh(pnpbs_domain domain, pnpbs_context context) const {
   check(pnpbs_domain_read_msh(domain, path_.c_str(), feature_angle_), context);
 }
 
-// Whatever its name. But who gives a file that is none needs to know how it was taken.
+// Reads every file other than .msh as .poly, whatever its extension. If that fails for another
+// extension, the message says how the file was read.
 void DomainSource::read_plane(pnpbs_domain domain, pnpbs_context context) const {
   if (is_msh()) return read_msh(domain, context);
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The domain that the user names: a file, standard input, or a simple body in words.
+// The domain given on the command line: a file, standard input, or a primitive.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,26 @@
 
 namespace pnpbs::tool {
 
-// Simple bodies in words: "ball(0,0,0, 1)".
+// A primitive body as text: "ball(0,0,0, 1)".
 struct Primitive {
   std::string shape;
   std::vector<double> numbers;
 };
 
-// Nothing if the text names a file. Throws BadInput if it is no body that we know.
+// Parses a primitive. Returns nothing if the text names a file. Throws BadInput if the shape is
+// unknown.
 std::optional<Primitive> primitive_in(const std::string& text);
 
 void add(const Primitive& primitive, pnpbs_domain domain, pnpbs_context context);
 
-// A body as the command is given it by a formula: "levelset(-2,-2,-2, 2,2,2, 0.1, x^2+y^2+z^2-1)".
+// A body bounded by a level set: "levelset(-2,-2,-2, 2,2,2, 0.1, x^2+y^2+z^2-1)".
 class LevelSet {
  public:
-  // Nothing if the text does not begin as one, or names a file. Throws BadInput.
+  // Parses a level set. Returns nullptr if the text has another beginning or names a file. Throws
+  // BadInput.
   static std::unique_ptr<LevelSet> in(const std::string& text);
 
-  // This object must outlive the domain, and placements in it.
+  // Adds the level set to the domain. This object must outlive the domain and its placements.
   void add_to(pnpbs_domain domain, pnpbs_context context) const;
 
  private:
@@ -46,24 +48,24 @@ class LevelSet {
 
 class DomainSource {
  public:
-  // Local: finds out what it is. Throws BadInput.
+  // Determines the kind of the domain. Local. Throws BadInput.
   explicit DomainSource(const Arguments& arguments);
 
-  // nullptr if it is no file of geographers.
+  // Returns nullptr if the domain is not a file that GDAL reads.
   const GeoFile* geo() const { return geo_.get(); }
   int dimension() const { return dimension_; }  // 2: in the plane, 3: a body, or on a sphere
   bool on_sphere() const { return sphere_.has_value(); }
   bool is_whole_sphere() const { return on_sphere() && path_.empty(); }
-  // A domain of that kind, without anything in it. Local. Throws Failure.
+  // Creates an empty domain of this kind. Local. Throws Failure.
   void create(pnpbs_context context, pnpbs_domain* domain) const;
 
-  // Standard input is the first rank's; files are read by every rank. This object must outlive the
-  // domain. Collective. Throws Failure.
+  // Reads the domain. The first rank reads standard input; every rank reads files. This object must
+  // outlive the domain. Collective. Throws Failure.
   void read(pnpbs_domain domain, pnpbs_context context, const Ranks& ranks) const;
 
-  // Is it of triangles that are to be repaired where nothing else helps?
+  // Returns whether the domain consists of triangles that may be repaired as a last resort.
   bool may_be_repaired() const;
-  // To this resolution, 0 for the default. Local. Throws Failure.
+  // Repairs the domain to this resolution, 0 for the default. Local. Throws Failure.
   void repair(pnpbs_domain domain, double resolution, pnpbs_context context) const;
 
  private:
@@ -87,7 +89,7 @@ class DomainSource {
   std::optional<double> repair_, resurface_;  // their resolutions
   bool repair_if_needed_, quiet_;
   std::vector<std::string> inner_;                           // groups
-  std::vector<std::pair<std::int32_t, std::string>> names_;  // of tags
+  std::vector<std::pair<std::int32_t, std::string>> names_;  // tags and their names
   std::vector<Region> regions_;
 };
 

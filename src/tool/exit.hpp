@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the command ends.
+// Exit codes of the command, and the exceptions that end it.
 #pragma once
 
 #include <stdexcept>
@@ -18,7 +18,7 @@ enum class ExitCode {
   interrupted = 130
 };
 
-// Thrown to end the command with a message for standard error.
+// An exception that ends the command with a message on standard error.
 class Failure : public std::runtime_error {
  public:
   Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

@@ -21,7 +21,7 @@
 namespace pnpbs::tool {
 namespace {
 
-// muParser leaves the number of arguments to it: see refuse_other_hypots.
+// muParser does not check the number of arguments; refuse_other_hypots does.
 double hypot_of(const double* numbers, int n) {
   return n == 2 ? std::hypot(numbers[0], numbers[1])
                 : std::hypot(numbers[0], numbers[1], numbers[2]);
@@ -32,11 +32,12 @@ double floor_of(double a) { return std::floor(a); }
 double ceil_of(double a) { return std::ceil(a); }
 double cbrt_of(double a) { return std::cbrt(a); }
 
-// That of the formula whose functions are called: these have no other way to know.
+// Option of the formula that is being evaluated. Callbacks of muParser have no user data, so a
+// thread-local variable passes it.
 thread_local const std::string* asking_option = nullptr;
 
-// What a formula has been told of the shape at all places of a batch: found when it is first asked
-// for. Functions of muParser's have no other way to know.
+// Properties of the domain's shape at all points of a batch, computed when the formula first uses
+// them. Callbacks of muParser receive it through a thread-local pointer.
 struct ShapeAtPlaces {
   using Question =
       std::function<void(double number, std::int64_t n, const double* coordinates, double* values)>;
@@ -70,12 +71,12 @@ struct ShapeAtPlaces {
 thread_local ShapeAtPlaces* shape_at_places = nullptr;
 thread_local pnpbs_context shape_context = nullptr;
 
-// Before there is a domain, some value.
+// Returns an arbitrary value as long as there is no domain.
 double shape_value(const char* name, double number, const ShapeAtPlaces::Question& ask) {
   return shape_at_places ? shape_at_places->value(name, number, ask) : 1;
 }
 
-// For the length of a batch.
+// Sets the thread-local variables for the duration of a batch.
 class ShapeForBatch {
  public:
   ShapeForBatch(ShapeAtPlaces& shape, pnpbs_context context, const std::string& option) {
@@ -118,7 +119,8 @@ double shape_spacing(const char* name, double number, double per_turn, double ac
 double curvature_of(double nodes) { return shape_spacing("curvature", nodes, nodes, 0, 0); }
 double gap_of(double nodes) { return shape_spacing("gap", nodes, 0, nodes, 0); }
 
-// By the text: a branch of ?: that is not taken calls none of them.
+// Finds the calls in the text, because evaluation does not reach calls in a branch of ?: that is
+// not taken.
 std::vector<std::string> shape_calls_in(const std::string& text) {
   std::vector<std::string> calls;
   for (const char* function : {"dist", "curvature", "gap"})
@@ -127,7 +129,7 @@ std::vector<std::string> shape_calls_in(const std::string& text) {
 }
 
 void define_shape_functions(mu::Parser& parser) {
-  constexpr bool fold_constants = false;  // they depend on the place
+  constexpr bool fold_constants = false;  // the values depend on the point
   parser.DefineFun("dist", dist_of, fold_constants);
   parser.DefineFun("curvature", curvature_of, fold_constants);
   parser.DefineFun("gap", gap_of, fold_constants);
@@ -199,7 +201,7 @@ std::string in_words(const mu::Parser::exception_type& error, const mu::Parser& 
   }
 }
 
-// A name in the formula, and its values at all places of a batch.
+// A name in the formula and its values at all points of a batch.
 struct FieldInFormula {
   Expression::Field field;
   double value = 1;
@@ -210,15 +212,15 @@ struct FieldInFormula {
 
 struct Expression::Parser {
   mu::Parser parser;
-  std::string option;  // that it was given by
+  std::string option;  // that the formula was given by
   std::vector<NamedGroup> groups;
   std::vector<FieldInFormula> fields;
   int dimension;
   double place[3] = {0, 0, 0};
-  double lon = 0, lat = 0;  // degrees, there
+  double lon = 0, lat = 0;  // at `place`, in degrees
   bool asks_lon = false, asks_lat = false;
-  double dist = 1, seglen = 1;  // there
-  bool asks_for_shape = false;  // or for fields
+  double dist = 1, seglen = 1;  // at `place`
+  bool asks_for_shape = false;  // or uses fields
   bool asks_dist = false, asks_seglen = false;
   std::vector<std::string> shape_calls;
   pnpbs_domain domain = nullptr;
@@ -233,8 +235,9 @@ struct Expression::Parser {
     shape_calls = shape_calls_in(text);
     asks_for_shape = !shape_calls.empty() || asks_dist || asks_seglen || !fields.empty();
   }
-  // Whether or not the formula takes their branches here: what is wrong with one shows before the
-  // run, and what the library has to find out about the shape first, it cannot in a callback.
+  // Evaluates all calls of shape functions at a point, also those in branches that are not taken
+  // there. Errors then appear before the run. The library also computes here what it cannot compute
+  // inside a callback.
   void call_all_at(const double* there) {
     ShapeAtPlaces shape{1, there, domain};
     const ShapeForBatch telling(shape, context, option);
@@ -245,7 +248,7 @@ struct Expression::Parser {
       alone.Eval();
     }
   }
-  // A name that means something else already is no group's.
+  // A group whose name already has another meaning in formulas is left out.
   void define_groups() {
     const std::vector<std::string> known = known_names(parser);
     std::erase_if(groups, [&](const NamedGroup& group) {
@@ -342,8 +345,8 @@ double Expression::at(const double* place) const {
   return parser_->parser.Eval();
 }
 
-// One by one on purpose: muParser's own bulk mode is no faster on one thread, and starts OpenMP
-// threads that get in the way of the library's.
+// Evaluates point by point. muParser's bulk mode is no faster on one thread, and starts OpenMP
+// threads that compete with those of the library.
 void Expression::at(std::int64_t n, const double* coordinates, double* values) const {
   if (!parser_->asks_for_shape) {
     for (std::int64_t i = 0; i < n; ++i) values[i] = at(coordinates + parser_->dimension * i);

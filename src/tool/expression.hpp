@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the user writes as a formula in x and y, and z for bodies: a spacing, a level set. A spacing
-// may ask for the shape of the domain, too.
+// A formula of the command line in x, y and, for bodies, z: a spacing, a level set, a density or a
+// field. A spacing may also use the shape of the domain.
 #pragma once
 
 #include <cstdint>
@@ -15,28 +15,29 @@ namespace pnpbs::tool {
 
 class Expression {
  public:
-  enum class Names { coordinates, shape_too, shape_on_sphere };  // the last: lon and lat, too
-  // What a name in it stands for: values at n places.
+  // the last one includes lon and lat
+  enum class Names { coordinates, shape_too, shape_on_sphere };
+  // A name in the formula that stands for values at n points.
   struct Field {
     std::string name;
     std::function<void(std::int64_t n, const double* coordinates, double* values)> values;
-    std::string option = "--spacing-grid";  // that gives it
+    std::string option = "--spacing-grid";  // that defines it
   };
 
-  // `option` is the one that it was given by. Throws BadInput with the text and a mark below the
-  // place of the error.
+  // Parses a formula. `option` is the command-line option that it was given by. Throws BadInput
+  // with the text and a mark below the position of the error.
   Expression(const std::string& text, int dimension, const std::string& option,
              Names names = Names::coordinates, std::vector<Field> fields = {});
   ~Expression();
 
-  // The domain whose shape it asks for, if it does; it must outlive its use. Finds the groups that
-  // it names, and asks for all of that at one place. Local. Throws Failure if the domain does not
-  // have it.
+  // Sets the domain whose shape the formula uses. Finds the groups that the formula names, and
+  // evaluates all shape functions at one point. The domain must outlive the use of this object.
+  // Local. Throws Failure if the domain does not provide a property.
   void ask_shape_of(pnpbs_domain domain, pnpbs_context context);
 
-  bool is_constant() const;  // neither a coordinate nor the shape occurs in it
+  bool is_constant() const;  // neither a coordinate nor the shape occurs in the formula
   double at(const double* place) const;
-  // coordinates: [n][dimension]
+  // Evaluates the formula at n points. coordinates: [n][dimension].
   void at(std::int64_t n, const double* coordinates, double* values) const;
 
   void* as_user() const { return const_cast<Expression*>(this); }
@@ -46,11 +47,11 @@ class Expression {
   std::unique_ptr<Parser> parser_;
 };
 
-// A callback of the library's, with an expression's as_user(). It fails when a signal has come.
+// A callback for the library; `user` is as_user() of an expression. It fails after a signal.
 std::int32_t call_expression(std::int64_t n, std::int32_t dim, const double* coordinates,
                              double* values, void* user);
 
-// Functions and constants, in words, for the help text.
+// Returns the functions and constants as text for the help.
 std::string expression_help();
 
 }  // namespace pnpbs::tool

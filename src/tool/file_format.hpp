@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All formats the command can write: the library's, and pictures.
+// All file formats that the command can write: those of the library, and pictures.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@ namespace pnpbs::tool {
 
 struct FileFormat {
   std::string name, help;
-  bool binary;                     // not for terminals
+  bool binary;                     // not written to terminals
   bool elements;                   // holds nodes and, on request, elements
-  const picture::Format* picture;  // nullptr: the library's
+  const picture::Format* picture;  // nullptr: a format of the library
 };
 
 const std::vector<FileFormat>& file_formats();
 std::vector<std::string> format_names();
 std::string list_of_formats();
 
-// nullptr if there is none.
+// Returns nullptr for an unknown name or extension.
 const FileFormat* format_by_name(const std::string& name);
 const FileFormat* format_by_extension(const std::string& path);
 

@@ -11,7 +11,8 @@
 namespace pnpbs::tool {
 namespace {
 
-// How many letters begin before the byte at `position`: in UTF-8, some bytes only continue one.
+// Returns the number of characters before the byte at `position`. Continuation bytes of UTF-8 do
+// not count.
 std::size_t letters_before(const std::string& text, std::size_t position) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position),
@@ -44,7 +45,8 @@ void refuse_what_is_no_formula(const FormulaSource& source) {
 
 namespace {
 
-// Of the call whose opening parenthesis is at `open`: where it ends, or npos.
+// A function call whose opening parenthesis is at `open`: its number of arguments, and its end or
+// npos.
 struct Call {
   int arguments = 1;
   std::size_t end = std::string::npos;

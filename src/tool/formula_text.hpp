@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is found in a formula by its text alone, before muParser reads it.
+// Checks of the text of a formula before muParser parses it.
 #pragma once
 
 #include <cstddef>
@@ -10,37 +10,37 @@
 
 namespace pnpbs::tool {
 
-// What an option was given.
+// An option and its value, a formula.
 struct FormulaSource {
   const std::string& option;
   const std::string& text;
 };
 
-// Throws BadInput with the text on one line, and below it a mark under the byte at `position`.
+// Throws BadInput with the text on one line and a mark under the byte at `position`.
 [[noreturn]] void fail_at(const FormulaSource& source, std::size_t position,
                           const std::string& what);
 
-// muParser would assign to variables, and return the last of several values.
+// Rejects assignments to variables and lists of several values, which muParser would accept.
 void refuse_what_is_no_formula(const FormulaSource& source);
 void refuse_other_hypots(const FormulaSource& source);
 
-// Does the formula have this name in it?
+// Returns whether the name occurs in the formula.
 bool mentions(const std::string& formula, const std::string& name);
-// All calls of a function, with their arguments, such as "gap(3)".
+// Returns all calls of a function with their arguments, such as "gap(3)".
 std::vector<std::string> calls_of(const std::string& function, const std::string& formula);
 
-// A group that dist(NAME) asks for, and its tag as soon as there is a domain.
+// A group in dist(NAME), and its tag once the domain exists.
 struct NamedGroup {
-  std::string name, identifier;  // the name in the formula's letters
+  std::string name, identifier;  // the identifier replaces the name in the formula
   double tag = 1;
 };
 
-// Groups in dist(NAME) and dist('NAME'); quotes, and what is no letter between them, become
-// underscores in the text, so that places in it stay where they are.
+// Finds the groups in dist(NAME) and dist('NAME'). Quotes, and characters between them that are not
+// letters, become underscores in the text, so that positions in it do not change.
 std::vector<NamedGroup> groups_in(std::string& text);
 
-// Of curves or surfaces before nodes. Throws BadInput with the names that there are, for the option
-// that the formula was given by.
+// Returns the tag of a group of curves or surfaces. Throws BadInput with all known names if there
+// is none; `option` is the option of the formula.
 double tag_of_group(const std::string& group, const std::vector<GroupName>& names,
                     const std::string& option);
 

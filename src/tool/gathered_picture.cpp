@@ -40,7 +40,7 @@ std::vector<Node<Dim>> own_nodes(pnpbs_placement placement, pnpbs_context contex
   return nodes;
 }
 
-// All ranks' nodes in the order of their ids, whoever had them. `own` are this rank's.
+// Gathers the owned nodes of all ranks in the order of their ids.
 template <int Dim>
 std::vector<Node<Dim>> all_nodes(std::vector<Node<Dim>> own, const Ranks& ranks) {
   std::vector<Node<Dim>> nodes = ranks.gather(std::move(own));
@@ -48,7 +48,7 @@ std::vector<Node<Dim>> all_nodes(std::vector<Node<Dim>> own, const Ranks& ranks)
   return nodes;
 }
 
-// Puts ids for the local indices of corners.
+// Replaces the local indices of corners by ids.
 template <int Dim, std::size_t Size>
 void name_corners(std::vector<Corners<Size>>& elements, const std::vector<Node<Dim>>& nodes,
                   const std::vector<std::int64_t>& ghosts) {
@@ -59,7 +59,8 @@ void name_corners(std::vector<Corners<Size>>& elements, const std::vector<Node<D
     }
 }
 
-// All ranks' elements, in the order of the ids of their corners, by the places of these ids.
+// Gathers the elements of all ranks in the order of the ids of their corners. Their corners become
+// indices into `ids`.
 template <std::size_t Size>
 std::vector<Corners<Size>> all_elements(std::vector<Corners<Size>> own,
                                         const std::vector<std::int64_t>& ids, const Ranks& ranks) {
@@ -84,7 +85,7 @@ void take(const std::vector<Node<2>>& nodes, picture::NodeSet& set) {
   }
 }
 
-// Returns their ids.
+// Appends the nodes to the body and returns their ids.
 std::vector<std::int64_t> take(const std::vector<Node<3>>& nodes, picture::Body& body) {
   std::vector<std::int64_t> ids;
   ids.reserve(nodes.size());
@@ -98,7 +99,8 @@ std::vector<std::int64_t> take(const std::vector<Node<3>>& nodes, picture::Body&
   return ids;
 }
 
-// Nodes by id, elements by the ids of their corners. Empty on the other ranks. Collective.
+// Gathers nodes in the order of their ids and elements in the order of the ids of their corners.
+// The result is empty on all ranks but the first. Collective.
 picture::NodeSet gathered_nodes(pnpbs_placement placement, pnpbs_context context,
                                 const Ranks& ranks) {
   std::vector<Node<2>> own;
@@ -134,8 +136,8 @@ std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
   return outline;
 }
 
-// From above the middle of what is around the point opposite to the one that is projected from:
-// there the domain is.
+// Returns the default view, from above the point opposite to the centre of projection, around which
+// the domain lies.
 picture::SphereView view_of(const Arguments& arguments) {
   const SphereRequest& sphere = *arguments.sphere;
   if (!arguments.view) return {sphere.radius, false, {sphere.outside[0] + 180, -sphere.outside[1]}};

@@ -14,22 +14,22 @@ namespace pnpbs::tool {
 struct PictureLook {
   bool bubbles = false;
   picture::ElementColour colour = picture::ElementColour::none;
-  // One of them of what is in space; neither: the domain is in the plane.
+  // At most one of them is set, for a body or a sphere. Neither is set for a domain in the plane.
   std::optional<picture::CutPlane> cut{};
   std::optional<picture::SphereView> sphere{};
 };
 
-// What the user wants. Local. Throws BadInput.
+// Returns the appearance that the arguments request. Local. Throws BadInput.
 PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain domain,
                     pnpbs_context context);
 
 class GatheredPicture {
  public:
-  // Collective.
+  // Gathers the nodes and elements. Collective.
   GatheredPicture(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                   const Ranks& ranks, const PictureLook& look);
 
-  // Local, on the first rank; this object must outlive it.
+  // Returns the drawing, on the first rank only. This object must outlive it. Local.
   picture::Drawing drawing() const;
 
  private:

@@ -15,7 +15,7 @@
 namespace pnpbs::tool {
 namespace {
 
-// Never closed: GDAL leaves behind what runs at the end of the process.
+// The library is never closed, because GDAL registers functions that run at the end of the process.
 void* open_library() {
   void* const handle = ::dlopen(PNPBS_GEO_LIBRARY, RTLD_NOW | RTLD_LOCAL);
   if (handle) return handle;
@@ -58,7 +58,7 @@ GeoLibrary::GeoLibrary() {
 
 namespace {
 
-// What GDAL reads besides is read with one of the options.
+// Other formats that GDAL reads require one of the options.
 constexpr const char* geo_endings[] = {"geojson", "json", "shp", "gpkg", "fgb", "gml", "kml"};
 constexpr const char* other_endings[] = {"poly", "msh", "stl", "off", "obj", "ply", "smesh"};
 
@@ -108,7 +108,7 @@ GeoFile::~GeoFile() {
 void GeoFile::check(pnpbs_status status) const {
   if (status >= 0) return;
   std::string message = library_->last_error();
-  // The library speaks of its arguments, which users of the command know as options.
+  // Messages of the library name its arguments; users of the command know these as options.
   for (const char* name : {"projection", "unit"}) {
     const std::string argument = std::string("argument ") + name;
     if (message.starts_with(argument))

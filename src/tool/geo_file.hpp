@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains in files of geographers: GeoJSON, shapefiles and whatever else GDAL reads, by
+// Domains in geographic files (GeoJSON, shapefiles and other formats of GDAL), read by
 // libpnpbs_geo.
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace pnpbs::tool {
 
-// libpnpbs_geo, opened when a file for GDAL is named and not before: with the hundred libraries
-// behind GDAL, every start would take a tenth of a second longer. Its functions have their names.
+// libpnpbs_geo, opened only when a file for GDAL is named: loading GDAL and its hundred libraries
+// would delay every start by a tenth of a second. Members have the names of its functions.
 struct GeoLibrary {
-  GeoLibrary();  // throws Failure where it cannot be opened
+  GeoLibrary();  // throws Failure if the library cannot be opened
 
 #define PNPBS_TOOL_FUNCTION(name) decltype(&pnpbs_geo_##name) name
   PNPBS_TOOL_FUNCTION(last_error);
@@ -37,8 +37,8 @@ struct GeoLibrary {
 
 class GeoFile {
  public:
-  // Whether the domain is such a file: by its name, or by options that only such files have.
-  // Throws BadInput if it is another one with such options.
+  // Returns whether the domain is such a file, by its extension or by options that only such files
+  // have. Throws BadInput if it is another file with such options.
   static bool is_meant_by(const Arguments& arguments);
 
   explicit GeoFile(const Arguments& arguments);
@@ -46,20 +46,21 @@ class GeoFile {
   GeoFile(const GeoFile&) = delete;
   GeoFile& operator=(const GeoFile&) = delete;
 
-  // All of these throw Failure. First of all, read().
+  // All of these throw Failure. read() must be called first.
   void read();
   void add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
-  // The message, which is the last one of the library, with its points in degrees, too.
+  // Returns the message, which must be the last one of the library, with its points also in
+  // degrees.
   std::string explained(const std::string& message) const;
 
-  // The projection in words; empty ones where it is not known.
+  // The projection as texts, which are empty if it is unknown.
   struct Projection {
     std::string name, unit, proj, wkt, prj;
     double least_scale = 1, greatest_scale = 1;
   };
   Projection projection() const;
   std::vector<std::string> notes() const;
-  // Whether lines of the file are not among the shapes.
+  // Returns whether the file has lines that are not among the shapes.
   bool leaves_out_lines() const;
 
  private:

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t page_width = 90;
 
-// The words of `text` in lines that begin at column `indent`; the first line goes on where the
-// cursor is.
+// Wraps the words of `text` into lines that begin at column `indent`. The first line continues at
+// the current column.
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::istringstream words(text);
   std::string result, word;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Help that is generated from the library's tables.
+// Help texts that are generated from the tables of the library.
 #pragma once
 
 #include <string>

@@ -23,19 +23,19 @@ std::atomic<bool> callbacks_finish{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void remove_unfinished_files() {
-  io::remove_temporaries();          // this program's own, and
-  pnpbs_discard_unfinished_files();  // the library's
+  io::remove_temporaries();          // those of this program
+  pnpbs_discard_unfinished_files();  // those of the library
 }
 
-// By what a handler of signals may call. Checkpoints may have been written.
+// Calls only functions that are safe in a signal handler. Checkpoints may have been written before.
 void say_interrupted() {
   const std::string_view text =
       waited_for ? "pnpbs: interrupted\n" : "pnpbs: interrupted, nothing was written\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
-// asked is set before committing is read, and begin_commit does it the other way round: a signal
-// either keeps the files from their names or leaves them alone.
+// The handler sets `asked` before it reads `committing`; begin_commit sets `committing` before it
+// reads `asked`. So a signal either prevents the files from being renamed or leaves them alone.
 extern "C" void on_signal(int number) {
   constexpr unsigned kPatience = 5;  // seconds
   const bool first = !asked.exchange(true);
@@ -46,11 +46,12 @@ extern "C" void on_signal(int number) {
     return;
   }
   remove_unfinished_files();
-  if (number == SIGALRM || !killed_soon) say_interrupted();  // the launcher sends to all ranks
+  // the launcher signals all ranks; one message suffices
+  if (number == SIGALRM || !killed_soon) say_interrupted();
   ::_exit(static_cast<int>(ExitCode::interrupted));
 }
 
-// A signal that our caller ignores (nohup, background jobs) stays ignored.
+// A signal that the parent process ignores (nohup, background jobs) stays ignored.
 void handle(int number) {
   struct sigaction action {};
   if (::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
@@ -64,8 +65,7 @@ void handle(int number) {
 void handle_interrupts(bool launched) {
   killed_soon = launched;
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) handle(number);
-  // A reader that goes away, or a limit on the size of files, shall be an error of write, so that
-  // files are cleaned up.
+  // A closed pipe or a limit on file sizes becomes an error of write, so that files are cleaned up.
   struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;
   for (const int number : {SIGPIPE, SIGXFSZ}) ::sigaction(number, &ignore, nullptr);

@@ -1,35 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ctrl-C and its kin. While the command reads, a signal ends it at once; while it computes or
-// writes, the first signal asks it to stop, and a second one, or five seconds, end it at once: this
-// process, that is. An MPI launcher then ends the other ranks, which takes mpirun a second or two.
-// Temporary files are removed either way. A process that ends at once says that it was interrupted;
-// under a launcher, which signals all ranks, only one that ends after the five seconds does. What
-// the ranks of a run make of it is told in ranks.hpp and main.cpp.
+// Handling of Ctrl-C and other signals.
+//
+// While the command reads its input, a signal ends the process at once. While it computes or
+// writes, the first signal requests a stop; a second signal, or five seconds, end this process at
+// once. An MPI launcher then ends the other ranks, which takes mpirun a second or two. Temporary
+// files are removed in all cases. A process that ends at once reports that it was interrupted;
+// under a launcher, which signals all ranks, only a process that ends after the five seconds does.
+// ranks.hpp and main.cpp describe how the ranks of a run stop together.
 #pragma once
 
 namespace pnpbs::tool {
 
-// launched: by an MPI launcher. Such a one ends us a moment after its first signal, ready or not,
-// so unfinished files are then removed at once.
+// Installs the signal handlers. `launched` means that an MPI launcher started this process.
+// Launchers kill the process a moment after the first signal, so unfinished files are then removed
+// at once.
 void handle_interrupts(bool launched);
 
-// From here on the first signal only asks. until_saved: and no time ends the command, as a
-// checkpoint is to be written.
+// From this call on, the first signal only requests a stop. With `until_saved` there is no time
+// limit, because a checkpoint is to be written.
 void defer_interrupts(bool until_saved);
 
-// Has a signal come to this process?
+// Returns whether this process has received a signal.
 bool interrupted();
 
-// Callbacks of the library give up once a signal has come; but from finish_callbacks on, they do
-// not: what is saved then needs them.
+// Returns whether callbacks of the library are to fail: after a signal, until finish_callbacks is
+// called. Writing a checkpoint requires working callbacks.
 bool callbacks_give_up();
 void finish_callbacks();
 
-// Throws Interrupted if so.
+// Throws Interrupted if this process has received a signal.
 void give_up_if_interrupted();
 
-// While files get their names, signals wait. False if one has come before: then no file may get its
-// name. The ranks must agree on it before the first file does.
+// Blocks the effect of signals while files are renamed to their final names. Returns false if a
+// signal was received before; then no file may be renamed. All ranks must agree on the result
+// before the first file is renamed.
 bool begin_commit();
 void end_commit();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C interface with owned handles, and errors as exceptions.
+// Wrappers of the C interface with owned handles, which turn errors into exceptions.
 #pragma once
 
 #include <cstdint>
@@ -31,10 +31,10 @@ using Placement = Owned<pnpbs_placement, pnpbs_placement_destroy>;
 using Voronoi = Owned<pnpbs_voronoi, pnpbs_voronoi_destroy>;
 using Particles = Owned<pnpbs_particles, pnpbs_particles_destroy>;
 
-// How the command ends after an error of the library.
+// Returns the exit code for an error of the library.
 ExitCode exit_code_of(pnpbs_status error);
 
-// Throws Failure with the library's message if status is an error; returns outcomes.
+// Throws Failure with the library's message if status is an error; otherwise returns the status.
 pnpbs_status check(pnpbs_status status, pnpbs_context context);
 
 struct LibraryOption {
@@ -49,7 +49,7 @@ std::vector<LibraryStatistic> library_statistics();
 
 struct LibraryFormat {
   std::string name, help;
-  bool binary, elements;  // elements: on request
+  bool binary, elements;  // elements: whether they are written on request
 };
 std::vector<LibraryFormat> library_formats();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command pnpbs: places nodes in a domain from a file and writes them to files. It uses the
-// library through its C interface only, as any other program would.
+// The command pnpbs, which places nodes in a domain from a file and writes them to files. It uses
+// the library through the C interface only, as any other program would.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -37,8 +37,8 @@
 namespace pnpbs::tool {
 namespace {
 
-// What the user asks for, before there is a domain: made before anything is done, so that mistakes
-// of the user are told first.
+// The parsed arguments before the domain exists. They are built first, so that errors of the user
+// appear before any work is done.
 struct Requests {
   std::optional<Outputs> outputs;
   std::optional<DomainSource> source;
@@ -70,17 +70,17 @@ struct Requests {
   }
 };
 
-// Otherwise the first file opened could become "standard output".
+// Opens missing standard streams. Otherwise the first file opened could become "standard output".
 void reserve_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // Opened the wrong way round, so that using it is still an error.
+    // The access mode is the wrong one on purpose, so that using the stream is still an error.
     if (::fcntl(descriptor, F_GETFD) < 0) {
       ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     }
   }
 }
 
-// Writes the warnings from number `first` on.
+// Writes the warnings from index `first` on.
 void warn(const std::vector<std::string>& warnings, std::size_t first = 0) {
   for (std::size_t k = first; k < warnings.size(); ++k)
     std::cerr << "pnpbs: warning: " << warnings[k] << "\n";
@@ -104,8 +104,8 @@ bool is_about_elements(const Warning& warning) {
          warning.code == PNPBS_WARNING_SMALL_ANGLES;
 }
 
-// Returns the texts of the library's warnings. The elements of nodes at centres are not written, so
-// that warnings about these are left out.
+// Returns the texts of the library's warnings. With nodes at centres no elements are written, so
+// warnings about elements are left out.
 std::vector<std::string> warnings_for(const Arguments& arguments, pnpbs_context context,
                                       pnpbs_placement placement) {
   std::vector<std::string> texts;
@@ -114,7 +114,7 @@ std::vector<std::string> warnings_for(const Arguments& arguments, pnpbs_context 
   return texts;
 }
 
-// Notes on the file of geographers, the library's warnings, and those of grids.
+// Returns the notes on the geographic file, the library's warnings, and those about grids.
 std::vector<std::string> for_report(const Arguments& arguments, const GeoFile* geo,
                                     pnpbs_context context, pnpbs_placement placement,
                                     const std::vector<std::string>& of_grids) {
@@ -125,7 +125,7 @@ std::vector<std::string> for_report(const Arguments& arguments, const GeoFile* g
   return warnings;
 }
 
-// Returns whether some of a coast is not in the result: lines outside of the polygons, above all.
+// Returns whether parts of the coasts are missing in the result, mostly lines outside the polygons.
 bool leaves_out_shapes(const GeoFile& geo, pnpbs_context context, pnpbs_placement placement) {
   return geo.leaves_out_lines() ||
          std::ranges::any_of(warnings_of(context, placement), [](const Warning& warning) {
@@ -133,7 +133,8 @@ bool leaves_out_shapes(const GeoFile& geo, pnpbs_context context, pnpbs_placemen
          });
 }
 
-// How a file of geographers was taken: before d is asked for, since its unit hangs on it.
+// Prints the projection of a geographic file. This happens before d is requested, since the unit of
+// d depends on it.
 void tell_projection(const GeoFile& geo) {
   const GeoFile::Projection projection = geo.projection();
   if (!projection.name.empty())
@@ -158,8 +159,8 @@ std::int64_t statistic(pnpbs_placement placement, const char* key, pnpbs_context
   return value;
 }
 
-// Initialises, or goes on from a checkpoint; looks at what d is made of there; warns; runs, unless
-// that was done already; checks.
+// Initialises the placement or restarts it from a checkpoint, checks the requests at the initial
+// nodes, prints warnings, and runs unless the checkpoint is of a finished run.
 pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Arguments& arguments,
                    const std::function<void()>& check_requests, const Ranks& ranks) {
   const bool talk = ranks.is_first() && !arguments.quiet;
@@ -201,7 +202,7 @@ bool wants_picture(const Arguments& arguments) {
                      });
 }
 
-// What a run would come to.
+// Prints the estimate of a run.
 void tell_estimate(pnpbs_context context, pnpbs_placement placement,
                    const std::optional<BodyFigures>& body, const Arguments& arguments,
                    const Ranks& ranks) {
@@ -215,10 +216,10 @@ void tell_estimate(pnpbs_context context, pnpbs_placement placement,
 }
 
 void set_options(pnpbs_context context, const Arguments& arguments) {
-  // What is given behind --set is meant, a checkpoint's other value or not.
+  // Options given by --set override those of the checkpoint.
   if (!arguments.restart.empty())
     check(pnpbs_context_set(context, "restart_options", "changed"), context);
-  if (arguments.at_centres)  // elements do not matter: d stays as it is
+  if (arguments.at_centres)  // elements are not used, so d is not reduced for their sake
     for (const char* key : {"conforming_rounds", "min_angle"})
       check(pnpbs_context_set(context, key, "0"), context);
   for (const auto& [key, value] : arguments.options)
@@ -292,8 +293,8 @@ pnpbs_status place(Work& work, pnpbs_placement placement) {
   return place(work.context, placement, work.arguments, check_requests, work.ranks);
 }
 
-// Where the elements of a body do not conform in the end, the body is repaired to what d can
-// resolve, if the user wants that. Is there anything to place anew?
+// Repairs the body to a resolution that d can resolve, if its elements do not conform and the user
+// allows repairs. Returns whether the nodes have to be placed again.
 bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) {
   if (status != PNPBS_NOT_CONFORMING || !work.requests.source->may_be_repaired() ||
       real_statistic(placement, "repaired.resolution", work.context) > 0)
@@ -333,7 +334,7 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   outputs.write_report(report());
   give_up_if_any_is_interrupted(ranks);
   outputs.write_nodes(placement, matter.particles, context);
-  statistics.renew_memory(placement);  // files take some, too
+  statistics.renew_memory(placement);  // writing files takes memory as well
   outputs.replace_report(report());
   if (work.talks() && !outputs.use_standard_output())
     std::cout << summary_text(statistics, body, matter.volumes, matter.figures, outputs.files());
@@ -362,7 +363,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   return write_results(work, repaired, status);
 }
 
-// Whoever reads may stop before the end, as head does.
+// Readers such as head may close the pipe before the end.
 void print(const std::string& text) {
   errno = 0;
   if (!(std::cout << text).flush() && errno != EPIPE)
@@ -381,12 +382,13 @@ ExitCode command(int argc, char** argv, const Ranks& ranks) {
 }
 
 ExitCode fail(ExitCode code, const std::string& message) {
-  std::cerr << "pnpbs: " + message + "\n";  // in one piece, lest ranks mix their words
+  // one write, so that the output of ranks does not interleave
+  std::cerr << "pnpbs: " + message + "\n";
   return code;
 }
 
-// A Failure is all ranks', at the same place: see Ranks. If a signal has come to one of them, our
-// callbacks have failed for that reason.
+// A Failure is thrown on all ranks at the same point of the program (see Ranks). If any rank has
+// received a signal, callbacks have failed for that reason.
 ExitCode end_together(const Failure& failure, const Ranks& ranks) {
   const bool stopped = ranks.any(interrupted());
   const Failure reason =

@@ -29,12 +29,12 @@ namespace {
 
 constexpr double max_points = 1e9;
 
-// Words of a text file and the line each is on.
+// The words of a text file, and the line of the current one.
 class Words {
  public:
   explicit Words(const std::string& path) : path_(path), file_(path, std::ios::binary) {
     if (!file_) throw BadInput("cannot read '" + path + "': " + std::strerror(errno));
-    std::error_code error;  // a folder opens as a file does
+    std::error_code error;  // folders can be opened like files
     if (std::filesystem::is_directory(path, error))
       throw BadInput("cannot read '" + path + "': it is a folder");
   }
@@ -82,7 +82,7 @@ bool begins_with_letter(const std::string& word) {
 
 using Header = std::map<std::string, double>;
 
-// Reads name and value pairs; leaves the first word of the values in `word`.
+// Reads name and value pairs. Leaves the first word of the values in `word`.
 Header read_header(Words& words, std::string& word) {
   constexpr std::array<std::string_view, 14> known{
       "ncols",     "nrows",     "nlayers",  "xllcorner", "yllcorner", "zllcorner", "xllcenter",
@@ -126,10 +126,11 @@ double origin_of(const Header& header, const Words& words, char axis, double ste
   return value_of(header, words, letter + "llcorner") + 0.5 * step;
 }
 
-// The names of the steps, for messages.
+// Returns the names of the steps for messages.
 std::string steps_called(int dimension) { return dimension == 3 ? "dx, dy and dz" : "dx and dy"; }
 
-// One size for all directions, or, as GDAL writes cells that are no squares, one for each.
+// Reads one step for all directions, or one per direction, as GDAL writes cells that are not
+// squares.
 void read_steps(const Header& header, const Words& words, int dimension, Grid& grid) {
   const bool squares = header.contains("cellsize");
   const bool each = header.contains("dx") || header.contains("dy") || header.contains("dz");
@@ -144,7 +145,7 @@ void read_steps(const Header& header, const Words& words, int dimension, Grid& g
   }
 }
 
-// Three dimensions if there are layers, else two.
+// Reads the shape of the grid, which has three dimensions if there are layers, and two otherwise.
 void read_shape(const Header& header, const Words& words, Grid& grid) {
   constexpr const char* counts[] = {"ncols", "nrows", "nlayers"};
   const int dimension = header.contains("nlayers") ? 3 : 2;
@@ -159,7 +160,7 @@ void read_shape(const Header& header, const Words& words, Grid& grid) {
     grid.origin[k] = origin_of(header, words, "xyz"[k], grid.step[k]);
 }
 
-// Grows with what the file really holds: a header may promise anything.
+// Grows the array with the values read, because the size in the header may be wrong.
 std::vector<double> read_values(Words& words, std::string word, std::int64_t count) {
   std::vector<double> values;
   for (bool more = !word.empty(); more; more = words.next(word)) {
@@ -172,7 +173,7 @@ std::vector<double> read_values(Words& words, std::string word, std::int64_t cou
   return values;
 }
 
-// The northern row of every layer comes first in the file, and last in the grid.
+// Reverses the rows of each layer: the northern row comes first in the file and last in the grid.
 void turn_layers_upside_down(Grid& grid) {
   const std::int64_t columns = grid.size[0], rows = grid.size[1];
   for (auto layer = grid.values.begin(); layer != grid.values.end(); layer += columns * rows)
@@ -181,7 +182,7 @@ void turn_layers_upside_down(Grid& grid) {
                        layer + (rows - 1 - row) * columns);
 }
 
-// Spreads values from the cells that have one, step by step.
+// Spreads values to cells without data from their neighbours, one ring at a time.
 void fill_gaps(Grid& grid, double no_data, const Words& words) {
   std::deque<std::int64_t> front;
   std::vector<bool> known(grid.values.size());
@@ -212,7 +213,7 @@ void fill_gaps(Grid& grid, double no_data, const Words& words) {
   }
 }
 
-// The grid points around a place, and its part of the way from one to the next.
+// The grid points around a point, and its fractional position between them.
 struct Around {
   std::array<std::int64_t, 3> cell{}, next{};
   std::array<double, 3> fraction{};

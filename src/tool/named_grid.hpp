@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A grid that the user names, --spacing-grid NAME=FILE:VARIABLE, for use in formulas: read here if
-// it is an ESRI ASCII grid, by GDAL otherwise, which projects it as the domain is.
+// A grid given by --spacing-grid NAME=FILE:VARIABLE for use in formulas. ESRI ASCII grids are read
+// here. GDAL reads other formats and projects them like the domain.
 #pragma once
 
 #include <cstdint>
@@ -18,32 +18,34 @@ namespace pnpbs::tool {
 //   ncols 4          xllcenter 0      cellsize 0.5          1 1 2 2   (northern row first)
 //   nrows 3          yllcenter 0      nodata_value -9999    1 1 1 2 ...
 //
-// Cells that are no squares have dx and dy instead of cellsize. For bodies there may be layers, one
-// such block of values after the other, the lowest first: nlayers, zllcorner or zllcenter, and dz
-// beside dx and dy.
+// Cells that are not squares have dx and dy instead of cellsize. Bodies may have layers: one such
+// block of values per layer, the lowest first, and nlayers, zllcorner or zllcenter, and dz beside
+// dx and dy in the header.
 struct Grid {
   std::int64_t size[3] = {1, 1, 1};  // grid points in x, y and z
-  double origin[3] = {0, 0, 0};      // the lowest south-western one
-  double step[3] = {1, 1, 1};        // of columns, rows and layers
+  double origin[3] = {0, 0, 0};      // the lowest south-western grid point
+  double step[3] = {1, 1, 1};        // distance of columns, rows and layers
   std::vector<double> values;        // x fastest, from the south, from below
-  std::vector<bool> has_data;        // of each value: is it in the file? Empty if all are
+  std::vector<bool> has_data;        // whether the file has each value; empty if it has all
 };
 
-// Throws BadInput with file, line and what was expected. Cells without data take the value of
-// the nearest cell that has one, in steps along rows, columns and layers. Without layers, the
-// values are those of all heights; with layers, dimension must be 3.
+// Reads an ESRI ASCII grid. Cells without data take the value of the nearest cell with data,
+// counted in steps along rows, columns and layers. Values of a grid without layers apply to all
+// heights. A grid with layers requires dimension 3. Throws BadInput with file, line and what was
+// expected.
 Grid read_grid(const std::string& path, int dimension);
 
-// Between the grid's points: linear in each direction, constant beyond the border, as
-// pnpbs_placement_set_spacing_grid has it. Of two dimensions: in the lowest layer.
+// Interpolates the values linearly in each direction, and extends them as constants beyond the
+// border, as pnpbs_placement_set_spacing_grid does. In two dimensions the lowest layer is used.
 double value_at(const Grid& grid, const double* place, int dimension);
-// Is any value that it is made of in the file?
+// Returns whether the file has any of the values that the interpolation at this point uses.
 bool has_data_around(const Grid& grid, const double* place, int dimension);
 
 class NamedGrid {
  public:
-  // "FILE" has the other name. Reads what needs no GDAL. Throws BadInput.
-  // On a sphere its values are at longitudes and latitudes.
+  // `text` is NAME=FILE:VARIABLE. Without NAME the grid is called `other_name`. Reads the file
+  // unless GDAL is required. On a sphere the values are at longitudes and latitudes. Throws
+  // BadInput.
   NamedGrid(const std::string& text, int dimension, bool on_sphere,
             const std::string& option = "--spacing-grid", const std::string& other_name = "grid");
   ~NamedGrid();
@@ -52,14 +54,16 @@ class NamedGrid {
 
   const std::string& name() const { return name_; }
   const std::string& path() const { return path_; }
-  // nullptr if GDAL reads it.
+  // Returns nullptr if GDAL reads the grid.
   const Grid* text_grid() const { return text_.get(); }
 
-  // Before its values are asked for: reads what GDAL reads, where the domain is. The projection of
-  // the domain is "" if that is not known. Throws Failure, also if the grid lies beside the domain.
+  // Reads the part of the grid that covers the domain, if GDAL reads it. Must be called before
+  // evaluate(). `projection` is that of the domain, or "" if unknown. Throws Failure, also if the
+  // grid does not overlap the domain.
   void open(const std::string& projection, const Box<3>& domain);
-  // What inside[i] says of a point, unless it is nullptr, as pnpbs_geo_grid_values has it: it lies
-  // more than half a cell beyond the grid's edge, or where no cell around it has data, or neither.
+  // Values of inside[i], unless `inside` is nullptr, as in pnpbs_geo_grid_values: a point lies more
+  // than half a cell beyond the edge of the grid, within the grid, or where no surrounding cell has
+  // data.
   static constexpr std::int32_t beyond_edge = 0, within = 1, without_data = 2;
   void evaluate(std::int64_t n, const double* coordinates, double* values,
                 std::int32_t* inside) const;
@@ -72,7 +76,7 @@ class NamedGrid {
                      std::int32_t* inside) const;
   void check(pnpbs_status status) const;
 
-  int dimension_;  // of its places
+  int dimension_;  // number of coordinates of a point
   bool on_sphere_;
   std::string option_, name_, path_, variable_;
   std::unique_ptr<Grid> text_;
@@ -80,7 +84,7 @@ class NamedGrid {
   pnpbs_geo_grid grid_ = nullptr;
 };
 
-// The file in such a text.
+// Returns the file name in such a text.
 std::string path_of_grid(const std::string& text);
 
 }  // namespace pnpbs::tool

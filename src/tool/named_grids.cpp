@@ -20,11 +20,11 @@
 namespace pnpbs::tool {
 namespace {
 
-// How steep the values on a grid are: NAME_slope in formulas.
+// Returns the name of the slope of a grid in formulas: NAME_slope.
 std::string slope_name(const std::string& grid) { return grid + "_slope"; }
 
-// The change of the values per length, along x and y, or along a sphere; in space along z, too.
-// Between the middles of cells it is that of the values there, which are linear in each direction.
+// Computes the magnitude of the gradient of the values, along x and y (and z in space) or along a
+// sphere. Between the centres of cells it is the gradient of the multilinear interpolation.
 void evaluate_slope(const NamedGrid& grid, int dimension, bool on_sphere, std::int64_t n,
                     const double* coordinates, double* slopes) {
   const auto values = [&](std::int64_t count, const double* places, double* there) {
@@ -34,24 +34,24 @@ void evaluate_slope(const NamedGrid& grid, int dimension, bool on_sphere, std::i
             slopes);
 }
 
-// At how many nodes a grid in a formula, or one that is d, has values of its own.
+// Counts at how many nodes a grid in a formula, or a grid that is d, has values of its own.
 class GridCoverage {
  public:
-  // Of the nodes there are, whose places are in degrees in messages if they are on a sphere. Counts
-  // on the first rank alone. Collective. Throws Failure.
+  // Counts over the current nodes; the results are on the first rank only. Messages give points on
+  // a sphere in degrees. Collective. Throws Failure.
   GridCoverage(const NamedGrid& grid, pnpbs_placement placement, int dimension, bool on_sphere,
                pnpbs_context context, const Ranks& ranks);
 
   bool is_nowhere() const { return nodes_ > 0 && beyond_.count + without_data_.count == nodes_; }
   std::string words_for_nowhere() const;
-  // How many lie beyond the grid's edge, and how many where it has no data; "" if none do.
+  // Returns how many nodes lie beyond the edge of the grid, or where it has no data; "" if none do.
   std::string words_for_beyond() const;
   std::string words_for_without_data() const;
 
  private:
   struct Nodes {
     std::int64_t count;
-    Point<3> first;  // the least of their places
+    Point<3> first;  // the lexicographically smallest of their positions
   };
   void count(Nodes& nodes, const Point<3>& place) const;
   void add_up(const Ranks& ranks);
@@ -153,7 +153,7 @@ Box<3> bounds_of(pnpbs_domain domain, pnpbs_context context) {
   return box;
 }
 
-// "from (0, 0) to (1, 1)"
+// Returns a text such as "from (0, 0) to (1, 1)".
 template <int Dim>
 MessageText extent_in(const Box<3>& box, const Box<3>& within) {
   Box<Dim> boxes[2];
@@ -253,7 +253,8 @@ void NamedGrids::require_values(pnpbs_placement placement, pnpbs_domain domain,
   }
 }
 
-// Where it has data is another matter. On a sphere the box around the domain tells nothing.
+// Returns the extents of the grid and the domain. On a sphere the bounding box of the domain says
+// nothing about longitudes and latitudes, so only the grid's extent is given.
 std::string NamedGrids::extents_in_words(const NamedGrid& grid, pnpbs_domain domain,
                                          pnpbs_context context) const {
   const Box<3> box = grid.extent();

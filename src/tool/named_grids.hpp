@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All grids that the user names, and what formulas have of them: their values, how steep they are,
-// and d by the depth.
+// All grids given on the command line, and what formulas use of them: their values, their slopes,
+// and d by depth.
 #pragma once
 
 #include <memory>
@@ -19,26 +19,26 @@ namespace pnpbs::tool {
 
 class NamedGrids {
  public:
-  // dimension: of places. Throws BadInput.
+  // dimension: number of coordinates of a point. Throws BadInput.
   NamedGrids(const Arguments& arguments, int dimension);
 
   const NamedGrid& first() const { return *grids_[0]; }
 
-  // What a formula mentions. This object must outlive them.
+  // Returns the fields that the formula mentions. This object must outlive them.
   std::vector<Expression::Field> fields_in(const std::string& formula) const;
-  // Throws BadInput where none of the formulas has what a grid was given for. The first one is that
-  // of --spacing, the others those of --field.
+  // Throws BadInput if no formula uses a grid. The first formula is that of --spacing, the others
+  // those of --field.
   void require_use_in(const std::vector<std::string>& formulas) const;
 
-  // Before values are asked for: reads the grids where the domain is, in its projection. Local.
-  // Throws Failure.
+  // Reads the part of each grid that covers the domain, in the domain's projection. Must be called
+  // before values are evaluated. Local. Throws Failure.
   void read(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo);
 
-  // Once there are nodes: each grid has a value at some of them. Collective. Throws Failure.
+  // Throws Failure if a grid has no value at any node. Collective.
   void require_values(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                       const Ranks& ranks) const;
-  // Of grids that do not reach all nodes, unless the library warns of that, or have no data there;
-  // on the first rank. Collective.
+  // Returns warnings about grids that do not cover all nodes, unless the library warns of that, or
+  // have no data at some nodes. They are on the first rank. Collective.
   std::vector<std::string> warnings(pnpbs_placement placement, pnpbs_domain domain,
                                     pnpbs_context context, const Ranks& ranks,
                                     bool library_warns) const;
@@ -54,7 +54,7 @@ class NamedGrids {
   int dimension_;
   bool sphere_;
   std::vector<std::unique_ptr<NamedGrid>> grids_;
-  std::optional<DepthRequest> depth_;  // on the last grid
+  std::optional<DepthRequest> depth_;  // applies to the last grid
 };
 
 }  // namespace pnpbs::tool

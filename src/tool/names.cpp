@@ -8,7 +8,7 @@
 namespace pnpbs::tool {
 namespace {
 
-// Letters to insert, delete, replace or swap with the next.
+// Returns the smallest number of insertions, deletions, replacements and swaps of adjacent letters.
 std::size_t typing_errors(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
@@ -27,7 +27,7 @@ std::size_t typing_errors(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
-constexpr std::size_t longest_name = 64;  // what is longer resembles nothing
+constexpr std::size_t longest_name = 64;  // longer texts resemble no name
 
 }  // namespace
 

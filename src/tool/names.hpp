@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "Did you mean ...?"
+// Suggestions for misspelled names: "Did you mean ...?"
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace pnpbs::tool {
 
-// The name that takes the fewest typing errors to become `text`; "" if none is near.
+// Returns the name that `text` differs from by the fewest typing errors, or "" if none is similar.
 std::string nearest_name(std::string_view text, std::span<const std::string> names);
 
-// "; did you mean x?" or "".
+// Returns "; did you mean x?" or "".
 std::string did_you_mean(std::string_view text, std::span<const std::string> names);
 
 }  // namespace pnpbs::tool

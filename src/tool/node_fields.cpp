@@ -10,13 +10,13 @@ namespace {
 
 constexpr const char* option = "--field";
 
-// At its ends.
+// Removes spaces at both ends.
 std::string without_spaces(const std::string& name) {
   const std::size_t first = name.find_first_not_of(' '), last = name.find_last_not_of(' ');
   return first == std::string::npos ? "" : name.substr(first, last + 1 - first);
 }
 
-// Names that columns of files have, or fields that other options add after the run.
+// Rejects names of columns in files, and of fields that other options add after the run.
 void refuse_taken(const std::string& name, const Arguments& arguments) {
   const bool masses = arguments.density.has_value();
   const bool volumes = arguments.volumes || masses || arguments.at_centres;
@@ -29,7 +29,7 @@ void refuse_taken(const std::string& name, const Arguments& arguments) {
                    "' already; choose another name");
 }
 
-// Of this rank.
+// Returns the coordinates of this rank's particles.
 std::vector<double> coordinates_of(pnpbs_particles particles, pnpbs_context context) {
   std::int32_t dimension = 0;
   std::int64_t count = 0;

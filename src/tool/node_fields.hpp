@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields that the user asks for in files, --field NAME=FORMULA: values of the formula at the nodes.
+// Fields that --field NAME=FORMULA adds to the files: values of the formula at the nodes.
 #pragma once
 
 #include <memory>
@@ -18,18 +18,19 @@ namespace pnpbs::tool {
 
 class NodeFields {
  public:
-  // Of formulas in these grids, which must outlive this object. dimension: of places. Throws
-  // BadInput.
+  // Parses the formulas. The grids must outlive this object. dimension: number of coordinates of a
+  // point. Throws BadInput.
   NodeFields(const Arguments& arguments, int dimension, const NamedGrids& grids);
 
   std::vector<std::string> formulas() const;
 
-  // Before the long run: adds them to the first nodes, to see if that works, and takes them away.
-  // The domain, whose shape a formula may ask for, must outlive this object's use. Collective.
-  // Throws Failure, also where a value is not finite.
+  // Adds the fields to the initial nodes and removes them again, so that errors appear before the
+  // long run. The domain, whose shape a formula may use, must outlive the use of this object.
+  // Collective. Throws Failure, also if a value is not finite.
   void check_at_nodes_of(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                          const Ranks& ranks);
-  // The same to files of nodes, or of particles if there are any. Collective. Throws Failure.
+  // Adds the fields to the nodes, or to the particles if `particles` is not null. Collective.
+  // Throws Failure.
   void add_to(pnpbs_placement placement, pnpbs_particles particles, pnpbs_domain domain,
               pnpbs_context context, const Ranks& ranks);
 
@@ -38,7 +39,8 @@ class NodeFields {
     std::string name, formula;
     std::unique_ptr<Expression> values;
   };
-  // x: [n][dimension]. Local. Throws BadInput that names a place where a value is not finite.
+  // Returns the values at the points x: [n][dimension]. Local. Throws BadInput with the location if
+  // a value is not finite.
   std::vector<double> values_at(const Field& field, std::span<const double> x) const;
   void add(std::span<const double> x, pnpbs_domain domain, pnpbs_context context,
            const AddField& add) const;

@@ -88,7 +88,7 @@ void Outputs::add(const std::string& path, const FileFormat* format) {
   outputs_.push_back({io::OutputFile(path), format, false});
 }
 
-// Results may have its extension, but it goes on from nothing but a checkpoint.
+// Results may have the checkpoint's extension, but a run can only restart from a checkpoint.
 void Outputs::refuse_checkpoint(const std::string& path) const {
   if (path.empty()) return;
   for (const Output& output : outputs_)
@@ -102,7 +102,7 @@ void Outputs::add_projections(const std::string& input) {
     if (output.is_nodes() && !output.file.is_standard_output())
       paths.push_back(projection_beside(output.file.path()));
   for (const std::string& path : paths) {
-    // A shapefile has one of its own.
+    // A shapefile has a .prj file of its own.
     if (extension_of(input) == "shp") refuse_to_replace(projection_beside(input), path);
     const auto is_it = [&](const Output& other) { return same_file(other.file.path(), path); };
     if (std::ranges::none_of(outputs_, is_it))
@@ -137,7 +137,7 @@ void Outputs::check_writable() const {
     } catch (const std::runtime_error& error) {
       throw BadInput(error.what());
     }
-    // A launcher may put a terminal of its own between us and what it leads our output to.
+    // A launcher may connect this process to a terminal although the output goes elsewhere.
     const bool to_terminal =
         output.file.is_standard_output() && !ranks_.launched() && ::isatty(STDOUT_FILENO);
     if (to_terminal && output.format && output.format->binary) {
@@ -194,7 +194,8 @@ pnpbs_status Outputs::ask_for_nodes(pnpbs_placement placement, pnpbs_particles p
   return pnpbs_placement_write_files(placement, n, paths.data(), formats.data(), elements.data());
 }
 
-// What the library would refuse to write it refuses before there are nodes, too.
+// The library rejects formats that it cannot write before there are nodes. Otherwise it reports
+// PNPBS_ERROR_STATE, since there are no nodes.
 void Outputs::check_with_library(pnpbs_placement placement, pnpbs_context context) const {
   const pnpbs_status status = ask_for_nodes(placement, nullptr);
   if (status != PNPBS_ERROR_STATE) check(status, context);
@@ -210,7 +211,7 @@ void Outputs::write_nodes(pnpbs_placement placement, pnpbs_particles particles,
     if (failure_) std::rethrow_exception(failure_);
   });
   if (status == PNPBS_STOPPED) throw Interrupted();
-  // By now it is no bad input.
+  // After the run, a file error is a failure rather than bad input.
   if (status == PNPBS_ERROR_FILE) throw Failure(ExitCode::failed, pnpbs_last_error(context));
   check(status, context);
 }
@@ -225,7 +226,7 @@ void Outputs::replace_report(const std::string& text) {
       if (begin_commit())
         io::publish_together({&replacement}, [](const std::function<void()>& step) { step(); });
     } catch (const std::exception&) {
-      // see the header
+      // The old report stays, as the header says.
     }
     end_commit();
   }
@@ -233,8 +234,9 @@ void Outputs::replace_report(const std::string& text) {
 
 // ------------------------------------------------------------------ all of them together -------
 
-// The library asks a last time, with fraction 1, when its files are complete on all ranks and
-// before the first of them gets its name. Then it is time for ours, too.
+// The library calls the monitor a last time, with fraction 1, when its files are complete on all
+// ranks and before the first of them is renamed. The files of the command are published at the same
+// time.
 std::int32_t Outputs::monitor(double fraction, std::int64_t, std::int64_t, double, void* user) {
   if (fraction < 1) return interrupted();
   return begin_commit() && static_cast<Outputs*>(user)->publish_own() ? 0 : 1;
@@ -251,7 +253,7 @@ bool Outputs::publish_own() {
   }
 }
 
-// The library's files have got their names, or they have not: so shall ours.
+// Keeps or withdraws the files of the command, as the library did with its own.
 void Outputs::settle_own(bool published) {
   for (Output& output : outputs_) {
     if (published)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All files of a run. They are checked before it, and appear together after it.
+// All files of a run. They are checked before the run and appear together after it.
 #pragma once
 
 #include <exception>
@@ -18,28 +18,28 @@ namespace pnpbs::tool {
 
 class Outputs {
  public:
-  // Local: the first rank looks whether the files can be written. Throws BadInput for that and for
-  // unknown formats.
+  // Checks that the files can be written, on the first rank. Local. Throws BadInput if they cannot,
+  // or if a format is unknown.
   Outputs(const Arguments& arguments, const Ranks& ranks);
 
-  // Whether there is any. Local.
+  // Returns whether there are any pictures. Local.
   bool has_pictures() const;
 
-  // Before the long run: throws if the library would not write its files, for want of HDF5, say, or
-  // for names that no format can have. Collective.
+  // Throws if the library would refuse to write its files, for example because HDF5 is missing or a
+  // field name is not allowed. Called before the long run. Collective.
   void check_with_library(pnpbs_placement placement, pnpbs_context context) const;
 
-  // Collective, all of these; first pictures and the report, then the nodes. What was written
-  // appears with write_nodes, when all of it is complete.
+  // These functions are collective. Pictures and the report come first, then the nodes. All files
+  // appear with write_nodes, when they are complete.
   void write_pictures(const GatheredPicture& picture);
   void write_report(const std::string& text);
-  // In a .prj file beside each file of nodes, as shapefiles have it. Without a text there are none.
-  // Before the others; of domains that GDAL reads alone.
+  // Writes the projection to a .prj file beside each file of nodes, as shapefiles have it. An empty
+  // text writes none. Must be called before the others, only for domains that GDAL reads.
   void write_projection(const std::string& text);
-  // Or the particles that were made of them, unless these are null.
+  // Writes the nodes, or the particles derived from them unless `particles` is null.
   void write_nodes(pnpbs_placement placement, pnpbs_particles particles, pnpbs_context context);
-  // Afterwards: puts another text into the report, unless that has gone where nothing can be taken
-  // back. If it cannot be written the text there is stays, as all files are there already.
+  // Replaces the text of the report after the run, unless it was written to a stream. If that
+  // fails, the old text stays, because all files have been published already.
   void replace_report(const std::string& text);
 
   bool use_standard_output() const;
@@ -69,7 +69,7 @@ class Outputs {
   const Ranks& ranks_;
   bool elements_;
   std::vector<Output> outputs_;
-  std::exception_ptr failure_;  // of publish_own
+  std::exception_ptr failure_;  // thrown in publish_own
 };
 
 }  // namespace pnpbs::tool

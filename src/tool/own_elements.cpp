@@ -4,7 +4,8 @@
 namespace pnpbs::tool {
 namespace {
 
-// get(capacity, count, corners): a function of the library that is asked for the count first.
+// Calls get(capacity, count, corners), a function of the library, first for the count and then for
+// the corners.
 template <std::size_t Size, class Get>
 std::vector<Corners<Size>> asked_twice(pnpbs_context context, const Get& get) {
   std::int64_t count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this rank has of the elements, by local indices: its own nodes first, then its ghosts.
+// The elements of this rank by local indices: owned nodes come first, then ghosts.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace pnpbs::tool {
 template <std::size_t Size>
 using Corners = std::array<std::int64_t, Size>;
 
-// Collective, all of these. Throw Failure.
+// These functions are collective and throw Failure.
 std::vector<Corners<3>> own_triangles(pnpbs_placement placement, pnpbs_context context);
 std::vector<Corners<4>> own_tetrahedra(pnpbs_placement placement, pnpbs_context context);
 std::vector<Corners<3>> own_boundary(pnpbs_placement placement,

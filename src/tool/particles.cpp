@@ -13,7 +13,8 @@
 namespace pnpbs::tool {
 namespace {
 
-// Of some nodes. The sums are exact, so it does not matter which rank has which nodes.
+// Sums over some nodes. They are exact, so the result does not depend on the distribution over
+// ranks.
 struct Figures {
   std::int64_t nodes = 0;
   ExactSum volumes, ratios;
@@ -93,7 +94,7 @@ VolumeFigures add_volumes(pnpbs_placement placement, int dimension,
 
 namespace {
 
-// Of this rank.
+// The arrays of this rank's particles.
 struct Arrays {
   std::int32_t dimension = 0;
   std::vector<double> x, volumes, spacing;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes of a run as particles that fill its domain, in figures.
+// Volumes of nodes, and particles that fill the domain, with their statistics.
 #pragma once
 
 #include <cstdint>
@@ -15,42 +15,44 @@
 
 namespace pnpbs::tool {
 
-// Over all nodes, or particles.
+// Statistics of the volumes of all nodes or particles.
 struct VolumeFigures {
   int dimension;  // volumes are areas if it is 2
   double total;
-  // Of the volume over d^dimension, with d at the node. Not finite without nodes.
+  // Statistics of the volume over d^dimension, with d at the node. Not finite if there are no
+  // nodes.
   double mean, min, max;
-  std::optional<double> mass{};  // of all, if there is a density
+  std::optional<double> mass{};  // total mass, if there is a density
 };
 
-// Of those of this rank, with these d. Returns the figures on the first rank, which are the same
-// for any number of ranks; zeros on the others. Collective.
+// Reduces the volumes of this rank's nodes, with d at these nodes, over all ranks. The figures are
+// on the first rank, where they do not depend on the number of ranks; the others get zeros.
+// Collective.
 VolumeFigures volume_figures(int dimension, std::span<const double> volumes,
                              std::span<const double> spacing, const Ranks& ranks);
 
-// Makes the Voronoi cells of the nodes, and adds their volumes as the field "volume" to what files
-// of the placement will have, and with a density the fields of that. dimension: of the elements.
-// Figures as above. Collective. Throws Failure.
+// Builds the Voronoi cells of the nodes, and adds their volumes as the field "volume" to the files
+// of the placement, and with a density the fields "density" and "mass". dimension: that of the
+// elements. Returns the figures as above. Collective. Throws Failure.
 VolumeFigures add_volumes(pnpbs_placement placement, int dimension,
                           const std::optional<Density>& density, pnpbs_context context,
                           const Ranks& ranks);
 
-// Of all ranks.
+// Statistics of the particles of all ranks.
 struct ParticleFigures {
   std::int64_t count, outermost, left_out, moved;
-  double closest;  // pair, over d; infinity if none is near
-  bool of_wall;    // around the domain
+  double closest;  // distance of the closest pair over d; infinity if none is near
+  bool of_wall;    // particles of a wall around the domain
 };
 
-// What nodes stand for, if the user wants to know: particles, or their volumes, which files of the
-// placement then have, too.
+// The matter that nodes represent, on request: particles, or the volumes of nodes, which are then
+// also written to the files of the placement.
 struct Matter {
   Particles particles;
   std::optional<ParticleFigures> figures;
   std::optional<VolumeFigures> volumes;
 
-  // body: of particles. Collective. Throws Failure.
+  // `body` is the domain that the particles fill. Collective. Throws Failure.
   Matter(const Arguments& arguments, const std::optional<Density>& density, int dimension,
          pnpbs_placement placement, pnpbs_domain body, pnpbs_context context, const Ranks& ranks);
 
@@ -60,13 +62,13 @@ struct Matter {
                       const Ranks& ranks);
 };
 
-// The domains of particles: see centred_nodes.hpp.
+// The domains from which particles are made (see centred_nodes.hpp).
 struct ParticleDomains {
-  Domain filled;  // by the nodes: what is left of their matter some way inside
-  Domain wall;    // the matter, of walls alone
+  Domain filled;  // that the nodes fill: the matter without a margin along its boundary
+  Domain wall;    // the matter, for walls only
 
-  // Of this body, and makes the bubbles as large as they need to be. The spacing must outlive the
-  // domains. Local. Throws Failure.
+  // Builds the domains for this body, and enlarges the bubbles as required. The spacing must
+  // outlive the domains. Local. Throws Failure.
   void make(const Arguments& arguments, Spacing& spacing, pnpbs_domain body, int dimension,
             pnpbs_context context);
 };

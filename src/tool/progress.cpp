@@ -65,7 +65,7 @@ std::int32_t Progress::monitor(double fraction, std::int64_t step, std::int64_t 
     progress->note_held_spacing(nodes);
     progress->update(fraction, step, nodes, max_speed);
   } catch (...) {
-    // A run is worth more than its progress bar.
+    // An error of the progress bar must not end the run.
   }
   return progress->turn_(fraction, step, interrupted()) ? 1 : 0;
 }
@@ -88,7 +88,8 @@ void Progress::update(double fraction, std::int64_t step, std::int64_t nodes, do
   draw(left + (room < narrowest_bar ? "" : bar(fraction, std::min(room, widest_bar))) + right);
 }
 
-// ", with about 5 000 nodes, for some 20 s": from the time that the nodes of the last round took.
+// Returns ", with about 5 000 nodes, for some 20 s", estimated from the time per node of the last
+// round.
 std::string Progress::expected_work(std::int64_t nodes) const {
   std::int64_t expected = 0;
   if (pnpbs_placement_get_int64(placement_, "unresolved_nodes", &expected) < 0 || expected <= 0)
@@ -101,7 +102,7 @@ std::string Progress::expected_work(std::int64_t nodes) const {
   return text;
 }
 
-// Where d is held down, a run takes several times as long: that is said before.
+// A run with reduced d takes several times as long, so a note is printed before.
 void Progress::note_held_spacing(std::int64_t nodes) {
   std::int64_t places = 0;
   if (!wanted_ || pnpbs_placement_get_int64(placement_, "unresolved_places", &places) < 0) return;
@@ -119,7 +120,7 @@ void Progress::say(const std::string& what) {
   if (shown_) draw(what);
 }
 
-// One line that is overwritten by the next; cut, because a line that wraps cannot be.
+// Overwrites the current line. Longer text is cut, because a wrapped line cannot be overwritten.
 void Progress::draw(const std::string& line) {
   const auto width = static_cast<std::size_t>(std::max(1, terminal_width() - 1));
   std::cerr << "\r" << line.substr(0, width) << "\033[K" << std::flush;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress bar on standard error, for terminals unless it is requested, and notes on what makes
-// a run longer than expected.
+// The progress bar on standard error, and notes on events that prolong a run. The bar is shown on
+// terminals, or everywhere on request.
 #pragma once
 
 #include <chrono>
@@ -14,14 +14,15 @@ namespace pnpbs::tool {
 
 class Progress {
  public:
-  // forced: even where standard error is no terminal.
+  // forced: show the bar even if standard error is not a terminal.
   Progress(bool wanted, bool forced);
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Also lets an interrupt stop the run; turn(fraction, step, stop): what else is done in a turn of
-  // the monitor, and whether the run is to stop. This object must outlive the placement.
+  // Installs the monitor, which draws the bar and lets an interrupt stop the run. It calls
+  // turn(fraction, step, stop), which returns whether the run is to stop. This object must outlive
+  // the placement.
   using Turn = std::function<bool(double fraction, std::int64_t step, bool stop)>;
   void watch(pnpbs_placement placement, Turn turn);
 
@@ -40,7 +41,7 @@ class Progress {
 
   Turn turn_;
   pnpbs_placement placement_ = nullptr;
-  std::int64_t unresolved_places_ = 0;  // reported so far
+  std::int64_t unresolved_places_ = 0;  // number reported already
   bool wanted_, shown_;
   bool drawn_ = false;
   Clock::time_point begin_ = Clock::now();

@@ -18,20 +18,21 @@
 namespace pnpbs::tool {
 namespace {
 
-// How this process was started, told without MPI: initialising that costs a third of a second,
-// which nobody wants who runs one process.
+// How this process was started, determined without MPI: initialising MPI takes a third of a second,
+// which a run with one process need not spend.
 struct Launch {
   bool by_mpi = false;
-  int processes = 0;  // 0: not told
+  int processes = 0;  // 0: unknown
 };
 
-// Open MPI's mpirun; the MPICH family's, Slurm's and others' PMI; MVAPICH's mpirun_rsh.
+// Variables with the number of processes: Open MPI's mpirun; PMI of the MPICH family, Slurm and
+// others; MVAPICH's mpirun_rsh.
 constexpr const char* tell_number[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"};
 
-// PMIx, as srun --mpi=pmix and prterun do; old and other PMI.
+// Variables with the rank: PMIx (srun --mpi=pmix, prterun), and older and other PMI.
 constexpr const char* tell_rank[] = {"PMIX_RANK", "PMI_RANK", "PALS_RANKID"};
 
-// From the variables that launchers set for their processes. PNPBS_MPI=0 or 1 overrides them.
+// Evaluates the variables that launchers set for their processes. PNPBS_MPI=0 or 1 overrides them.
 Launch launch_of_this_process() {
   Launch launch;
   for (const char* variable : tell_number) {
@@ -88,7 +89,7 @@ Ranks::Ranks(int& argc, char**& argv) {
   const Launch launch = launch_of_this_process();
   launched_ = launch.by_mpi;
   if (!launched_) return;
-  // Threads compute, but only this one calls MPI.
+  // Several threads compute, but only this one calls MPI.
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
@@ -118,7 +119,7 @@ bool Ranks::any(bool mine) const {
   return found != 0;
 }
 
-// The failure of the lowest rank that has one.
+// Throws on all ranks the failure of the lowest rank that has one.
 void Ranks::agree_on_failure(std::exception_ptr failure) const {
   int failed = failure ? rank_ : size_;
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
@@ -136,7 +137,7 @@ void Ranks::agree_on_failure(std::exception_ptr failure) const {
 }
 
 void Ranks::broadcast(std::string& text, int root) const {
-  int size = static_cast<int>(text.size());  // standard input is read up to 1 GiB
+  int size = static_cast<int>(text.size());  // standard input is at most 1 GiB
   MPI_Bcast(&size, 1, MPI_INT, root, MPI_COMM_WORLD);
   text.resize(static_cast<std::size_t>(size));
   MPI_Bcast(text.data(), size, MPI_CHAR, root, MPI_COMM_WORLD);
@@ -191,7 +192,7 @@ void Ranks::create_context(pnpbs_context* context) const {
 
 bool Ranks::any(bool mine) const { return mine; }
 
-// One process has nobody to talk to.
+// A build without MPI has one process.
 void Ranks::agree_on_failure(std::exception_ptr) const {}
 void Ranks::broadcast(std::string&, int) const {}
 std::vector<int> Ranks::gathered_counts(std::size_t) const { return {}; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processes that run this command together: one, or those that an MPI launcher has started.
-// What one of them finds wrong ends all of them, with one message.
+// The processes that run this command together: one, or those started by an MPI launcher. An error
+// on one of them ends all, with one message.
 #pragma once
 
 #include <cstddef>
@@ -16,24 +16,26 @@ namespace pnpbs::tool {
 
 class Ranks {
  public:
-  // Starts MPI if this process was launched by it. Throws Failure.
+  // Starts MPI if a launcher started this process. Throws Failure.
   Ranks(int& argc, char**& argv);
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
   int size() const { return size_; }
-  bool is_first() const { return rank_ == 0; }  // the one that talks
+  bool is_first() const { return rank_ == 0; }  // the rank that prints
   bool launched() const { return launched_; }
 
-  // All of these are collective.
+  // The functions below are collective.
   void create_context(pnpbs_context* context) const;
   bool any(bool mine) const;
-  // Does local work; if it throws on one rank, all throw the same Failure. It must not communicate.
+  // Performs local work. If it throws on one rank, all ranks throw the same Failure. `work` must
+  // not communicate.
   void collective_try(const std::function<void()>& work) const;
-  // The same on the first rank only, and its text for all.
+  // Performs work on the first rank only, and returns its text on all ranks.
   std::string from_first(const std::function<std::string()>& work) const;
-  // All ranks' values on the first one, in the order of ranks; nothing on the others.
+  // Returns the values of all ranks on the first rank, in the order of ranks, and nothing on the
+  // others.
   template <class Value>
   std::vector<Value> gather(std::vector<Value> mine) const {
     static_assert(std::is_trivially_copyable_v<Value>);
@@ -46,7 +48,7 @@ class Ranks {
     return all;
   }
 
-  // Ends all ranks at once: for what one of them meets where the others do not expect it.
+  // Ends all ranks at once. For errors of one rank that the others do not expect.
   [[noreturn]] void abort(int code) const;
 
  private:

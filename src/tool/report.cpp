@@ -15,8 +15,8 @@ struct AsJson {
   Json operator()(const std::string& value) const { return value; }
 };
 
-// "seconds.total" becomes an entry of the object "seconds". A name that is also the beginning
-// of others keeps its dots.
+// Inserts "seconds.total" as an entry of the object "seconds". A name that is also the beginning of
+// other names keeps its dots.
 void insert(Json& object, const std::string& name, const Json& value) {
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos) {
@@ -49,7 +49,7 @@ Json edge_bands_of(const Statistics& statistics) {
   return bands;
 }
 
-// The names of the figures are those of the statistics of all cells or edges.
+// The figures have the same names as the statistics of all cells or edges.
 Json cell_bands_of(const Statistics& statistics) {
   Json bands = Json::array();
   for (const CellBand& band : statistics.cell_bands()) {
@@ -68,7 +68,7 @@ Json cell_bands_of(const Statistics& statistics) {
   return bands;
 }
 
-// What the file was read as.
+// Adds how the geographic file was read.
 void describe(const GeoFile& geo, const Arguments& arguments, Json& report) {
   if (!arguments.layer.empty()) report["layer"] = arguments.layer;
   if (!arguments.tag_field.empty()) report["tag_field"] = arguments.tag_field;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report: what was asked, and the results, as JSON.
+// The report of a run as JSON: the arguments and the results.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace pnpbs::tool {
 
-// `geo` is nullptr for domains from other files.
+// Returns the report. `geo` is nullptr for domains from other files.
 std::string report_text(const Arguments& arguments, const GeoFile* geo,
                         const Statistics& statistics, const std::optional<VolumeFigures>& volumes,
                         const std::optional<ParticleFigures>& particles,

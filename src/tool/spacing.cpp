@@ -24,7 +24,7 @@ std::optional<SpacingFile> spacing_file(const std::string& text) {
 
 namespace {
 
-// What --spacing auto asks for.
+// Parameters of --spacing auto.
 constexpr double nodes_per_turn = 20, nodes_across = 3, nodes_per_edge = 1, growth = 0.15;
 
 std::int32_t call_grid(std::int64_t n, std::int32_t dim, const double* coordinates, double* d,
@@ -34,7 +34,7 @@ std::int32_t call_grid(std::int64_t n, std::int32_t dim, const double* coordinat
   return 0;
 }
 
-// A grid alone is d itself.
+// Returns the formula of d. Without --spacing, d is the depth rule or the first grid.
 std::string formula_in(const Arguments& arguments, const NamedGrids& grids) {
   if (!arguments.spacing.empty()) return arguments.spacing;
   return arguments.depth_rule ? formula_by_depth(arguments.min_spacing, arguments.max_spacing)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing the user asked for, in the form that suits the library best.
+// The spacing given on the command line, in the form that suits the library best.
 #pragma once
 
 #include <memory>
@@ -15,40 +15,41 @@
 
 namespace pnpbs::tool {
 
-// Which file --spacing names, if it is no formula: FILE or FILE:FIELD.
+// A file that --spacing names instead of a formula: FILE or FILE:FIELD.
 struct SpacingFile {
   std::string path;
-  std::string field;  // empty: the only one
+  std::string field;  // empty: the only field
 };
 
-// By the ending of FILE: .vtu, .msh or .csv, in capitals or not. No formula has such.
+// Recognizes the extensions .vtu, .msh and .csv in upper or lower case, which no formula ends in.
 std::optional<SpacingFile> spacing_file(const std::string& text);
 
 class Spacing {
  public:
-  // Of formulas in these grids, which must outlive this object. Throws BadInput.
+  // Parses the spacing. The grids must outlive this object. Throws BadInput.
   Spacing(const Arguments& arguments, int dimension, const NamedGrids& grids);
 
-  const std::string& formula() const { return formula_; }  // "" if it is none
-  // Then the library tells where it is not given.
+  const std::string& formula() const { return formula_; }  // "" if d is not a formula
+  // Returns whether d is a grid that the library takes. The library then reports where it has no
+  // data.
   bool is_grid() const { return grid() != nullptr; }
 
-  // As soon as the grids have been read: one alone is d, by a formula unless the library takes it
-  // as it is. Local.
+  // Must be called after the grids have been read. A single grid that GDAL has read becomes a
+  // formula; an ESRI ASCII grid is passed to the library as it is. Local.
   void take_what_was_read(const NamedGrids& grids);
 
-  // Leaves out of a domain in the plane what is finer than d. Local. Throws Failure.
+  // Removes details finer than d from a domain in the plane. Local. Throws Failure.
   void simplify(pnpbs_domain domain, pnpbs_context context, double tolerance, double smallest);
 
-  // Adds to an empty domain what lies in this band about the boundary of the body. This object must
-  // outlive both. Local. Throws Failure.
+  // Adds to an empty domain the region in this band about the boundary of the body. This object
+  // must outlive both domains. Local. Throws Failure.
   void add_band(pnpbs_domain domain, pnpbs_domain body, const Band& band, pnpbs_context context);
 
-  // Makes the bubbles larger than d. Local.
+  // Multiplies the spacing of the bubbles by this factor. Local.
   void multiply(double factor);
 
-  // This object must outlive the placement, and the domain, whose shape a formula may ask for.
-  // Collective. Throws Failure.
+  // Sets the spacing of the placement. This object must outlive the placement, and the domain if
+  // the formula uses its shape. Collective. Throws Failure.
   void give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                const Ranks& ranks);
 
@@ -62,17 +63,17 @@ class Spacing {
   static std::int32_t call_multiplied(std::int64_t n, std::int32_t dim, const double* coordinates,
                                       double* d, void* user);
 
-  Multiplied callback() const;  // not of a file, and not auto
+  Multiplied callback() const;  // neither for a file nor for auto
   const Grid* grid() const;     // that the library takes as it is, or nullptr
   pnpbs_status set_grid(pnpbs_placement placement) const;
 
   int dimension_;
-  double min_, max_;  // of auto, 0: none
+  double min_, max_;  // for auto; 0: no bound
   std::string formula_;
-  const NamedGrid* grid_ = nullptr;         // that is d
-  std::unique_ptr<Expression> expression_;  // neither this nor a grid nor a file: auto
+  const NamedGrid* grid_ = nullptr;         // d, if it is a grid
+  std::unique_ptr<Expression> expression_;  // null if d is a grid, a file or auto
   std::optional<SpacingFile> file_;
-  std::optional<Multiplied> bubbles_;  // if their spacing is not d
+  std::optional<Multiplied> bubbles_;  // set if their spacing differs from d
 };
 
 }  // namespace pnpbs::tool

@@ -23,7 +23,7 @@ StatisticValue read(pnpbs_placement placement, const LibraryStatistic& statistic
 
 constexpr std::size_t kMaxBands = 8;
 
-// None if the library has no value.
+// Returns no bands if the library has no value.
 std::vector<EdgeBand> read_edge_bands(pnpbs_placement placement) {
   std::int64_t count = 0, edges[kMaxBands];
   double from[kMaxBands], to[kMaxBands], mean[kMaxBands], deviation[kMaxBands];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All statistics of a placement, read once by all ranks.
+// All statistics of a placement, read at once. Collective.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,25 @@
 
 namespace pnpbs::tool {
 
-// monostate: the library has no value.
+// The value of a statistic; monostate means that the library has no value.
 using StatisticValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-// Edge length over d where d is in a band.
+// Edge length over d, for edges where d lies in a band.
 struct EdgeBand {
-  double from, to;  // of d
+  double from, to;  // bounds of d
   std::int64_t edges;
   double mean, deviation;
 };
 
-// What pnpbs_placement_get_cell_bands measures.
+// A quantity that pnpbs_placement_get_cell_bands measures.
 struct CellFigure {
   std::int64_t number;
   double mean, worst;
 };
 
-// Of the Voronoi cells where d is in a band.
+// Quality of the Voronoi cells where d lies in a band.
 struct CellBand {
-  double from, to;  // of d
+  double from, to;  // bounds of d
   CellFigure edge_ratio, area_ratio, dual_offset;
 };
 
@@ -40,13 +40,13 @@ class Statistics {
 
   const std::vector<std::pair<std::string, StatisticValue>>& all() const { return values_; }
 
-  // Reads what the system counts of memory again: it may have become more.
+  // Reads the memory statistics again, which may have grown.
   void renew_memory(pnpbs_placement placement);
 
   const std::vector<EdgeBand>& edge_bands() const { return edge_bands_; }
   const std::vector<CellBand>& cell_bands() const { return cell_bands_; }
 
-  // nullptr if there is none of this name and type.
+  // Returns nullptr if there is no statistic with this name and type.
   template <typename Value>
   const Value* find(const std::string& name) const {
     for (const auto& [key, value] : values_) {

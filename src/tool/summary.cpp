@@ -13,12 +13,12 @@
 namespace pnpbs::tool {
 namespace {
 
-// By local indices: this rank's nodes, then its ghosts.
+// Returns positions by local index: owned nodes first, then ghosts.
 std::vector<Point<3>> positions_seen(pnpbs_placement placement, pnpbs_context context) {
   std::int64_t own = 0, ghosts = 0;
   check(pnpbs_placement_count(placement, &own), context);
   check(pnpbs_placement_ghost_count(placement, &ghosts), context);
-  // One more than there are, so that there is a first one.
+  // One element more than needed, so that positions[0] exists.
   std::vector<Point<3>> positions(static_cast<std::size_t>(own + ghosts + 1));
   check(pnpbs_placement_get_nodes(placement, own, positions[0].data(), nullptr, nullptr, nullptr),
         context);
@@ -150,7 +150,7 @@ std::string mass_line(const std::optional<VolumeFigures>& volumes) {
   return "mass     " + measure(*volumes->mass) + " in all\n";
 }
 
-// The library says what ended the run in a word or two.
+// Translates the library's reason for the end of the run.
 std::string in_words(const std::string& reason) {
   if (reason == "rest") return "the bubbles rest";
   if (reason == "step limit") return "the step limit, before the bubbles rested";
@@ -185,7 +185,7 @@ std::string files_line(const std::vector<std::string>& files) {
 }  // namespace
 
 std::string estimate_text(const RunEstimate& run) {
-  // Measured, with a million nodes and with 100 000.
+  // Measured with a million nodes in the plane and with 100 000 in space.
   const double picture_bytes_per_node = run.body ? 340 : 115;
   const double nodes = static_cast<double>(run.nodes);
   std::string text = body_line(nullptr, run.body) + "nodes    about " + grouped(run.nodes) +
@@ -207,7 +207,7 @@ std::string summary_text(const Statistics& statistics, const std::optional<BodyF
                          const std::optional<ParticleFigures>& particles,
                          const std::vector<std::string>& files) {
   std::string nodes;
-  if (particles)  // which have no elements
+  if (particles)  // particles have no elements
     nodes = particles_line(statistics, *particles) + spacing_of_particles_line(*particles);
   else
     nodes = nodes_line(statistics) + spacing_line(statistics) + edge_line(statistics) +

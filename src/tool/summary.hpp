@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person wants to know when a run is done, in a few lines.
+// The summary that the command prints after a run.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +15,30 @@
 
 namespace pnpbs::tool {
 
-// How large a body is.
+// Size of a body.
 struct BodyFigures {
   Point<3> extent;
-  double volume;  // 0 of surfaces alone
-  // Of its boundary's triangles, when there are nodes; of a sphere, along it.
+  double volume;  // 0 for surfaces
+  // Area of the boundary's triangles, once there are nodes. On a sphere it is measured along the
+  // sphere.
   std::optional<double> area;
 };
 
-// Local. Throws Failure.
+// Measures the body. Local. Throws Failure.
 BodyFigures body_figures(pnpbs_domain domain, bool filled, pnpbs_context context);
 
-// On the first rank; 0 on the others. Collective.
+// Returns the area of the boundary on the first rank, and 0 on the others. Collective.
 double boundary_area(pnpbs_placement placement, pnpbs_context context, const Ranks& ranks);
 
 struct RunEstimate {
-  std::int64_t nodes, bytes;  // memory of each process
+  std::int64_t nodes, bytes;  // bytes of each process
   double seconds;
   int processes;
   bool picture;                     // of all nodes, drawn by the first process
-  std::optional<BodyFigures> body;  // nothing: a domain in the plane
+  std::optional<BodyFigures> body;  // empty for a domain in the plane
 };
 
-// Before a run: about how many nodes, how much memory of each process, how long.
+// Describes a run before it starts: the number of nodes, the memory of each process, and the time.
 std::string estimate_text(const RunEstimate& run);
 
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,

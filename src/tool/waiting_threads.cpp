@@ -11,11 +11,12 @@
 namespace pnpbs::tool {
 namespace {
 
-// Of Open MPI, MPICH and its kin, and MVAPICH: how many processes of the job this machine has.
+// Variables with the number of processes of the job on this machine: Open MPI, MPICH and its
+// derivatives, MVAPICH.
 constexpr const char* ranks_here[] = {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS",
                                       "MV2_COMM_WORLD_LOCAL_SIZE"};
-// Some microseconds, in which most waits on an idle machine end, instead of GCC's 300 000, which
-// are a millisecond.
+// Some microseconds, in which most waits on an idle machine end. GCC's default of 300 000 is about
+// a millisecond.
 constexpr const char* spins_before_sleep = "1000";
 constexpr const char* threads_of_one[] = {"OMP_NUM_THREADS", "KOKKOS_NUM_THREADS"};
 
@@ -41,7 +42,7 @@ int cores() {
 
 }  // namespace
 
-// Where no number of threads is asked for, the ranks here share the cores.
+// If no number of threads is given, the ranks on this machine share its cores.
 void let_waiting_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   const int ranks = std::max(1, first_number(ranks_here)), asked_for = threads_asked_for(argv),
@@ -51,7 +52,8 @@ void let_waiting_threads_sleep(char** argv) {
     setenv("OMP_WAIT_POLICY", "passive", 0);
   else
     setenv("GOMP_SPINCOUNT", spins_before_sleep, 0);
-  // By its name, which is what lists of processes show. It returns if it cannot: then they spin.
+  // Uses the path of the executable, which process lists show. execv returns only on failure; the
+  // threads then keep spinning.
   char name[4096];
   const ssize_t length = readlink("/proc/self/exe", name, sizeof name - 1);
   if (length <= 0) return;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How threads wait for each other, so that they leave the cores to those that have work.
+// The wait policy of OpenMP threads, set so that waiting threads do not occupy cores.
 #pragma once
 
 namespace pnpbs::tool {
 
-// The threads of GCC's OpenMP wait by spinning. Where the ranks on a machine have more threads than
-// it has cores, or other programs keep it busy, they keep those from running that they wait for,
-// and a run takes many times as long. How they wait is read from OMP_WAIT_POLICY and GOMP_SPINCOUNT
-// before main begins: so, unless one is set, this process starts anew, with threads that sleep at
-// once, or, where there are cores for all, soon. To be called first of all.
+// Sets how the threads of GCC's OpenMP wait for each other. By default they spin. If the ranks on a
+// machine have more threads than it has cores, or other programs use the cores, spinning threads
+// block those that they wait for, and a run takes many times as long. OMP_WAIT_POLICY and
+// GOMP_SPINCOUNT are read before main begins. So, unless one of them is set, this process executes
+// itself again, with threads that sleep at once, or after a short time if there are enough cores.
+// Must be called first in main.
 void let_waiting_threads_sleep(char** argv);
 
 }  // namespace pnpbs::tool

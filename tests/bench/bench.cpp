@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// pnpbs-bench: places nodes in our cases and judges them. Usage:
+// pnpbs-bench: places nodes in the benchmark cases and evaluates them. Usage:
 //   pnpbs-bench [--data DIR] [--scale S] [--nodes N] [--set key=value]... [--repeat N] [--no-judge]
 //               [CASE...]
-// S multiplies every spacing (0.3162 makes ten times the nodes in the plane); N is about how many
-// nodes there are in each case in space. Speed is the median of the repetitions. So is the time
-// that the process itself was given ("user"), which other work on the machine disturbs less.
+// S multiplies every spacing (0.3162 gives ten times the nodes in the plane). N is the approximate
+// number of nodes in each case in space. Speed is the median of the repetitions, and so is the user
+// time of the process, which is less sensitive to other work on the machine.
 //
-// Then comes what another library says of the nodes. In the plane: quality of the triangles where
-// the domain is wider than 3 d, then of all; edge over d by bands of d ("?": fewer than 100 edges),
-// at the boundary, and where its mean over two rings of neighbours is least and largest. In space:
+// The evaluation uses another library. In the plane: quality of the triangles where the domain is
+// wider than 3 d, then of all; edge length over d by bands of d ("?": fewer than 100 edges), at the
+// boundary, and where its mean over two rings of neighbours is smallest and largest. In space:
 // quality and dihedral angles of all tetrahedra, of those inside and of those at the boundary, with
-// the place of the least angle; edge over d of all edges and by how many ends are on the boundary,
-// by octaves of d, and at the worst places; the triangles of the boundary.
+// the location of the smallest angle; edge length over d of all edges and by the number of ends on
+// the boundary, by octaves of d, and at the worst locations; the triangles of the boundary.
 //
-// A CASE that ends with "-" stands for all that begin so: bands- for the study of the bands of d,
-// volume- for the cases in space.
+// A CASE that ends with "-" selects all cases with this prefix: bands- for the study of the bands
+// of d, volume- for the cases in space.
 #include <cstdio>
 #include <cstdlib>
 

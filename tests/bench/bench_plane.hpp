@@ -5,7 +5,7 @@
 
 namespace pnpbs_bench {
 
-// Runs and judges those cases in the plane that are asked for.
+// Runs and evaluates the selected cases in the plane.
 void bench_plane(const Arguments& arguments);
 
 }  // namespace pnpbs_bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What pnpbs-bench does alike in the plane and in space: runs, their times, their memory.
+// Common part of pnpbs-bench in the plane and in space: runs, their times and their memory.
 #pragma once
 
 #include <functional>
@@ -13,23 +13,24 @@ namespace pnpbs_bench {
 
 struct Arguments {
   std::string data = "examples/data";
-  double scale = 1;      // of every spacing
-  double nodes = 70000;  // about so many in each case in space, at scale 1
+  double scale = 1;      // factor of every spacing
+  double nodes = 70000;  // approximate number in each case in space, at scale 1
   int repeat = 1;
   bool judge = true;
   std::vector<std::pair<std::string, std::string>> options;
   std::vector<std::string> names;
 
-  // Is a case asked for? A name that ends with "-" stands for all cases that begin with it; none
-  // for all that are not part of a study.
+  // Returns whether a case is selected. A name that ends with "-" selects all cases with this
+  // prefix. Without names, all cases outside the study are selected.
   bool wants(const std::string& name, bool in_study) const;
 };
 
-// The one process of all runs; ends with a message where something fails.
+// Returns the context of all runs, with one process. Ends the program with a message on an error.
 pnpbs_context bench_context();
 void require_ok(pnpbs_status status, const char* what);
 
-// Places nodes `repeat` times and prints a line of what it took; hands over the last placement.
+// Places nodes `repeat` times, prints a line with the cost, and passes the last placement to
+// `judge`.
 struct Job {
   std::string name;
   int dimension = 2;

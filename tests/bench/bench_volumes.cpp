@@ -16,7 +16,7 @@ struct SpaceNodes {
   std::vector<Place> x;
   std::vector<double> d;
   std::vector<char> on_boundary;
-  std::vector<TriangleOfNodes> boundary;  // as it was handed out
+  std::vector<TriangleOfNodes> boundary;  // as returned by the library
 };
 
 SpaceNodes nodes_of(pnpbs_placement p) {

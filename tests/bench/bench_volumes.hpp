@@ -5,7 +5,7 @@
 
 namespace pnpbs_bench {
 
-// Runs and judges those cases in space that are asked for.
+// Runs and evaluates the selected cases in space.
 void bench_volumes(const Arguments& arguments);
 
 }  // namespace pnpbs_bench

@@ -15,8 +15,8 @@ const Loop kSquare{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 // ------------------------------------------------------------------ an airfoil -----------------
 
-// NACA 2412 with its trailing edge closed, chord 1 from the origin, points dense at both ends
-// (Jacobs, Ward, Pinkerton 1933; NACA report 460).
+// Returns NACA 2412 with a closed trailing edge and chord 1 from the origin. Points are dense at
+// both ends (Jacobs, Ward, Pinkerton 1933; NACA report 460).
 Loop airfoil(int per_side) {
   constexpr double kCamber = 0.02, kCamberAt = 0.4, kThickness = 0.12, kPi = 3.14159265358979323846;
   const auto point = [&](int k, double side) -> std::array<double, 2> {
@@ -37,7 +37,7 @@ Loop airfoil(int per_side) {
   return loop;
 }
 
-// Distance to a closed loop: groups of segments are passed by where their circle is too far.
+// Distance to a closed loop. Groups of segments whose circle is too far away are skipped.
 class DistanceToLoop {
  public:
   explicit DistanceToLoop(Loop loop) : loop_(std::move(loop)) {
@@ -54,7 +54,7 @@ class DistanceToLoop {
 
   double operator()(double x, double y) const {
     double nearest = std::numeric_limits<double>::infinity();
-    std::size_t start = 0;  // the group that is nearest by its circle
+    std::size_t start = 0;  // group with the nearest circle
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const double bound = beyond(g, x, y) + 2 * groups_[g].radius;
       if (bound >= nearest) continue;
@@ -106,8 +106,8 @@ Case airfoil_case() {
 
 // ------------------------------------------------------------------ the study ------------------
 
-// From the least d, growing with the distance to something, up to half of the growth, which is d
-// half of the square away.
+// Returns the cases of the study. d grows from its smallest value with the distance to a shape, up
+// to half of the growth, which is the value half of the square away.
 std::vector<Case> study_cases() {
   struct Shape {
     const char* name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies and spacings that pnpbs-bench places nodes in.
+// Bodies and spacings of pnpbs-bench in space.
 #pragma once
 
 #include <string>

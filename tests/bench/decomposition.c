@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * How a placement is distributed to the ranks of MPI_COMM_WORLD: initialises it, takes no step, and
- * prints one line of names and values, the mean and the largest over the ranks; so many more ranks
- * than cores do. With `rebalance` it partitions once more, by the work counted, and `imbalance` is
- * that of the work; with `run` it places the nodes, which tells the time of each phase, the memory,
- * and the nodes worked for over those owned (`redundancy.*`).
- * Messages, bytes and collective calls are those of initialising or placing,
- * `computed` the seconds of a core without those spent in MPI.
+ * Measures how a placement is distributed to the ranks of MPI_COMM_WORLD. Initialises it without
+ * taking a step, and prints a line of names and values, with the mean and the maximum over the
+ * ranks. There may be many more ranks than cores.
+ *
+ * With `rebalance` the placement is partitioned again by the counted work, and `imbalance` is that
+ * of the work. With `run` the nodes are placed; the output then has the time of each phase, the
+ * memory, and the nodes computed over those owned (`redundancy.*`). Messages, bytes and collective
+ * calls are those of initialising or placing. `computed` is the processor time outside MPI.
+ *
  * usage: decomposition CASE SCALE [run|rebalance] [key=value]...  with the cases of place_on_ranks
+ *
  * Ends with status 1 if the figures contradict each other. */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -46,11 +49,11 @@ static double real(const char* key) {
   return value;
 }
 
-/* Seconds of this process on a core. */
+/* Returns the processor time of this process in seconds. */
 static double on_a_core_in_all(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
-/* The same without what the system did for it (as when it lets others
- * run while it waits). */
+/* Returns the user time of this process in seconds, without time in the system, for example for
+ * yielding while it waits. */
 static double on_a_core(void) {
   struct rusage usage;
   getrusage(RUSAGE_SELF, &usage);
@@ -74,14 +77,14 @@ static void tell_over_ranks(const char* name, double mine) {
   if (rank == 0) printf("%s.mean %.9g %s.largest %.9g ", name, mean, name, largest);
 }
 
-/* A statistic of a family, as "seconds.motion". */
+/* Returns a statistic of a family, such as "seconds.motion". */
 static double real_of(const char* family, const char* member) {
   char key[64];
   snprintf(key, sizeof key, "%s.%s", family, member);
   return real(key);
 }
 
-/* Every node is owned once, and what is sent is what arrives as a ghost. */
+/* Returns whether every node is owned once, and the bytes sent equal those of the ghosts. */
 static int consistent(double owned, double ghosts, double bytes) {
   const double nodes = integer("nodes"), all = sum_of(owned), sent = sum_of(bytes),
                arriving = bytes_per_ghost * sum_of(ghosts);

@@ -23,7 +23,7 @@ Range range_of(const std::vector<MeasuredEdge>& edges) {
   return range;
 }
 
-// `width` is that of a band, in log d.
+// Returns `count` bands; `width` is that of a band in log d.
 std::vector<EdgeBand> bands_of(const std::vector<MeasuredEdge>& edges, const Range& range,
                                int count, double width) {
   std::vector<EdgeBand> bands(static_cast<std::size_t>(count));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Does d count everywhere? A mean over all edges hides a region that is crushed.
+// Statistics of edge length over d by bands of d and by location. A mean over all edges would hide
+// regions with compressed nodes.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 
 namespace pnpbs_bench {
 
-// One edge: its ends, its length over the mean of d there, and that mean.
+// An edge: its ends, its length over the mean of d at its ends, and that mean.
 struct MeasuredEdge {
   std::size_t a, b;
   double ratio, d;
@@ -21,17 +22,17 @@ struct EdgeBand {
   std::int64_t edges = 0;
   double mean = 0, deviation = 0;
 
-  void add(double ratio);  // mean and deviation are sums, until finished
+  void add(double ratio);  // mean and deviation are sums until finish()
   void finish();
 };
 
-// Bands from the finest d on, those without edges left out: eight that are equal in log d, or
-// octaves. One where d hardly varies.
+// Return the nonempty bands from the smallest d on: eight of equal width in log d, or octaves.
+// There is one band if d hardly varies.
 std::vector<EdgeBand> eight_bands(const std::vector<MeasuredEdge>& edges);
 std::vector<EdgeBand> octaves(const std::vector<MeasuredEdge>& edges);
 
-// Around which node the mean over the edges of it and of its neighbours is least, and where it is
-// largest, of the nodes with `fewest` edges to that mean.
+// The nodes around which the mean over their edges and those of their neighbours is smallest and
+// largest, among nodes with at least `fewest` such edges.
 struct WorstPlaces {
   double min = 0, max = 0;
   std::size_t min_node = 0, max_node = 0;

@@ -36,7 +36,7 @@ constexpr double kDegrees = 180 / 3.14159265358979323846;
 struct Reference {
   Triangulation triangulation;
   std::int64_t missing_edges = 0;
-  std::set<std::array<Vertex, 2>> inner_edges;  // from either end
+  std::set<std::array<Vertex, 2>> inner_edges;  // in both directions
 
   bool is_border(const Triangulation::Edge& e) const {
     const Triangulation& t = triangulation;
@@ -45,8 +45,8 @@ struct Reference {
   }
 };
 
-// Even-odd nesting from the outside in: a region's level is that of the region across its border,
-// plus one.
+// Marks regions from the outside in by the even-odd rule: the level of a region is one more than
+// that of the region across its border.
 void mark_nesting(const Reference& reference) {
   const Triangulation& t = reference.triangulation;
   std::deque<std::pair<Face, int>> starts{{t.infinite_face(), 0}};
@@ -116,11 +116,12 @@ double min_angle(const Kernel::Point_2& a, const Kernel::Point_2& b, const Kerne
   return min;
 }
 
-// How far from point p, in face f, the boundary is in a direction; at most `most`.
+// Returns the distance from point p in face f to the boundary in a direction, at most `max`.
 double way_to_boundary(const Triangulation& t, Face f, const Kernel::Point_2& p,
                        const Kernel::Vector_2& direction, double max) {
   Face from = nullptr;
-  // Passing exactly through a node could go round it for ever: a way of so many triangles is long.
+  // A ray exactly through a node could circle around it forever, so the number of triangles is
+  // limited.
   for (int steps = 0; steps < 100; ++steps) {
     int out = -1;
     double way = std::numeric_limits<double>::infinity();
@@ -152,7 +153,7 @@ bool narrow_at(const Triangulation& t, Face f, double d) {
       CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point());
   constexpr int kChords = 12;
   for (int c = 0; c < kChords; ++c) {
-    // Off the directions in which lattices have their rows.
+    // Avoids the directions of lattice rows.
     const double angle = (c + 0.2718) * 3.14159265358979323846 / kChords;
     const Kernel::Vector_2 u(std::cos(angle), std::sin(angle));
     const double chord =
@@ -204,7 +205,7 @@ class Collector {
   std::int64_t edges_ = 0;
 };
 
-// Edges that have their length from the nodes' motion: all but those of the boundary.
+// Returns the edges whose length is due to the motion of nodes: all except those on the boundary.
 std::vector<MeasuredEdge> free_edges(const Triangulation& t, const NodeSet& set) {
   std::vector<char> on_boundary(set.x.size(), 0);
   for (const auto* edges : {&set.edges, &set.inner_edges})
@@ -216,7 +217,7 @@ std::vector<MeasuredEdge> free_edges(const Triangulation& t, const NodeSet& set)
     if (t.is_constrained(*e) || !f->info().inside() || !other->info().inside()) continue;
     const auto a = static_cast<std::size_t>(f->vertex(t.cw(e->second))->info());
     const auto b = static_cast<std::size_t>(f->vertex(t.ccw(e->second))->info());
-    if (on_boundary[a] && on_boundary[b]) continue;  // corners and narrow places leave no choice
+    if (on_boundary[a] && on_boundary[b]) continue;  // corners and narrow regions leave no choice
     const double d = 0.5 * (set.d[a] + set.d[b]);
     const double length = std::hypot(set.x[a][0] - set.x[b][0], set.x[a][1] - set.x[b][1]);
     found.push_back({a, b, length / d, d, on_boundary[a] != on_boundary[b]});
@@ -231,7 +232,7 @@ EdgesByPlace edges_by_place(const Triangulation& t, const NodeSet& set) {
   for (const MeasuredEdge& e : edges)
     if (e.at_boundary) by_place.at_boundary.add(e.ratio);
   by_place.at_boundary.finish();
-  constexpr double kFewest = 40;  // some sixty are usual
+  constexpr double kFewest = 40;  // about sixty are usual
   const WorstPlaces worst = worst_places(set.x.size(), edges, kFewest);
   by_place.min_place = worst.min;
   by_place.max_place = worst.max;
@@ -240,7 +241,8 @@ EdgesByPlace edges_by_place(const Triangulation& t, const NodeSet& set) {
   return by_place;
 }
 
-// Each triangle's area over that of the equilateral one of side d, and two triangles to a node.
+// Returns the number of nodes required by d: the sum of the triangles' areas over that of the
+// equilateral triangle of side d, with two triangles per node.
 double nodes_wanted(const Triangulation& t, const NodeSet& set) {
   double nodes = 0;
   for (auto f = t.finite_faces_begin(); f != t.finite_faces_end(); ++f) {
@@ -296,7 +298,8 @@ Verdict evaluate(const NodeSet& set) {
     if (mendable) wide.add_triangle(q, angle);
     for (int k = 0; k < 3; ++k) {
       const Face other = f->neighbor(k);
-      if (!t.is_infinite(other) && other->info().inside() && other < Face(f)) continue;  // once
+      // Visit each edge once.
+      if (!t.is_infinite(other) && other->info().inside() && other < Face(f)) continue;
       const auto i = static_cast<std::size_t>(f->vertex(t.cw(k))->info());
       const auto j = static_cast<std::size_t>(f->vertex(t.ccw(k))->info());
       const double ratio = std::hypot(set.x[i][0] - set.x[j][0], set.x[i][1] - set.x[j][1]) /

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Judges a node set by a constrained Delaunay triangulation of another library (CGAL), never by
-// our own lists.
+// Evaluates a node set by the constrained Delaunay triangulation of CGAL, independent of the
+// library's own lists.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@ namespace pnpbs_bench {
 
 struct NodeSet {
   std::vector<std::array<double, 2>> x;
-  std::vector<double> d;                                      // wanted spacing at the nodes
+  std::vector<double> d;                                      // desired spacing at the nodes
   std::vector<std::array<std::int64_t, 2>> edges;             // boundary edges; even-odd rule
-  std::vector<std::array<std::int64_t, 2>> inner_edges = {};  // both sides are alike
+  std::vector<std::array<std::int64_t, 2>> inner_edges = {};  // with the domain on both sides
 };
 
 struct Measures {
@@ -29,11 +29,12 @@ struct Measures {
   double edge_deviation = 0;
 };
 
-// Edges of the boundary do not count, as their length is the domain's business.
+// Statistics of edges by location. Edges of the boundary do not count, as the domain determines
+// their length.
 struct EdgesByPlace {
   std::vector<EdgeBand> bands;  // eight
   EdgeBand at_boundary;         // edges with one end on the boundary
-  // The means over the edges around a node and its neighbours, where they are least and largest.
+  // Smallest and largest mean over the edges around a node and its neighbours.
   double min_place = 0, max_place = 0;
   std::array<double, 2> min_at{}, max_at{};
 };
@@ -41,16 +42,17 @@ struct EdgesByPlace {
 struct Verdict {
   Measures all;
   EdgesByPlace edges;
-  double nodes_wanted = 0;  // what the triangles' areas and d ask for
-  // Without what no node set can mend: triangles where the domain is narrower than 3 d (some chord
-  // through their middle is shorter) and those that touch a boundary edge shorter than 0.7 d.
+  double nodes_wanted = 0;  // required by d on the area of the triangles
+  // Excludes triangles that no node set can improve: those where the domain is narrower than 3 d
+  // (some chord through their centre is shorter) and those that touch a boundary edge shorter than
+  // 0.7 d.
   Measures wide;
   std::int64_t missing_edges = 0;  // boundary edges that are crossed or split: must be 0
 };
 
 Verdict evaluate(const NodeSet& nodes);
 
-// The same triangles as vertex triples, sorted, for comparison with ours.
+// Returns the same triangles as sorted vertex triples, for comparison with the library's.
 std::vector<std::array<std::int64_t, 3>> reference_triangles(const NodeSet& nodes);
 
 }  // namespace pnpbs_bench

@@ -28,7 +28,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::int64_t, Kernel>;
-// Does the cell belong to the body?
+// The cell info is whether the cell belongs to the body.
 using CellBase =
     CGAL::Triangulation_cell_base_with_info_3<bool, Kernel,
                                               CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
@@ -65,7 +65,8 @@ bool centroid_inside(const Cell& cell, const Inside& inside) {
   return inside(middle);
 }
 
-// Volume below a sixth of that of the regular tetrahedron with its longest edge.
+// Returns whether the volume is below a sixth of that of the regular tetrahedron with the same
+// longest edge.
 bool flat(const Cell& cell) {
   double longest = 0;
   for (int a = 0; a < 4; ++a)
@@ -83,7 +84,8 @@ bool open(const Cell& cell) {
   return false;
 }
 
-// Whether one is peeled off does not depend on the order: an open one stays open.
+// Peels flat cells off the boundary. The result does not depend on the order, since an open cell
+// stays open.
 void peel(const Triangulation& t, const std::vector<char>& on_boundary) {
   std::vector<Cell> in_question;
   for (const Cell cell : t.finite_cell_handles())

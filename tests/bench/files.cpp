@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// pnpbs-bench-files: places nodes in a square, or in a cube with --space, and writes them in every
-// format there is, alone. Prints seconds, of the wall clock and of the processor, and megabytes for
-// each. Usage:
+// pnpbs-bench-files: places nodes in a square, or in a cube with --space, and writes them in each
+// available format separately. Prints seconds of the wall clock and of the processor, and megabytes
+// for each. Usage:
 //   pnpbs-bench-files [--nodes N] [--space] [--folder DIR]
-// N: about how many nodes, a million by default. DIR: where a folder is made and removed.
+// N: approximate number of nodes, a million by default. DIR: where a folder is created and removed.
 #include <pnpbs/pnpbs.h>
 
 #include <chrono>
@@ -48,7 +48,7 @@ void must(pnpbs_status status) {
   std::exit(1);
 }
 
-// After a few steps: files do not care how well the nodes lie.
+// Places nodes with a few steps only, as their quality does not affect the files.
 pnpbs_placement placed(pnpbs_context context, const Arguments& arguments) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
   pnpbs_domain domain;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What it costs to hand a placement on: seconds of the run, of a distributed mesh and of the
- * Voronoi cells, on the slowest rank, and how much more than its share the fullest rank has of the
- * mesh. usage: handoff DIM SPACING [layers of ghost elements, 1 if not given] for the unit square
- * or cube */
+ * Measures the cost of passing a placement on: seconds of the run, of a distributed mesh and of the
+ * Voronoi cells on the slowest rank, and the imbalance of the mesh.
+ * usage: handoff DIM SPACING [layers of ghost elements, default 1]  for the unit square or cube */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>

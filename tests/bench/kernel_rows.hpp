@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What pnpbs-bench-kernels does alike in the plane and in space.
+// Common part of pnpbs-bench-kernels in the plane and in space.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct KernelArguments {
   int repeat = 15;
 };
 
-// The seconds that each kernel took, once per repetition; in the order of their first time.
+// The seconds of each kernel, once per repetition, in the order of their first measurement.
 class Rows {
  public:
   void add(const std::string& name, double seconds) {
@@ -46,7 +46,7 @@ class Rows {
   std::map<std::string, std::vector<double>> seconds_;
 };
 
-// Each pair is in the lists of both its nodes, and is evaluated for both.
+// Evaluates the forces. Each pair is in the lists of both its nodes and is evaluated twice.
 template <int Dim, class Law>
 void evaluate_forces(const pnpbs::Nodes<Dim>& nodes, const pnpbs::AdjacencyList<Dim>& lists,
                      const Law& law, pnpbs::Field<Dim>& forces) {
@@ -71,7 +71,7 @@ double listed_per_node(const pnpbs::Nodes<Dim>& nodes, const pnpbs::AdjacencyLis
   return static_cast<double>(listed) / static_cast<double>(nodes.count);
 }
 
-// What the kernels run through: the longest list of each block, for all its nodes.
+// Returns the mean number of rows that kernels process per block: the length of its longest list.
 template <int Dim>
 double rows_per_block(const pnpbs::AdjacencyList<Dim>& lists) {
   std::int64_t rows = 0;
@@ -79,5 +79,5 @@ double rows_per_block(const pnpbs::AdjacencyList<Dim>& lists) {
   return static_cast<double>(rows) / static_cast<double>(lists.block_count());
 }
 
-// A body-centred cubic lattice in the unit cube.
+// Measures kernels on a body-centred cubic lattice in the unit cube.
 void measure_in_space(const KernelArguments& arguments, double list_radius);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// pnpbs-bench-kernels: what the kernels cost by themselves, on a hexagonal lattice in the unit
-// square whose nodes were moved a little at random, with lists of the radius that a run has and of
-// a larger one, which reaches some of the second shell; then likewise in space. Usage:
+// pnpbs-bench-kernels: measures the kernels separately, on a hexagonal lattice in the unit square
+// with small random displacements. Lists have the default radius and a larger one, which reaches a
+// part of the second shell. Then the same in space. Usage:
 //   pnpbs-bench-kernels [--nodes N] [--repeat R] [--moved M]
-// M: most that a coordinate is moved by, in spacings. Medians of the repetitions; threads as
-// OMP_NUM_THREADS says.
+// M: largest displacement of a coordinate, in spacings. Results are medians of the repetitions.
+// OMP_NUM_THREADS sets the number of threads.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -74,7 +74,7 @@ void measure_forces(const Level& level, Scratch& scratch, Rows& rows) {
                [&] { evaluate_forces<2>(nodes, level.lists(), CubicLaw{}, scratch.there); });
 }
 
-// Velocities change, positions do not: so all steps begin at the same ones.
+// Velocities change but positions do not, so all steps start from the same positions.
 void measure_steps(Level& level, Scratch& scratch, Rows& rows) {
   Nodes<2>& nodes = level.nodes;
   const pnpbs::AdjacencyList<2>& lists = level.lists();
@@ -93,7 +93,7 @@ void measure_steps(Level& level, Scratch& scratch, Rows& rows) {
   });
 }
 
-// What a phase of the level takes, divided by how often it is done.
+// Measures the time of a phase of the level, divided by the number of times it runs.
 template <class Work>
 void measure_phase(const std::string& name, const pnpbs::Timers& timers, Phase phase, int times,
                    Rows& rows, const Work& work) {

@@ -8,7 +8,7 @@ struct mpi_counts mpi_counts;
 
 static double seconds_on_a_core(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
-/* What a call returns; its time is added up. */
+/* Performs the call, adds its processor time, and returns its status. */
 #define TIMED(call)                                    \
   const double started = seconds_on_a_core();          \
   const int status = call;                             \

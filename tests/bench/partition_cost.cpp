@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the partition costs that is done once for all ranks, on a core of its own: the table of
-// cells that every rank makes, and the cut of their graph, which the first rank makes. The cells
-// are those of a square with even d, 250 to 1000 for each rank, or of a cube, up to 2000.
-// usage: partition_cost [space] RANKS... A line of names and values for each.
+// Measures the cost of the parts of partitioning that are not distributed, in processor time: the
+// table of cells, which every rank builds, and the cut of their graph, which the first rank
+// computes. The cells are those of a square with constant d, 250 to 1000 per rank, or of a cube, up
+// to 2000.
+// usage: partition_cost [space] RANKS...  prints a line of names and values for each
 #include <sys/resource.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge of nodes in space against lattices and tetrahedra whose measures are known.
+// Tests the evaluation of nodes in space, on lattices and tetrahedra with known measures.
 #include <cmath>
 #include <random>
 
@@ -14,10 +14,10 @@ using pnpbs_bench::VolumeVerdict;
 namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
-// Of the body-centred cubic lattice.
+// Quality of the tetrahedra of the body-centred cubic lattice.
 const double kCubicQuality = 3 / std::sqrt(10.0);
 
-// Corners and centres of unit cells from 0 to `cells`.
+// Returns corners and centres of unit cells from 0 to `cells`.
 std::vector<Place> body_centred(int cells, double size = 1) {
   std::vector<Place> nodes;
   for (int half : {0, 1})
@@ -37,7 +37,7 @@ pnpbs_bench::Inside box_between(double low, double high) {
   };
 }
 
-// About two axes, by angles that no lattice has.
+// Rotates about two axes by angles unrelated to lattices.
 Place turned(const Place& x) {
   const Place y{std::cos(0.7) * x[0] - std::sin(0.7) * x[1],
                 std::sin(0.7) * x[0] + std::cos(0.7) * x[1], x[2]};
@@ -60,8 +60,8 @@ START_TEST(regular_tetrahedron) {
 }
 END_TEST
 
-// A square whose corners go up and down in turn by h: at its sides the faces meet at an angle with
-// the cosine 1 / (1 + 4 h^2).
+// A square whose corners are alternately raised and lowered by h. The faces at its sides meet at an
+// angle with the cosine 1 / (1 + 4 h^2).
 START_TEST(sliver) {
   for (const double angle : {0.1, 5.0, 15.0, 25.0}) {
     const double h = 0.5 * std::sqrt(1 / std::cos(angle / kDegrees) - 1);
@@ -91,7 +91,7 @@ END_TEST
 START_TEST(body_centred_lattice) {
   const std::vector<Place> x = body_centred(8);
   const std::vector<char> on_boundary(x.size(), 0);
-  // Between planes that no centroid lies on: those lie at multiples of 1/8.
+  // The bounding planes contain no centroid, as those lie at multiples of 1/8.
   const BodyMesh mesh = pnpbs_bench::reference_mesh(x, on_boundary, box_between(2.01, 6.01));
   const VolumeVerdict v =
       pnpbs_bench::evaluate(x, std::vector<double>(x.size(), 0.5), on_boundary, mesh);
@@ -104,7 +104,7 @@ START_TEST(body_centred_lattice) {
   ck_assert_int_eq(v.all.below_20, 0);
   ck_assert_int_eq(v.inside.tetrahedra, v.all.tetrahedra);
   ck_assert_int_eq(v.at_boundary.tetrahedra, 0);
-  // All edges are of length 1 or sqrt(3) / 2; d is a half.
+  // All edges have length 1 or sqrt(3) / 2; d is 1/2.
   const double n = static_cast<double>(v.edges.edges),
                share = (v.edges.mean - std::sqrt(3.0)) / (2 - std::sqrt(3.0));
   ck_assert_double_eq_tol(share * n, std::round(share * n), 1e-6);
@@ -114,8 +114,8 @@ START_TEST(body_centred_lattice) {
 }
 END_TEST
 
-// Every face of a cell is two triangles, with the corners on the boundary; each pyramid above one
-// is cut in two. With the box's nodes as they are, nothing is flat, and nothing is peeled off.
+// Every face of a cell is cut into two triangles with corners on the boundary, and the pyramids
+// above it in two. With exact nodes of the box nothing is flat, so nothing is peeled off.
 START_TEST(box) {
   const std::vector<Place> x = body_centred(4);
   std::vector<char> on_boundary;
@@ -134,8 +134,8 @@ START_TEST(box) {
 }
 END_TEST
 
-// The nodes of a box's faces that are turned to the axes lie in them but for rounding: so there are
-// tetrahedra between them, which are no part of the box.
+// The nodes of the faces of a rotated box lie in them up to rounding. So there are tetrahedra
+// between them that are not part of the box.
 START_TEST(flat_ones_at_the_boundary_are_peeled_off) {
   std::vector<Place> x = body_centred(4);
   std::vector<char> on_boundary;
@@ -155,8 +155,7 @@ START_TEST(flat_ones_at_the_boundary_are_peeled_off) {
 }
 END_TEST
 
-// d of one half of a lattice is an eighth: the octaves and the worst places tell what the mean does
-// not.
+// d is an eighth in one half of a lattice: octaves and worst locations show what the mean hides.
 START_TEST(edges_by_place) {
   const std::vector<Place> x = body_centred(10);
   const std::vector<char> on_boundary(x.size(), 0);
@@ -164,7 +163,7 @@ START_TEST(edges_by_place) {
   for (const Place& p : x) d.push_back(p[0] < 5.2 ? 0.125 : 1);
   const BodyMesh mesh = pnpbs_bench::reference_mesh(x, on_boundary, box_between(0, 10));
   const VolumeVerdict v = pnpbs_bench::evaluate(x, d, on_boundary, mesh);
-  ck_assert_int_eq(std::ssize(v.octaves), 2);  // the edges between the halves are in the last one
+  ck_assert_int_eq(std::ssize(v.octaves), 2);  // edges between the halves are in the last octave
   const double mean = (8 * std::sqrt(0.75) + 6) / 14;
   ck_assert_double_eq_tol(v.octaves[0].mean / (8 * mean), 1, 0.03);
   ck_assert_double_eq_tol(v.octaves[1].mean / mean, 1, 0.1);
@@ -175,7 +174,7 @@ START_TEST(edges_by_place) {
 }
 END_TEST
 
-// The share of random points in the bounds that are inside is the body's volume.
+// The fraction of random points in the bounds that are inside equals the volume of the body.
 START_TEST(inside_of_files) {
   const std::string data = PNPBS_SOURCE_DIR "/examples/data";
   const std::pair<volume_body, const char*> bodies[] = {{volume_bracket, "/bracket.stl"},

@@ -23,8 +23,8 @@ double volume_of(const std::array<Place, 4>& x) {
   return std::fabs(dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0]))) / 6;
 }
 
-// The radius of the sphere through four points: that of a triangle whose sides are the products of
-// opposite edges, over six volumes.
+// Returns the circumradius: the area of the triangle whose sides are the products of opposite
+// edges, over six volumes.
 double circumradius(const std::array<Place, 4>& x) {
   const double a = length(x[1] - x[0]) * length(x[3] - x[2]);
   const double b = length(x[2] - x[0]) * length(x[3] - x[1]);
@@ -82,7 +82,7 @@ void measure_tetrahedra(const std::vector<Place>& x, const std::vector<char>& on
   verdict.at_boundary = at_boundary.measures();
 }
 
-// Each once.
+// Returns the edges, each once.
 std::vector<std::array<std::size_t, 2>> edges_of(
     const std::vector<TetrahedronOfNodes>& tetrahedra) {
   std::vector<std::array<std::size_t, 2>> edges;
@@ -114,7 +114,7 @@ void measure_edges(const std::vector<Place>& x, const std::vector<double>& d,
   verdict.edges.finish();
   for (EdgeBand* band : by_ends) band->finish();
   verdict.octaves = octaves(free);
-  constexpr double kFewest = 100;  // some two hundred are usual
+  constexpr double kFewest = 100;  // about two hundred are usual
   const WorstPlaces worst = worst_places(x.size(), free, kFewest);
   verdict.min_place = worst.min;
   verdict.max_place = worst.max;
@@ -154,7 +154,7 @@ ShapeOfTetrahedron shape_of(const std::array<Place, 4>& x) {
   constexpr std::size_t kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
                                         {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
   for (const auto& [a, b, c, d] : kEdges) {
-    const Place edge = x[b] - x[a];  // the faces' normals about it lie as the faces do
+    const Place edge = x[b] - x[a];  // the angle of these normals is the angle of the faces
     const double angle = angle_between(cross(edge, x[c] - x[a]), cross(edge, x[d] - x[a]));
     shape.angle = std::min(shape.angle, angle);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bubbles in a box, without a domain: what the kernels work on, in 2 and 3 dimensions.
+// Bubbles in a box without a domain, as input for the kernels in 2 and 3 dimensions.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct Bubble {
   bool moves = true;
 };
 
-// Of bubbles in space that a test moves: longer moves than those of a placement.
+// Step sizes for bubbles in space in tests; they are longer than the defaults of a placement.
 inline constexpr pnpbs::Motion kMotionInSpace{0.6, 0.2, 0.2};
 
 template <int Dim>
@@ -39,7 +39,8 @@ struct Bubbles {
   pnpbs::Buckets<Dim> buckets;
   pnpbs::AdjacencyList<Dim> lists;
 
-  // Leaves are at most `widest` wide, and at most `spacings` times d in their middle.
+  // Builds a tree whose leaves are at most `widest` wide and at most `spacings` times d at their
+  // centre.
   void grow_tree(const SpacingFunction<Dim>& d, double spacings = 4, double widest = 1e300) {
     tree.build(box, [&](const pnpbs::BackgroundTree<Dim>& t, std::int32_t first, std::int32_t last,
                         std::vector<char>& split) {
@@ -58,7 +59,7 @@ struct Bubbles {
                    b.moves ? -1 : 0);
   }
 
-  // Any node may hide others.
+  // A visibility rule in which any node may be occluded.
   template <class Visible>
   struct Visibility {
     const Visible& visible;
@@ -77,7 +78,7 @@ struct Bubbles {
     list(radius, [](std::int64_t, std::int64_t) { return true; });
   }
 
-  // The far-away node behind the last one.
+  // Sets the entry behind the last node to the far-away position that pads lists.
   void pad(pnpbs::Field<Dim>& x) const {
     for (int k = 0; k < Dim; ++k) x[k](nodes.count) = pnpbs::kFarAway;
   }
@@ -90,7 +91,8 @@ struct Bubbles {
   }
 };
 
-// n bubbles at random places with random sizes about d; ids are a random choice of large numbers.
+// Returns n bubbles at random positions with random sizes about d. Their ids are large numbers in
+// random order.
 template <int Dim>
 std::vector<Bubble<Dim>> random_bubbles(Random& random, std::int64_t n,
                                         const SpacingFunction<Dim>& d, double variation = 0.3) {
@@ -106,7 +108,7 @@ std::vector<Bubble<Dim>> random_bubbles(Random& random, std::int64_t n,
   return bubbles;
 }
 
-// Every bubble moves that is farther than this from the box's sides.
+// Returns whether x is farther than `rim` from the sides of the box.
 template <int Dim>
 bool is_inner(const Box<Dim>& box, const Point<Dim>& x, double rim) {
   bool inner = true;
@@ -115,8 +117,8 @@ bool is_inner(const Box<Dim>& box, const Point<Dim>& x, double rim) {
   return inner;
 }
 
-// Rows of a hexagonal lattice of this spacing that fill the box; those within `rim` of the box's
-// edge do not move.
+// Returns a hexagonal lattice with this spacing that fills the box. Bubbles within `rim` of the
+// sides do not move.
 inline std::vector<Bubble<2>> hexagonal_lattice(const Box<2>& box, double spacing, double d,
                                                 double rim) {
   std::vector<Bubble<2>> bubbles;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the check of the results says of results that are spoilt by hand.
+// Helpers for tests that corrupt results by hand and examine the message of the result check.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ std::string place_text(const std::array<double, Dim>& point) {
   return pnpbs::point_text(point).text();
 }
 
-// Empty where it finds nothing wrong.
+// Returns the message of the result check, or an empty string if it finds no error.
 template <int Dim>
 std::string complaint_of(pnpbs::PlacementImpl<Dim>& placement) {
   try {
@@ -31,7 +31,8 @@ std::string complaint_of(pnpbs::PlacementImpl<Dim>& placement) {
   }
 }
 
-// Spoils right results; their check must then say all of the words that `spoil` returns.
+// Corrupts correct results with `spoil`, and expects that the message contains all words that
+// `spoil` returns.
 template <int Dim>
 void expect_check_to_say(
     pnpbs::PlacementImpl<Dim>& placement,

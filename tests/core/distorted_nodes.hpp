@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes that are badly spaced, and the quality of their triangles, for what finishes a placement.
+// Badly spaced nodes and the quality of their triangles, for tests of the finish.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "random.hpp"
 #include "star_triangles.hpp"
 
-// 2 r_in / R by the angles, as 8 sin(A/2) sin(B/2) sin(C/2).
+// Returns 2 r_in / R of a triangle from its angles: 8 sin(A/2) sin(B/2) sin(C/2).
 inline double quality(const pnpbs::Point<2>& a, const pnpbs::Point<2>& b,
                       const pnpbs::Point<2>& c) {
   if (pnpbs::orientation(a, b, c) < 0) return -quality(a, c, b);
@@ -24,7 +24,7 @@ inline double quality(const pnpbs::Point<2>& a, const pnpbs::Point<2>& b,
   return 8 * half_sine(a, b, c) * half_sine(b, c, a) * half_sine(c, a, b);
 }
 
-// Triangles by the ids of their corners, counter-clockwise, and where the nodes are.
+// Positions of nodes by id. Triangles are given by the ids of their corners, counter-clockwise.
 using Places = std::map<std::int64_t, pnpbs::Point<2>>;
 inline Places places_by_id(const pnpbs::Level<2>& level) {
   Places places;
@@ -48,7 +48,7 @@ inline double quality_of(const Triangle& t, const Places& places) {
   return quality(places.at(t[0]), places.at(t[1]), places.at(t[2]));
 }
 
-// Distorted nodes: a fill, every node moved at random by up to 0.4 d.
+// Returns a fill in which every node is displaced at random by up to 0.4 d.
 inline LevelRun distorted(const Build& build, const Plane& d, std::uint64_t seed,
                           const std::function<void(pnpbs::Settings&)>& adapt) {
   LevelRun fill(build, d);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains that are hard on neighbours and triangles, each with a spacing that suits it.
+// Domains that are difficult for adjacency lists and triangles, each with a suitable spacing.
 #pragma once
 
 #include <cmath>
@@ -41,7 +41,7 @@ inline void add_square_with_islet(PlaneDomain& domain) {
   add_loop(domain, shapes::circle(0.2, 0.25, 0.0001, 4));
 }
 
-// Channels 0.02 wide between teeth of the same width.
+// Adds a comb with channels of width 0.02 between teeth of the same width.
 inline void add_comb(PlaneDomain& domain) {
   std::vector<double> xy{0, 0, 1, 0};
   for (double x = 0.98; x > 0.1; x -= 0.04)
@@ -53,7 +53,7 @@ inline void add_comb(PlaneDomain& domain) {
                       xy.data(), nullptr, 0);
 }
 
-// Corners of 1 degree (at the origin) and 5 degrees (at (0, 0.7)).
+// Adds a polygon with corners of 1 degree (at the origin) and 5 degrees (at (0, 0.7)).
 inline void add_thorns(PlaneDomain& domain) {
   const auto slope = [](double degrees) { return std::tan(degrees * shapes::pi / 180); };
   const double tilt = std::atan2(0.1, 0.9) * 180 / shapes::pi;
@@ -84,7 +84,7 @@ inline Plane graded(double d) {
   return [d](double x, double y) { return d * (0.4 + 2 * std::hypot(x - 0.4, y - 0.3)); };
 }
 
-// A jump by a factor of 12.
+// A spacing that jumps by a factor of 12.
 inline Plane jump(double d) {
   return [d](double x, double y) { return x + 0.3 * y < 0.55 ? d / 3 : 4 * d; };
 }

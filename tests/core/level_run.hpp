@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A level made and driven by hand, step by step.
+// A level that a test builds and advances step by step.
 #pragma once
 
 #include <cmath>
@@ -57,7 +57,8 @@ inline void fill_level(pnpbs::Level<2>& level) {
   pnpbs::fill(level, pnpbs::BoundaryNodes<2>(level.geometry.boundary()));
 }
 
-// The inner nodes, as nodes to start from (placed for a spacing that take() does not know).
+// Returns the inner nodes as start nodes. The spacing that they were placed for is left unknown to
+// take().
 inline pnpbs::IncomingNodes<2> inner_nodes_of(const pnpbs::Level<2>& level) {
   pnpbs::IncomingNodes<2> inner;
   const pnpbs::Nodes<2>& nodes = level.nodes;
@@ -73,7 +74,7 @@ struct LevelRun {
   std::int64_t event_interval = 20;
   std::int64_t steps_done = 0;
 
-  // The boundary is laid; the inner nodes are yet to come.
+  // Builds the level with its boundary nodes but without inner nodes.
   LevelRun(const Build& build, const Plane& d, const OptionList& options = {},
            const std::function<void(pnpbs::Settings&)>& adapt = {}) {
     build(*domain);
@@ -88,7 +89,7 @@ struct LevelRun {
     level->grow_tree();
   }
 
-  // n steps with the events between them.
+  // Advances by n steps, with the events between them.
   void steps(std::int64_t n, bool rebuild_always = false, bool population = true) {
     for (const std::int64_t last = steps_done + n; steps_done < last;) {
       if (rebuild_always) pnpbs::rebuild_lists_for_steps(*level);

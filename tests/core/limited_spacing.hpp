@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing whose growth is limited.
+// A spacing with limited growth.
 #pragma once
 
 #include <functional>

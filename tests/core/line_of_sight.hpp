@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ways through a plane domain, its boundary at a spacing.
+// The line of sight in a plane domain whose boundary is discretised at a spacing.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A triangulated surface on the background tree that its d refines.
+// A triangulated surface in a background tree that its spacing refines.
 #pragma once
 
 #include <algorithm>

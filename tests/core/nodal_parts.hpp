@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A triangulation with values at its nodes as several ranks have it, without the ranks.
+// A triangulation with nodal values in several parts, as ranks store it, on a single rank.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include "spacing/nodal_patch.hpp"
 #include "spacing/nodal_spacing.hpp"
 
-// Simplices and facets distributed over several patches, in another order.
+// Distributes simplices and facets over several patches, in random order.
 template <int Dim>
 std::vector<pnpbs::NodalPatch<Dim>> distributed(const pnpbs::Patch<Dim>& whole, std::size_t many,
                                                 Random& random) {
@@ -52,7 +52,8 @@ pnpbs::PatchAnswer<Dim> ask(const std::vector<pnpbs::NodalPatch<Dim>>& patches,
   return best;
 }
 
-// One patch, several, and the spacing made of it answer alike, to the bit.
+// Expects that one patch, several patches, and a NodalSpacing built from the patch return the same
+// bits.
 template <int Dim>
 void expect_the_same_however_distributed(const pnpbs::Patch<Dim>& patch,
                                          const std::vector<pnpbs::Point<Dim>>& points,

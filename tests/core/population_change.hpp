@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the population control chooses to do with a set of bubbles, by ids.
+// The changes that population control chooses for a set of bubbles, identified by ids.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +20,14 @@ using pnpbs::PopulationRule;
 template <int Dim>
 using Set = std::vector<Bubble<Dim>>;
 
-// What a run takes if no option is set.
+// Returns the rule of a run without options.
 template <int Dim>
 PopulationRule default_rule() {
   return pnpbs::Settings(pnpbs::Options(), Dim).population;
 }
 
-// By thresholds alone, nothing is aimed at; in the plane those of the paper (2.4).
+// Returns a rule with thresholds only and without a target mean distance. In the plane they are
+// those of the paper (section 2.4).
 template <int Dim>
 PopulationRule by_thresholds() {
   PopulationRule rule = default_rule<Dim>();
@@ -38,11 +39,11 @@ PopulationRule by_thresholds() {
   return rule;
 }
 
-// A change in terms of ids, without an order.
+// Deleted and inserted nodes by id, independent of the order in memory.
 template <int Dim>
 struct Change {
   std::set<std::int64_t> deleted;
-  std::map<std::int64_t, Point<Dim>> born;  // by parent
+  std::map<std::int64_t, Point<Dim>> born;  // position by id of the parent
   bool operator==(const Change&) const = default;
 };
 
@@ -98,7 +99,7 @@ bool adjacent(const Bubble<Dim>& a, const Bubble<Dim>& b, double radius) {
   return pnpbs::distance<Dim>(a.x, b.x) < radius * 0.5 * (a.d + b.d);
 }
 
-// The bubbles that are so many steps over neighbours from bubble i, or fewer.
+// Returns the bubbles that are at most `hops` steps over neighbours from bubble i.
 template <int Dim>
 std::vector<std::size_t> within_hops(const Set<Dim>& set, std::size_t i, int hops, double radius) {
   std::set<std::size_t> seen{i};
@@ -112,7 +113,8 @@ std::vector<std::size_t> within_hops(const Set<Dim>& set, std::size_t i, int hop
   return {seen.begin(), seen.end()};
 }
 
-// Nobody within three hops of one that acts does so, too; in space if it is within 1.5 spacings.
+// Expects that no two bubbles that act are within three hops of each other and, in space, within
+// 1.5 spacings.
 template <int Dim>
 void expect_actors_far_apart(const Set<Dim>& set, const Change<Dim>& change, double radius) {
   const auto acts = [&](std::size_t i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Check writes something down at every ck_assert, which is slow in inner loops. These do so only
-// when they fail.
+// Assertions for inner loops. Check records every ck_assert, which is slow; these call Check only
+// on failure.
 #pragma once
 
 #include "check_runner.h"

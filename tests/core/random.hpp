@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that look random and are the same everywhere.
+// A pseudo-random generator with the same numbers on every platform.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A runner of tests that use kernels: Kokkos runs, with two threads, while they do.
+// Runs a suite of tests that use kernels, with Kokkos started for two threads.
 #pragma once
 
 #include "base/kokkos_runtime.hpp"

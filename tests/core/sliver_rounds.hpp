@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rounds of the repair of slivers, on one rank and on two.
+// Rounds of the sliver repair, on one rank and on two.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ inline std::vector<pnpbs::SliverDraw> all_draws(const pnpbs::SliverRepair& repai
   return draws;
 }
 
-// Each tells the other all that it has drawn.
+// Draws in both repairs, and gives each the draws of the other.
 inline void draw_on_both(pnpbs::SliverRepair& a, pnpbs::SliverRepair& b, std::int64_t round) {
   a.draw(round);
   b.draw(round);

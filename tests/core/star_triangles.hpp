@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a level's stars, and what must hold of them whatever the nodes are.
+// The triangles of a level's stars, and invariants that hold for any nodes.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "predicates/plane.hpp"
 #include "quick_assert.hpp"
 
-// Three nodes in increasing order of their place in memory.
+// Three indices of nodes in increasing order.
 using Triangle = std::array<std::int64_t, 3>;
 
 inline Triangle sorted(Triangle t) {
@@ -20,7 +20,7 @@ inline Triangle sorted(Triangle t) {
   return t;
 }
 
-// Memory index of each boundary node.
+// Returns the index of each boundary node.
 inline std::vector<std::int64_t> boundary_places(const pnpbs::Level<2>& level) {
   std::vector<std::int64_t> places(level.geometry.boundary().nodes.size(), -1);
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
@@ -28,8 +28,8 @@ inline std::vector<std::int64_t> boundary_places(const pnpbs::Level<2>& level) {
   return places;
 }
 
-// The triangles, each found in the stars of all its three corners; all counter-clockwise; and
-// every boundary edge is in the stars of its ends.
+// Returns the triangles. Expects that each is counter-clockwise and in the stars of all three
+// corners, and that every boundary edge is in the stars of its ends.
 inline std::vector<Triangle> star_triangles(const pnpbs::Level<2>& level) {
   const pnpbs::Nodes<2>& nodes = level.nodes;
   std::map<Triangle, int> found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangulated surfaces with corners in whole numbers, and what is known of them exactly: on which
-// side a place in whole numbers is, and how far it is from a triangle.
+// Triangulated surfaces with integer coordinates, and exact predicates for them: the side of an
+// integer point, and its distance from a triangle.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline Wide dot(const Place& a, const Place& b) {
 inline int sign(Wide value) { return (value > 0) - (value < 0); }
 
 struct Surface {
-  double unit = 1;  // of the whole numbers, a power of two
+  double unit = 1;  // length of the integer unit, a power of two
   std::vector<Place> nodes;
   std::vector<Triangle> triangles;
 
@@ -68,8 +68,8 @@ struct Surface {
 
 // ------------------------------------------------------------------ shapes ---------------------
 
-// An icosahedron, each of its triangles cut into four as often as said, on a sphere. Coordinates
-// are multiples of six, so that middles of edges and triangles are in whole numbers.
+// Returns an icosahedron on a sphere, each triangle of which is cut into four `cuts` times.
+// Coordinates are multiples of six, so that the midpoints of edges and triangles are integers.
 inline Surface sphere(int cuts, std::int64_t radius) {
   const double g = 0.5 * (1 + std::sqrt(5.0));
   std::vector<std::array<double, 3>> x{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
@@ -111,8 +111,8 @@ inline Surface sphere(int cuts, std::int64_t radius) {
   return s;
 }
 
-// The surface of all cubes, six wide, for which solid(i, j, k) holds, 0 <= i, j, k < n. The squares
-// are cut along one diagonal or the other.
+// Returns the surface of all cubes of width six for which solid(i, j, k) holds, 0 <= i, j, k < n.
+// Squares are cut along alternating diagonals.
 template <class Solid>
 Surface cubes(std::int64_t n, const Solid& solid) {
   Surface s;
@@ -136,7 +136,7 @@ Surface cubes(std::int64_t n, const Solid& solid) {
         beyond[k] += 2 * side - 1;
         if (filled(beyond)) continue;
         corner[k] += side;
-        u[(k + (side == 1 ? 1 : 2)) % 3] = 1;  // u x v points out
+        u[(k + (side == 1 ? 1 : 2)) % 3] = 1;  // u x v points outwards
         v[(k + (side == 1 ? 2 : 1)) % 3] = 1;
         const std::int32_t p = node(corner), q = node(corner + u), r = node(corner + u + v),
                            t = node(corner + v);
@@ -152,7 +152,7 @@ Surface cubes(std::int64_t n, const Solid& solid) {
   return s;
 }
 
-// With a hole through it from bottom to top, and a cavity beside it.
+// Returns a cube with a hole from bottom to top and a cavity beside it.
 inline Surface pierced_cube() {
   return cubes(8, [](std::int64_t i, std::int64_t j, std::int64_t k) {
     const bool hole = i >= 4 && i < 6 && j >= 3 && j < 6;
@@ -161,16 +161,16 @@ inline Surface pierced_cube() {
   });
 }
 
-// The same shape, oblique to the axes.
+// Returns the same shape, oblique to the axes.
 inline Surface sheared(Surface s) {
   for (Place& x : s.nodes)
     x = {3 * x[0] + x[1] - x[2], 2 * x[1] - x[0] + x[2], 3 * x[2] + 2 * x[0] - x[1]};
   return s;
 }
 
-// ------------------------------------------------------------------ exactly --------------------
+// ------------------------------------------------------------------ exact predicates ----------
 
-// In units of the surface's.
+// x is in the integer units of the surface.
 inline bool on_triangle(const Surface& s, std::size_t t, const Place& x) {
   const Place a = s.corner(t, 0) - x, b = s.corner(t, 1) - x, c = s.corner(t, 2) - x;
   const Place normal = cross(b - a, c - a);
@@ -184,8 +184,8 @@ inline bool on_surface(const Surface& s, const Place& x) {
   return false;
 }
 
-// How often a ray crosses the surface; a ray that meets an edge or a corner, or runs in a triangle,
-// says nothing, and another direction is tried.
+// Counts how often a ray crosses the surface. If the ray meets an edge or a corner, or runs within
+// a triangle, another direction is tried.
 inline bool is_inside(const Surface& s, const Place& x) {
   for (std::int64_t trial = 0; trial < 100; ++trial) {
     const Place ray{1009 + 7 * trial, 31 - trial * trial, 211 + 3 * trial};
@@ -196,7 +196,7 @@ inline bool is_inside(const Surface& s, const Place& x) {
       const int sides[3] = {sign(dot(ray, cross(a, b))), sign(dot(ray, cross(b, c))),
                             sign(dot(ray, cross(c, a)))};
       const auto [low, high] = std::minmax({sides[0], sides[1], sides[2]});
-      if (low < 0 && high > 0) continue;  // past it
+      if (low < 0 && high > 0) continue;  // the ray misses the triangle
       const Place normal = cross(b - a, c - a);
       const int ahead = sign(dot(normal, a)) * sign(dot(normal, ray));
       if (ahead < 0) continue;
@@ -208,7 +208,7 @@ inline bool is_inside(const Surface& s, const Place& x) {
   ck_abort_msg("no ray is clear");
 }
 
-// The squared distance of x from a triangle, rounded at the end only.
+// Returns the squared distance of x from a triangle; only the result is rounded.
 inline long double squared_gap(const Surface& s, std::size_t t, const Place& x) {
   const Place corners[3] = {s.corner(t, 0) - x, s.corner(t, 1) - x, s.corner(t, 2) - x};
   const auto& [a, b, c] = corners;

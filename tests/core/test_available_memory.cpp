@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the system would give, from files such as it has them.
+// Tests of the available memory, with a folder of files in the format of /proc and /sys.
 #include <unistd.h>
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr double kMebibyte = 1024 * 1024;
 
-// A folder that stands for the root of a system.
+// A folder that replaces the root of the file system.
 class System {
  public:
   System() : root_(fs::temp_directory_path() / ("pnpbs-memory-" + std::to_string(::getpid()))) {
@@ -55,7 +55,7 @@ START_TEST(group_of_version_2) {
   system.file("/proc/self/cgroup", "0::/batch/job\n");
   system.group("/sys/fs/cgroup/batch/job", "max", 100 * kMebibyte, 0);
   expect(system.available(), 4000);
-  // A limit of the group that it is in counts, too; what is used for cached files does not.
+  // Limits of parent groups count, too. Memory of cached files counts as available.
   system.group("/sys/fs/cgroup/batch", "1073741824", 524 * kMebibyte, 100 * kMebibyte);
   expect(system.available(), 600);
   system.group("/sys/fs/cgroup/batch/job", "209715200", 100 * kMebibyte, 0);
@@ -65,7 +65,7 @@ START_TEST(group_of_version_2) {
 }
 END_TEST
 
-// The path is the host's, the mount the container's.
+// The path is that of the host, while the mount point is that of the container.
 START_TEST(container_of_version_2) {
   const System system;
   system.file("/proc/self/cgroup", "0::/../../elsewhere\n");
@@ -85,7 +85,7 @@ END_TEST
 
 START_TEST(nothing_is_told) {
   ck_assert(pnpbs::available_memory("/nowhere-at-all") > 1e300);
-  ck_assert(pnpbs::available_memory() > kMebibyte);  // of this machine
+  ck_assert(pnpbs::available_memory() > kMebibyte);  // memory of this machine
 }
 END_TEST
 

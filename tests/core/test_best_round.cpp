@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of the rounds of a run, which counts, and whether there is another one.
+// Tests of which round of a run is used, and whether another round follows.
 #include <utility>
 
 #include "run/finished_round.hpp"
@@ -12,7 +12,7 @@ using pnpbs::Outcome;
 struct Rounds {
   pnpbs::BestRound<3> best;
 
-  // One that ends so: is there another one?
+  // Ends a round with these results, and returns whether another one follows.
   bool end(Outcome outcome, std::int64_t small_angles, const pnpbs::ElementFaults& faults = {}) {
     pnpbs::FinishedRound<3> round{nullptr, {}, {}, outcome, faults, small_angles};
     const bool more = best.needs_another(round);
@@ -27,9 +27,9 @@ struct Rounds {
 START_TEST(one_counts_that_leaves_half_of_the_small_angles) {
   Rounds rounds;
   ck_assert(rounds.end(Outcome::converged, 8));
-  ck_assert(rounds.end(Outcome::converged, 5));      // in vain
-  ck_assert(rounds.end(Outcome::not_converged, 4));  // counts
-  ck_assert(!rounds.end(Outcome::converged, 3));     // in vain, too: that was enough
+  ck_assert(rounds.end(Outcome::converged, 5));      // no improvement
+  ck_assert(rounds.end(Outcome::not_converged, 4));  // an improvement
+  ck_assert(!rounds.end(Outcome::converged, 3));     // no improvement again: the rounds end
   ck_assert(!rounds.best.last_counts());
   ck_assert_int_eq(rounds.best.take().small_angles, 4);
 }
@@ -44,7 +44,7 @@ START_TEST(without_small_angles_there_is_no_other) {
 }
 END_TEST
 
-// Rounds go on until one conforms, and none that does not takes its place.
+// Rounds continue until one conforms. After that, rounds that do not conform are not used.
 START_TEST(torn_ones_count_only_where_none_is_whole) {
   Rounds rounds;
   for (std::int64_t torn = 5; torn > 0; --torn) ck_assert(rounds.end_with({.torn = torn}));
@@ -58,8 +58,8 @@ START_TEST(torn_ones_count_only_where_none_is_whole) {
 }
 END_TEST
 
-// Of rounds whose elements do not conform, the best counts, by the order of the faults; three in a
-// row that are no better are enough.
+// The best round by the order of the faults is used if none conforms. Rounds end after three
+// without improvement.
 START_TEST(of_torn_ones_the_best_counts) {
   const pnpbs::ElementFaults in_order[] = {
       {.torn = 100},         {.lost_thousandths = 1},          {.euler = 2},

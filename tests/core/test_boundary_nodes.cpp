@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes of the boundary on their way into a level: in whatever order ranks name them, the same ones
-// come in.
+// Boundary nodes that ranks contribute to a level: the result does not depend on their order.
 #include <algorithm>
 
 #include "geometry/run_suite.hpp"
@@ -12,8 +11,8 @@ namespace {
 using pnpbs::Carrier;
 using pnpbs::IncomingNode;
 
-// A bubble on a surface has come to rest in a corner, another one on a curve; one node was there
-// before, and one is elsewhere.
+// One bubble on a surface has come to rest in a corner, another one on a curve. One node existed
+// before, and one is at another point.
 pnpbs::IncomingNodes<3> nodes_in_one_place() {
   return {{{1, 2, 3}, -1, Carrier::surface, 17, 1},
           {{1, 2, 3}, -1, Carrier::fixed, 4, 0},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a boundary that does not have the topology of the surfaces differs from them: elements are
-// taken out of a cube by hand.
+// Tests of the points at which the topology of the boundary differs from that of the surfaces.
+// Elements of a cube are removed by hand.
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kSpacing = 0.125;
 
-// Without the elements around these nodes: their circumspheres are wider than d there allows.
+// Returns a cube without the elements around these nodes: their d is too small for the
+// circumspheres.
 std::unique_ptr<Placement3> cube_without(const std::function<bool(const Point3&)>& is_gone) {
   auto domain = std::make_shared<pnpbs::VolumeDomain>();
   domain->add_box({0, 0, 0}, {1, 1, 1}, 1);
@@ -46,7 +47,7 @@ bool is_near(const Point3& x, const Point3& place, double reach) {
 
 }  // namespace
 
-// There are more nodes around a dent in a side.
+// The boundary has more nodes around a dent in a side.
 START_TEST(a_bubble_is_where_it_differs) {
   const Point3 bubble{0.5, 0.5, 0.75}, dent{0.5, 0.5, 0};
   const auto placement = cube_without([&](const Point3& x) {
@@ -58,7 +59,7 @@ START_TEST(a_bubble_is_where_it_differs) {
 }
 END_TEST
 
-// Not in one of the halves.
+// The cut is reported, although each half has the topology of the surface.
 START_TEST(a_cut_is_where_it_differs) {
   const auto placement =
       cube_without([](const Point3& x) { return std::fabs(x[2] - 0.5) < 0.6 * kSpacing; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Voronoi cells within a body, by hand: up to the wall, up to bisectors, up to the reach, and not
-// up to bisectors with what is behind a wall.
+// Voronoi cells within a body, with known volumes: bounded by the wall, by bisectors and by the
+// reach, but not by bisectors with points behind a wall.
 #include <cmath>
 #include <numbers>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Voronoi cells of lattices, whose measures are known, and with one node off its place.
+// Voronoi cells of lattices with known measures, also with one node displaced.
 #include <cmath>
 
 #include "distorted_nodes.hpp"
@@ -17,8 +17,8 @@ const Build kSquare = [](pnpbs::PlaneDomain& p) {
   shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1));
 };
 
-// Rows of nodes kD apart, each half of that off the next one. Only nodes well away from the
-// boundary move: the others have no cells that count.
+// Rows of nodes at distances kD, shifted by half of that from row to row. Only nodes well inside
+// the domain move; cells of other nodes do not count.
 LevelRun lattice(double row_height) {
   LevelRun run(kSquare, constant(kD));
   pnpbs::IncomingNodes<2> nodes;
@@ -73,8 +73,8 @@ START_TEST(regular_hexagons) {
 }
 END_TEST
 
-// Triangles of base a and height h have their circumcentre (h^2 - a^2 / 4) / (2 h) above the base.
-// All edges have a centre of symmetry.
+// The circumcentre of a triangle with base a and height h lies (h^2 - a^2 / 4) / (2 h) above the
+// base. All edges have a centre of symmetry.
 START_TEST(flat_hexagons) {
   const double h = 0.8 * kD, above = (h * h - kD * kD / 4) / (2 * h);
   const double across_base = 2 * above, across_side = std::hypot(kD / 2, h - 2 * above);
@@ -91,10 +91,11 @@ START_TEST(flat_hexagons) {
 }
 END_TEST
 
-// To first order in t, the way of one node along its row over d. The cells of the node, of the two
-// before and behind it and of the four others beside it have edge ratios of 1 - 2 t and 1 - 1.5 t.
-// The two exchange t / 3 of their areas, and the middles of eight Voronoi edges shift by t /
-// sqrt(12). (Voronoi cells by Qhull, of 323 nodes with t = 1e-4, are so.)
+// Values to first order in t, the displacement of one node along its row over d. The cells of this
+// node, of its two neighbours in the row and of its four other neighbours have edge ratios of 1 - 2
+// t and 1 - 1.5 t. The areas of the two neighbours in the row change by t / 3, and the midpoints of
+// eight Voronoi edges shift by t / sqrt(12). Voronoi cells computed by Qhull for 323 nodes with t =
+// 1e-4 agree.
 START_TEST(one_node_off) {
   constexpr double kWay = 1e-5;
   LevelRun run = lattice(kD * std::sqrt(0.75));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Centroids of Voronoi cells against sums over the points of a fine grid, in the plane and on a
-// sphere; the lattice as a fixed point, the energy that sweeps bring down, and what the repair of
-// obtuse triangles improves.
+// Centroids of Voronoi cells against sums over a fine grid, in the plane and on a sphere; the
+// lattice as a fixed point; the decrease of the energy by sweeps; and the repair of obtuse
+// triangles.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,7 +24,7 @@ P middle_of_pixel(const P& low, double width, int row, int column) {
   return {low[0] + (column + 0.5) * width, low[1] + (row + 0.5) * width};
 }
 
-// Node i and its neighbours: one of them is the nearest node wherever the cell of i is.
+// Returns node i and its neighbours. In the cell of i, the nearest node is one of them.
 std::vector<P> sites_around(const Level& level, std::int64_t i) {
   std::vector<P> sites{level.nodes.position(i)};
   level.stars.for_neighbours(i, [&](std::int64_t j) { sites.push_back(level.nodes.position(j)); });
@@ -38,8 +38,8 @@ bool is_nearest_to_first(const std::vector<P>& sites, const P& x, const Distance
                       [&](const P& site) { return distance(x, site) < first; });
 }
 
-// Of the cell of node i, by the pixels of a grid; distance(x, y) and density(x) are those that
-// count, and add(x, mass) gets the pixels.
+// Calls add(x, mass) for the pixels of a grid that lie in the cell of node i, by distance(x, y) and
+// density(x).
 template <class Distance, class Density, class Add>
 void for_pixels_of_cell(const Level& level, std::int64_t i, const Distance& distance,
                         const Density& density, const Add& add) {
@@ -80,7 +80,8 @@ double smallest_angle(const Triangle& t, const Places& places) {
   return least * 180 / std::numbers::pi;
 }
 
-// As the repair weighs them: an angle of 35 degrees is as bad as one of 90.
+// Returns the measure of the repair, for which an angle of 35 degrees is as bad as one of 90
+// degrees.
 double worst_angle(const Triangle& t, const Places& places) {
   const double sine = std::sin(smallest_angle(t, places) / 180 * std::numbers::pi);
   return std::min(largest_angle_cosine(t, places),
@@ -89,8 +90,8 @@ double worst_angle(const Triangle& t, const Places& places) {
 
 }  // namespace
 
-// d is linear in the square, so that it is as on the triangles. With d as the density's the
-// centroid is some hundredths of d away from the one without it.
+// d is linear in the square, so it is exact on triangles. The density moves the centroid by some
+// hundredths of d.
 START_TEST(centroid_as_by_pixels) {
   const Plane d = [](double x, double y) { return 0.02 + 0.06 * x + 0.03 * y; };
   LevelRun run = distorted(kSquare, d, 300, {});
@@ -125,8 +126,8 @@ START_TEST(centroid_as_by_pixels) {
 }
 END_TEST
 
-// The same nodes as in a chart, with d of one length on the sphere. The sphere bends by as much as
-// its radius tells in a cell.
+// The same nodes in a chart, with constant d on the sphere. The tolerance is the curvature within a
+// cell.
 START_TEST(centroid_on_a_sphere_as_by_pixels) {
   const StereographicChart chart(0.5, {0.3, -0.2, 1});
   const Plane d = [&](double x, double y) { return 0.05 * chart.stretch({x, y}); };
@@ -154,7 +155,7 @@ START_TEST(centroid_on_a_sphere_as_by_pixels) {
 }
 END_TEST
 
-// A lattice is centroidal. One of its nodes that is off goes back to its place if the others stay.
+// A lattice is centroidal. A displaced node returns to its lattice point if the others are fixed.
 START_TEST(lattice_is_a_fixed_point) {
   constexpr double kD = 0.05;
   LevelRun run(kSquare, constant(kD));
@@ -189,7 +190,7 @@ END_TEST
 
 namespace {
 
-// The sum over cells of the integral of d^-4 |x - node|^2, by the pixels of the square.
+// Returns the sum over cells of the integral of d^-4 |x - node|^2, by the pixels of the square.
 double energy(const Level& level, const Plane& d) {
   constexpr int kPixels = 400;
   double sum = 0;

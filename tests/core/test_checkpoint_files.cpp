@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that are well made, but no checkpoints of this PNPBS.
+// Well-formed HDF5 files that are not checkpoints of this version.
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -40,7 +40,7 @@ void expect_refusal(const std::string& words) {
   std::remove(file_name);
 }
 
-// Of four nodes, but without any array.
+// Writes the state of four nodes without any array.
 void add_state(io::hdf5::NewFile& file, std::int64_t nodes = 4,
                std::int64_t format = io::kCheckpointFormat) {
   SavedState state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Systems by Cholesky's factor against solutions that are known and those by Gauss's elimination;
-// what is singular or not positive definite.
+// Solutions by Cholesky factorisation against known solutions and Gaussian elimination; singular
+// and indefinite matrices.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,14 +29,14 @@ Numbers<N> times(const SquareMatrix<N>& a, const Numbers<N>& x) {
   return b;
 }
 
-// Nothing may read it.
+// Fills the upper triangle with NaN, which no function may read.
 template <std::size_t N>
 void spoil_upper_triangle(SquareMatrix<N>& a) {
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = i + 1; j < N; ++j) a[i][j] = kNaN;
 }
 
-// Elimination with pivots, which asks nothing of the matrix.
+// Solves by elimination with pivoting, which makes no assumption about the matrix.
 template <std::size_t N>
 Numbers<N> eliminated(SquareMatrix<N> a, Numbers<N> b) {
   for (std::size_t k = 0; k < N; ++k) {
@@ -58,7 +58,7 @@ Numbers<N> eliminated(SquareMatrix<N> a, Numbers<N> b) {
   return b;
 }
 
-// A lower triangular matrix of small whole numbers times its transpose.
+// Returns a lower triangular matrix of small integers times its transpose.
 template <std::size_t N>
 SquareMatrix<N> matrix_of_whole_factor(Random& random) {
   SquareMatrix<N> factor{}, a{};
@@ -72,7 +72,7 @@ SquareMatrix<N> matrix_of_whole_factor(Random& random) {
   return a;
 }
 
-// Positive definite by far: its diagonal outweighs the rest.
+// Returns a positive definite matrix with a dominant diagonal.
 template <std::size_t N>
 SquareMatrix<N> some_matrix(Random& random) {
   SquareMatrix<N> a;
@@ -83,7 +83,7 @@ SquareMatrix<N> some_matrix(Random& random) {
   return a;
 }
 
-// Nothing is rounded.
+// Checks that integer systems are solved without rounding errors.
 template <std::size_t N>
 void check_whole_numbers() {
   Random random(N);
@@ -99,7 +99,7 @@ void check_whole_numbers() {
   }
 }
 
-// Of units from 1e-20 to 1e20.
+// Checks systems in units from 1e-20 to 1e20.
 template <std::size_t N>
 void check_scaled() {
   Random random(10 + N);
@@ -149,7 +149,7 @@ START_TEST(what_has_no_factor) {
   ck_assert(refused({{{0, 0}, {0, 1}}}, 0) && refused({{{-1, 0}, {0, 1}}}, 0));
   ck_assert(refused({{{1, 1}, {1, 1}}}, 0) && refused({{{1, 2}, {2, 1}}}, 0));
   ck_assert(refused({{{1, 0}, {kNaN, 1}}}, 0));
-  // 1e-6 is left of the second column, or 1e-8.
+  // 1e-6 or 1e-8 of the second column is linearly independent of the first.
   const double near = std::sqrt(1 - 1e-6), nearer = std::sqrt(1 - 1e-8);
   ck_assert(!refused({{{1, near}, {near, 1}}}, 1e-7) &&
             refused({{{1, nearer}, {nearer, 1}}}, 1e-7));

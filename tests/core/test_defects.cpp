@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repair of defects that no shift of nodes heals: nodes that are missing or one too many.
+// Repair of defects that shifting nodes cannot remove: missing and surplus nodes.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -35,7 +35,7 @@ std::size_t nearest(const IncomingNodes& nodes, const P& x) {
                                   nodes.begin());
 }
 
-// Takes the node of the lattice next to a point away; returns its place.
+// Removes the lattice node nearest to a point and returns its position.
 P take_away(IncomingNodes& nodes, const P& near) {
   const std::size_t k = nearest(nodes, near);
   const P place = nodes[k].position;
@@ -43,7 +43,7 @@ P take_away(IncomingNodes& nodes, const P& near) {
   return place;
 }
 
-// Puts two nodes in the place of the one next to a point, so far apart.
+// Replaces the lattice node nearest to a point by two nodes at this distance.
 P split(IncomingNodes& nodes, const P& near, double apart) {
   IncomingNode& node = nodes[nearest(nodes, near)];
   const P place = node.position;
@@ -52,7 +52,7 @@ P split(IncomingNodes& nodes, const P& near, double apart) {
   return place;
 }
 
-// Next to the walls the lattice has bad triangles: they do not count here.
+// The lattice has bad triangles along the walls, which are ignored here.
 LevelRun run_with(const IncomingNodes& nodes) {
   LevelRun run(kSquare, constant(kD), {}, [](pnpbs::Settings& settings) {
     settings.defects.bad_below = 0;
@@ -70,7 +70,7 @@ double min_quality(LevelRun& run) {
   return min;
 }
 
-// How far from a point is the nearest node?
+// Returns the distance from a point to the nearest node.
 double gap_at(const Level& level, const P& x) {
   double gap = 1;
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
@@ -110,7 +110,7 @@ START_TEST(missing_node_comes) {
 }
 END_TEST
 
-// Two where one should be have five neighbours each, and so does a pair after some relaxing.
+// The two nodes that replace one have five neighbours each. So do the two of a relaxed pair.
 START_TEST(surplus_node_goes) {
   for (const double apart : {0.4 * kD, 0.7 * kD})
     for (const std::int64_t sweeps : {0, 10}) {
@@ -126,7 +126,8 @@ START_TEST(surplus_node_goes) {
 }
 END_TEST
 
-// Of two defects within five rings one waits for the next round; others do not.
+// Two defects within five rings are repaired in successive rounds, distant defects in the same
+// round.
 START_TEST(near_defects_take_turns) {
   IncomingNodes nodes = lattice();
   take_away(nodes, {0.3, 0.5});
@@ -139,7 +140,8 @@ START_TEST(near_defects_take_turns) {
 }
 END_TEST
 
-// On any shape: fewer bad triangles than by sweeps alone, and nodes where they may be.
+// Repairs leave fewer bad triangles than sweeps alone for each shape, and nodes keep their
+// clearance.
 START_TEST(bad_triangles_become_fewer) {
   std::uint64_t seed = 180;
   for (const Shape& shape : shapes_to_finish()) {
@@ -163,7 +165,7 @@ START_TEST(bad_triangles_become_fewer) {
                      0.35 * run.level->nodes.d(i) * (1 - 1e-12));
       }
       run.renew_stars();
-      star_triangles(*run.level);  // they conform
+      star_triangles(*run.level);  // checks that they conform
       const Places places = places_by_id(*run.level);
       std::int64_t count = 0;
       for (const Triangle& t : triangles_by_id(*run.level)) count += quality_of(t, places) < bad;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which flat tetrahedra below a surface are left out: those without which it has the same nodes and
-// feature edges. Below the top of a cube, four of whose nodes are put where the test wants them.
+// Tests of which flat tetrahedra below a surface are left out: those without which it keeps its
+// nodes and feature edges. Four nodes are placed below the top of a cube.
 #include <memory>
 #include <utility>
 
@@ -28,7 +28,7 @@ std::unique_ptr<Placement3> cube() {
   return placement;
 }
 
-// The first four nodes on surfaces, put there.
+// Moves the first four nodes on surfaces to these points.
 Four put(Placement3& placement, const std::array<Point3, 4>& x) {
   pnpbs::Nodes<3>& nodes = const_cast<pnpbs::Level<3>&>(placement.level()).nodes;
   Four four{};
@@ -41,7 +41,7 @@ Four put(Placement3& placement, const std::array<Point3, 4>& x) {
   return four;
 }
 
-// What is asked of tetrahedra of these nodes.
+// Returns the input of the star search for these nodes.
 pnpbs::VolumeStarInput input_of(const Placement3& placement) {
   static const pnpbs::KnownRegion<3> everywhere;
   const pnpbs::Level<3>& level = placement.level();
@@ -49,7 +49,8 @@ pnpbs::VolumeStarInput input_of(const Placement3& placement) {
           level.lists(), everywhere,         &level.geometry.domain().index().sides()};
 }
 
-// Is it an element if a feature edge goes from corner `first` to corner `second`? (-1: none does.)
+// Returns whether the tetrahedron is an element if a feature edge connects corners `first` and
+// `second` (-1: no feature edge).
 bool is_element(const std::array<Point3, 4>& x, int first = -1, int second = -1) {
   const std::unique_ptr<Placement3> placement = cube();
   const Four nodes = put(*placement, x);
@@ -75,7 +76,7 @@ bool lies_in_boundary(const std::array<Point3, 4>& x) {
                                                            placement->level().nodes, nodes)));
 }
 
-// Two edges that cross, the second one nearer to the top.
+// A tetrahedron with two crossing edges, of which the second is nearer to the top.
 constexpr std::array<Point3, 4> kCap{
     {{0.3, 0.5, 0.97}, {0.7, 0.5, 0.97}, {0.5, 0.3, 0.99}, {0.5, 0.7, 0.99}}};
 
@@ -86,11 +87,12 @@ END_TEST
 
 START_TEST(one_below_a_feature_edge_stays) {
   ck_assert(is_element(kCap, 2, 3));
-  ck_assert(!is_element(kCap, 0, 1));  // which becomes the outer edge
+  ck_assert(!is_element(kCap, 0, 1));  // this edge becomes the outer one
 }
 END_TEST
 
-// Its node would be inside the surface without it.
+// The lowest node of this tetrahedron would become a vertex of the surface if the tetrahedron were
+// left out.
 START_TEST(one_node_below_a_face_stays) {
   ck_assert(
       is_element({{{0.3, 0.3, 0.99}, {0.7, 0.3, 0.99}, {0.5, 0.7, 0.99}, {0.5, 0.43, 0.97}}}));
@@ -102,11 +104,12 @@ START_TEST(what_is_not_flat_stays) {
 }
 END_TEST
 
-// Nothing can make it an element, nor need it be one.
+// A flat tetrahedron in a side is detected. It cannot be an element and need not be one.
 START_TEST(a_flat_one_in_a_side_is_told) {
   ck_assert(lies_in_boundary({{{0.3, 0.3, 1}, {0.7, 0.3, 1}, {0.7, 0.7, 1}, {0.3, 0.7, 1}}}));
   ck_assert(!lies_in_boundary(
-      {{{0.3, 0.3, 0.3}, {0.7, 0.3, 0.3}, {0.7, 0.7, 0.7}, {0.3, 0.7, 0.7}}}));  // across
+      // Across the cube.
+      {{{0.3, 0.3, 0.3}, {0.7, 0.3, 0.3}, {0.7, 0.7, 0.7}, {0.3, 0.7, 0.7}}}));
   ck_assert(!lies_in_boundary(kCap));
 }
 END_TEST

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels of tetrahedra between surface nodes: a plate one cell thick, each cell of it and of the
-// space around it cut into six tetrahedra (Kuhn's), so that all nodes of the plate are on its
-// surface. With wrong labels its boundary is torn, and settled it is whole.
+// Labels of tetrahedra between surface nodes. The domain is a plate one cell thick. Its cells and
+// those around it are cut into six tetrahedra each (Kuhn's subdivision), so all nodes of the plate
+// lie on its surface. Wrong labels make its boundary non-manifold; settling them repairs it.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -22,7 +22,7 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-constexpr Cell kSize{4, 3, 1};  // cells of the plate; one more all around
+constexpr Cell kSize{4, 3, 1};  // cells of the plate, without the layer around it
 
 std::int64_t id_of(const Cell& corner) {
   return (corner[2] * (kSize[1] + 3) + corner[1]) * (kSize[0] + 3) + corner[0];
@@ -39,7 +39,7 @@ struct Plate {
   std::vector<LabelledNode> nodes;
 };
 
-// Along the cell's diagonal, one axis after the other.
+// Cuts a cell along its diagonal, one tetrahedron per order of the axes.
 void cut(const Cell& cell, std::vector<LabelledTetrahedron>& tetrahedra) {
   std::array<std::size_t, 3> axes{0, 1, 2};
   do {
@@ -75,7 +75,7 @@ int defects(const ElementLabels& labels, const std::vector<LabelledNode>& nodes)
   return sum;
 }
 
-// Between nodes of the plate?
+// Returns whether all corners are nodes of the plate.
 bool is_known(const Plate& plate, const LabelledTetrahedron& t) {
   return std::ranges::all_of(t.ids, [&](std::int64_t id) {
     return std::ranges::find(plate.nodes, id, &LabelledNode::id) != plate.nodes.end();
@@ -99,7 +99,7 @@ START_TEST(what_is_whole_stays) {
 }
 END_TEST
 
-// Some wrong ones leave a dent, which is as good; what they tear is mended.
+// A wrong label either leaves a valid dent, or makes the boundary non-manifold and is corrected.
 START_TEST(one_wrong_label_is_mended) {
   const Plate whole = plate();
   int torn = 0;
@@ -150,7 +150,7 @@ START_TEST(settled_labels_are_those_of_any_order) {
     Plate shuffled = wrong;
     random.shuffle(shuffled.tetrahedra);
     random.shuffle(shuffled.nodes);
-    shuffled.tetrahedra.push_back(shuffled.tetrahedra.front());  // told by two nodes
+    shuffled.tetrahedra.push_back(shuffled.tetrahedra.front());  // the same one from two nodes
     ElementLabels again(shuffled.tetrahedra, shuffled.nodes);
     again.settle();
     ck_assert(again.changed() == changed);
@@ -158,7 +158,7 @@ START_TEST(settled_labels_are_those_of_any_order) {
 }
 END_TEST
 
-// An edge of the plate with a feature on it, cut off by a dent that tears nothing.
+// A feature edge of the plate is cut off by a dent that leaves the boundary a manifold.
 START_TEST(feature_edges_stay_on_the_boundary) {
   Plate dented = plate();
   const std::int64_t a = id_of({2, 1, 2}), b = id_of({3, 1, 2});
@@ -184,7 +184,7 @@ END_TEST
 
 using Face = std::array<std::int64_t, 3>;
 
-// Of the elements, those that one of them has alone.
+// Returns the faces that belong to exactly one element.
 std::vector<Face> open_faces_of(std::vector<LabelledTetrahedron> tetrahedra,
                                 const std::vector<LabelledTetrahedron>& changed) {
   for (LabelledTetrahedron& t : tetrahedra)
@@ -203,7 +203,7 @@ std::vector<Face> open_faces_of(std::vector<LabelledTetrahedron> tetrahedra,
   return open;
 }
 
-// Vertices less edges plus triangles of their boundary.
+// Returns vertices minus edges plus triangles of the boundary of the elements.
 std::int64_t euler_of(const std::vector<LabelledTetrahedron>& tetrahedra,
                       const std::vector<LabelledTetrahedron>& changed) {
   std::set<std::int64_t> vertices;
@@ -230,8 +230,8 @@ std::int64_t pieces_of(const std::vector<LabelledTetrahedron>& tetrahedra,
   return std::ssize(pieces);
 }
 
-// So many labels are wrong that changing one or two at once ends with nodes without their disks, or
-// with handles; the search finds a sphere.
+// The number of wrong labels is so large that changing one or two at once ends in nodes without a
+// disk, or in handles. The search finds a sphere.
 START_TEST(the_search_finds_a_sphere) {
   const Plate whole = plate();
   ck_assert_int_eq(euler_of(whole.tetrahedra, {}), 2);
@@ -267,13 +267,15 @@ START_TEST(disks_around_a_node) {
   ck_assert_int_eq(disks({}), 0);
   ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}}), 1);
   ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}, {6, 4}, {4, 5}, {5, 6}}), 2);
-  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 4}}), 0);                          // open
-  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}, {1, 4}, {4, 5}, {5, 1}}), 0);  // two at an edge
+  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 4}}), 0);  // open
+  // Two disks at an edge.
+  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}, {1, 4}, {4, 5}, {5, 1}}), 0);
   ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}, {4, 3}}), 0);
 }
 END_TEST
 
-// Deep ones, and those between nodes of which not all is known.
+// Labels do not change for deep tetrahedra, nor between nodes whose surroundings are not completely
+// known.
 START_TEST(what_is_sure_stays) {
   Plate deep = plate();
   const auto middle = std::ranges::find_if(

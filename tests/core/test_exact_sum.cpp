@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact sums against whole numbers by the methods of school: nearest doubles, whatever the order.
+// Exact sums against integers of arbitrary length: results are the nearest doubles for any order of
+// the terms.
 #include <cfloat>
 #include <cmath>
 #include <limits>
@@ -18,7 +19,7 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// In units of the least product of two doubles.
+// An exact number in units of the smallest product of two doubles.
 using Exact = ExactInteger<160>;
 Exact exact(double x) { return Exact(x, -2148); }
 Exact exact_product(double x, double y) { return Exact(x, -1074) * Exact(y, -1074); }
@@ -28,7 +29,7 @@ bool is_even(double x) {
   return std::fmod(std::ldexp(std::frexp(x, &exponent), 53), 2) == 0;
 }
 
-// No double is nearer, and of two equally near ones it is the even one.
+// Expects that no double is nearer, and that `value` is the even one of two equally near doubles.
 void expect_nearest(double value, const Exact& sum) {
   quick_assert(std::isfinite(value));
   for (const double way : {-kInf, kInf}) {
@@ -48,7 +49,7 @@ double sum_of(const std::vector<double>& terms) {
 
 bool same_bits(double a, double b) { return a == b && std::signbit(a) == std::signbit(b); }
 
-// Of any size down to 2^lowest and up to 2^highest.
+// Returns a double with a magnitude between 2^lowest and 2^highest.
 double some_double(Random& random, int lowest, int highest) {
   const double fraction = random.between(0.5, 1);
   const int exponent = lowest + static_cast<int>(random.below(highest - lowest + 1));
@@ -66,7 +67,7 @@ START_TEST(nearest_to_the_sum) {
     Exact sum;
     for (std::int64_t n = random.below(40); n > 0; --n) {
       terms.push_back(some_double(random, std::min(lowest, 1000), highest));
-      // Often what comes to nothing but for the last bits.
+      // Often adds a term that cancels another one.
       if (random.below(3) == 0)
         terms.push_back(-terms[static_cast<std::size_t>(
             random.below(static_cast<std::int64_t>(terms.size())))]);
@@ -83,7 +84,7 @@ END_TEST
 START_TEST(nearest_to_the_sum_of_products) {
   Random random(2);
   for (int round = 0; round < 400; ++round) {
-    // From products far below the least double to such that only their sum is finite.
+    // Products range from far below the smallest double to values of which only the sum is finite.
     const int lowest = -1074 + static_cast<int>(random.below(1500));
     std::vector<std::pair<double, double>> factors;
     Exact sum;
@@ -130,7 +131,7 @@ START_TEST(parts_of_threads_and_ranks) {
 }
 END_TEST
 
-// The greatest fractions, as often as may be, and those that are not finite.
+// Adds the largest fractions as often as allowed, and values that are not finite.
 START_TEST(many_products) {
   pnpbs::ExactProducts gathered;
   for (std::int64_t k = 0; k < pnpbs::ExactProducts::kMaxTerms; ++k) gathered.add(DBL_MAX, -1.75);
@@ -148,7 +149,7 @@ START_TEST(many_products) {
 }
 END_TEST
 
-// Doubled again and again, as no number of terms could be: digits never run over.
+// Doubles a sum 60 times, beyond any possible number of terms: digits never overflow.
 START_TEST(very_many_terms) {
   for (const double term : {DBL_MAX, -DBL_MAX, DBL_TRUE_MIN, -DBL_TRUE_MIN, 1 / 3.0}) {
     ExactSum sum;
@@ -169,7 +170,8 @@ START_TEST(what_is_not_finite) {
   ck_assert(sum_of({1, 1e100, 1, -1e100}) == 2);
   ck_assert(sum_of({DBL_MAX, DBL_MAX, -DBL_MAX}) == DBL_MAX);
   ck_assert(sum_of({DBL_MAX, DBL_MAX}) == kInf && sum_of({-DBL_MAX, -DBL_MAX}) == -kInf);
-  // Half of the last bit more is as near to infinity, whose last bit is even.
+  // Half a unit in the last place above DBL_MAX is a tie with infinity, whose last bit counts as
+  // even.
   ck_assert(sum_of({DBL_MAX, 0x1p970}) == kInf);
   ck_assert(sum_of({DBL_MAX, 0x1p970, -DBL_TRUE_MIN}) == DBL_MAX);
   ck_assert(sum_of({kInf, -DBL_MAX, -DBL_MAX}) == kInf && sum_of({1, -kInf}) == -kInf);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parallel loops: what a body throws comes to the caller, and does not end the process.
+// Parallel loops: exceptions thrown by a body reach the caller and do not end the process.
 #include <cstdint>
 #include <new>
 #include <vector>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kBodies = 10000;
 
-// Throws in a few bodies, among them one of the last thread's.
+// Throws in a few bodies, at least one of which runs on the last thread.
 std::int64_t throwing(std::int64_t i) {
   if (i % 3333 == 3332) throw std::bad_alloc();
   return i;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing from values that the user gives at the nodes of a mesh or at scattered points: linear
-// functions, values at the points, bounds by the neighbours' values, what is beyond, and what is
-// refused.
+// A spacing from values at the nodes of a mesh or at scattered points: linear functions, values at
+// the points, bounds by the neighbours' values, extrapolation, and invalid input.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,8 +36,8 @@ double value_at(const pnpbs::Spacing<Dim>& spacing, const P<Dim>& x) {
   return d;
 }
 
-// The unit cube in n^Dim cells, inner nodes shaken, each cell cut into Dim! simplices along its
-// diagonal, which have their corners in any order.
+// Returns the unit cube in n^Dim cells with randomly moved inner nodes. Each cell is cut along its
+// diagonal into Dim! simplices with corners in any order.
 template <int Dim>
 Field<Dim> mesh_of_cube(Random& random, int n) {
   Field<Dim> field;
@@ -106,7 +105,7 @@ START_TEST(a_linear_function_on_a_mesh) {
 }
 END_TEST
 
-// Beyond the cube the nearest point is where each coordinate is held inside.
+// Outside the cube, the nearest point is found by clamping each coordinate.
 template <int Dim>
 void check_beyond_mesh(int n) {
   Random random(4);
@@ -128,8 +127,8 @@ START_TEST(beyond_a_mesh_its_nearest_point_counts) {
 }
 END_TEST
 
-// Two halves that share no nodes, with values that differ by a factor of ten: the jump stays sharp,
-// and on it the one of the least node counts.
+// Two halves share no nodes, and their values differ by a factor of ten. The jump stays sharp; on
+// it the element with the smallest node index is used.
 START_TEST(a_jump_between_parts_of_a_mesh) {
   Field<2> field;
   field.points = {{0, 0}, {0.5, 0}, {0.5, 1}, {0, 1}, {0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}};
@@ -145,7 +144,7 @@ START_TEST(a_jump_between_parts_of_a_mesh) {
 }
 END_TEST
 
-// A sliver of the height of rounding: whatever is rounded, d stays between its corners' values.
+// A sliver has a height of one rounding error: d still stays between the values at its corners.
 START_TEST(a_mesh_with_a_sliver) {
   Field<2> field;
   field.points = {{0, 0}, {1, 1}, {0.3, std::nextafter(0.3, 1.0)}, {1, 0}};
@@ -163,7 +162,7 @@ START_TEST(a_mesh_with_a_sliver) {
 }
 END_TEST
 
-// ------------------------------------------------------------------ clouds ---------------------
+// ------------------------------------------------------------------ scattered points -----------
 
 template <int Dim>
 void check_points_of_cloud(int n) {
@@ -173,7 +172,7 @@ void check_points_of_cloud(int n) {
   const auto spacing = spacing_from(field);
   for (std::size_t i = 0; i < field.points.size(); ++i)
     ck_assert_double_eq(value_at<Dim>(*spacing, field.points[i]), field.values[i]);
-  // Next to them it is near that, as d is continuous.
+  // Values close to a point are close to that of the point, as d is continuous.
   for (std::size_t i = 0; i < field.points.size(); ++i) {
     P<Dim> x = field.points[i];
     x[0] += 1e-9;
@@ -187,7 +186,8 @@ START_TEST(values_are_met_at_the_points) {
 }
 END_TEST
 
-// Between the values of the nearest ones, found here by looking at all.
+// Checks that d lies between the values of the nearest points, which are found by a search over
+// all.
 template <int Dim>
 void check_bounds_in_cloud(int n) {
   Random random(7);
@@ -235,8 +235,8 @@ START_TEST(a_constant_cloud) {
 }
 END_TEST
 
-// A linear function is met at most points, and elsewhere within a part of what it changes over the
-// distance to the nearest point.
+// A linear function is reproduced at most points. Elsewhere the error is a fraction of its change
+// over the distance to the nearest point.
 template <int Dim>
 void check_linear_in_cloud(int n) {
   Random random(8);
@@ -264,7 +264,7 @@ START_TEST(a_linear_function_amid_a_cloud) {
 }
 END_TEST
 
-// A smooth function is met the closer, the denser the cloud is.
+// Returns the error for a smooth function, which decreases as the number of points grows.
 template <int Dim>
 double error_with_points(int n) {
   Random random(15);
@@ -294,9 +294,9 @@ START_TEST(a_smooth_function_in_a_dense_cloud) {
 }
 END_TEST
 
-// Fine points within a shell of coarse ones, and coarse points far around: beyond the shell nearly
-// all of what is seen is coarse, however many points of the group are among the nearest. A plane
-// fitted to these would lead anywhere.
+// Fine points lie within a shell of coarse ones, with more coarse points far around. Beyond the
+// shell most of the directions have coarse points, even if the nearest points are fine. A plane
+// fitted to the nearest points would extrapolate wildly.
 template <int Dim>
 P<Dim> middle_of_group() {
   P<Dim> x;
@@ -371,7 +371,7 @@ START_TEST(the_order_of_a_cloud_changes_nothing) {
 }
 END_TEST
 
-// Few points, on a line, on a circle around x, on a grid: all equally far, or with no slope across.
+// Degenerate sets of points: few points, points on a line, on a circle around x, or on a grid.
 START_TEST(clouds_without_an_inside) {
   Field<2> one;
   one.points = {{0.5, 0.5}};
@@ -405,7 +405,7 @@ START_TEST(clouds_without_an_inside) {
   }
   const auto spacing = spacing_from(grid);
   Random random(10);
-  for (int i = 100; i < 800; ++i) {  // the middles of cells: the next points are all equally far
+  for (int i = 100; i < 800; ++i) {  // cell centres: the nearest points are all equally far
     const P<3> x{(i % 8 + 0.5) / 8, (i / 8 % 8 + 0.5) / 8, (i / 100 + 0.5) / 8};
     const double d = value_at<3>(*spacing, x);
     ck_assert_double_eq_tol(d, linear<3>(x), 0.2);
@@ -413,9 +413,9 @@ START_TEST(clouds_without_an_inside) {
 }
 END_TEST
 
-// ------------------------------------------------------------------ what is known --------------
+// ------------------------------------------------------------------ hints ----------------------
 
-// A linear function has one slope, on each element.
+// A linear function has the same slope on each element.
 template <int Dim>
 void check_slopes(int n) {
   Random random(12);
@@ -447,7 +447,7 @@ START_TEST(slopes_of_a_cloud) {
 }
 END_TEST
 
-// ------------------------------------------------------------------ what is refused ------------
+// ------------------------------------------------------------------ invalid input --------------
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -483,7 +483,8 @@ START_TEST(what_is_refused) {
   expect_refused(bad, ErrorKind::spacing, "outside of the domain");
   bad.points = {{0.5, 0.5}, {0.25, 0.75}, {0.5, 0.5}};
   bad.values = {1, 2, 1};
-  ck_assert_double_eq(value_at<2>(*spacing_from(bad), {0.5, 0.5}), 1);  // said twice
+  // The same value given twice.
+  ck_assert_double_eq(value_at<2>(*spacing_from(bad), {0.5, 0.5}), 1);
   bad.values[2] = 3;
   expect_refused(bad, ErrorKind::spacing, "d[0] = 1 and argument d[2] = 3 are both at (0.5, 0.5)");
   bad.points.clear(), bad.values.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first row of inner nodes: one over each regular edge of the boundary.
+// The first row of inner nodes, with one node over each regular boundary edge.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -35,7 +35,8 @@ LevelRun filled(const Build& build, const Plane& d) {
   return run;
 }
 
-// The third corner of the equilateral triangle over an edge, counter-clockwise on its left.
+// Returns the third corner of the equilateral triangle over the edge (a, b), on its left or right
+// side.
 P apex_over(const P& a, const P& b, bool left) {
   const double angle = (left ? 1 : -1) * shapes::pi / 3, x = b[0] - a[0], y = b[1] - a[1];
   return {a[0] + std::cos(angle) * x - std::sin(angle) * y,
@@ -49,7 +50,7 @@ std::int64_t inner_nodes_within(const Level& level, const P& x, double reach) {
   return count;
 }
 
-// Calls visit(place, edge length) for the places over all edges, on the sides inside the domain.
+// Calls visit(apex, edge length) for all edges, on the sides inside the domain.
 template <class Visit>
 void for_apexes(const Level& level, const Visit& visit) {
   for (const pnpbs::BoundaryEdge& e : level.geometry.boundary().facets) {
@@ -76,7 +77,8 @@ void expect_no_change(Level& level) {
 
 }  // namespace
 
-// Each edge of a ring has its node, no other is near that, and none else is beside the boundary.
+// Each edge of a ring has its node, no other node is near that, and no other node is beside the
+// boundary.
 START_TEST(one_over_each_edge) {
   for (const Build& build : {kRing, kSquareWithCircle}) {
     LevelRun run = filled(build, constant(kD));
@@ -106,7 +108,7 @@ START_TEST(one_over_each_edge) {
 }
 END_TEST
 
-// Sweeps leave the nodes of the row so near to their places that they stay what they are.
+// Sweeps leave the nodes of the row so near to the apexes that the row needs no change.
 START_TEST(once_is_enough) {
   const Build lake = [](PlaneDomain& p) { add_lake(p, "lake_victoria"); };
   for (const auto& [build, d] : {std::pair{kRing, kD}, std::pair{lake, 3.0}}) {
@@ -122,8 +124,8 @@ START_TEST(once_is_enough) {
 }
 END_TEST
 
-// Steps of corners, d too large or too small for the edges or too steep, a strip that only one row
-// fits into.
+// Edges at corners of a staircase, edges with a d that is too large, too small or too steep, and a
+// strip with room for one row only get no row.
 START_TEST(irregular_edges_have_none) {
   const Build steps = [](PlaneDomain& p) {
     shapes::Loop loop;
@@ -143,7 +145,7 @@ START_TEST(irregular_edges_have_none) {
         ck_assert_int_eq(inner_nodes_within(*run.level, apex, 1e-12 * length), 0);
     });
   }
-  for (const double d : {0.15, 0.3}) {  // sides of 0.1
+  for (const double d : {0.15, 0.3}) {  // the sides are 0.1 long
     LevelRun run = filled(polygon, constant(d));
     expect_no_change(*run.level);
     ck_assert_int_eq(occupied_apexes(*run.level), 0);
@@ -157,7 +159,7 @@ START_TEST(irregular_edges_have_none) {
 }
 END_TEST
 
-// Over a strait an apex would be on land.
+// An apex over a strait lies on land.
 START_TEST(nodes_are_inside) {
   const Build strait = [](PlaneDomain& p) {
     add_loop(p, shapes::rectangle(0, 0, 1, 1));
@@ -180,7 +182,7 @@ START_TEST(nodes_are_inside) {
 }
 END_TEST
 
-// A curve that ends inside has a row on both sides, but not at its ends.
+// A curve that ends inside the domain has a row on both sides, but not at its ends.
 START_TEST(curves_that_end_inside) {
   constexpr int kEdges = 20;
   const Build cut = [](PlaneDomain& p) {
@@ -198,7 +200,7 @@ START_TEST(curves_that_end_inside) {
 }
 END_TEST
 
-// Around a hole from which d grows rows of bubbles slip against the boundary.
+// Rows of bubbles slip along the boundary of a hole from which d grows.
 START_TEST(boundary_triangles_are_good) {
   const Plane growing = [](double x, double y) {
     return 0.01 + 0.15 * (std::hypot(x - 0.5, y - 0.5) - 0.2);

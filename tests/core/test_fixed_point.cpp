@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums in fixed point against whole numbers by the methods of school, beyond 64 bits, too.
+// Fixed-point sums against integers of arbitrary length, also beyond 64 bits.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,12 +15,12 @@ using pnpbs::FixedPointSum;
 
 namespace {
 
-// In units of 2^-32.
+// An exact number in units of 2^-32.
 using Exact = ExactInteger<8>;
 
 Exact exact(double whole) { return Exact(whole, 0); }
 
-// What is rounded away is towards 0.
+// Rounds a term towards 0.
 Exact rounded(double term) { return exact(std::trunc(std::ldexp(term, 32))); }
 
 Exact exact(const FixedPointSum& sum) {
@@ -33,7 +33,7 @@ Exact exact(const FixedPointSum& sum) {
 
 bool same(const Exact& a, const Exact& b) { return (a - b).sign() == 0; }
 
-// No double is nearer.
+// Returns whether no double is nearer.
 bool nearest(double value, const Exact& sum) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   const double whole = std::ldexp(value, 32);
@@ -52,7 +52,8 @@ std::vector<double> random_terms(Random& random, double size, int count) {
 
 }  // namespace
 
-// 2^40 nodes with 2^6 terms each, of any size there may be: as if so many were added.
+// The sum of 20 terms of any magnitude is doubled 42 times, which corresponds to 2^40 nodes with
+// 2^6 terms each.
 START_TEST(sums_of_any_size_are_exact) {
   Random random(17);
   for (const double size : {1.0, 1e3, 0x1p31}) {
@@ -88,7 +89,7 @@ START_TEST(order_does_not_matter) {
 }
 END_TEST
 
-// Wherever these do not overflow: what runs have been recorded with.
+// Sums that fit in 64 bits equal those of earlier versions, with which hashes were recorded.
 START_TEST(sums_of_64_bits_are_the_same) {
   Random random(5);
   for (int sample = 0; sample < 1000; ++sample) {
@@ -104,7 +105,7 @@ START_TEST(sums_of_64_bits_are_the_same) {
 }
 END_TEST
 
-// Sums that have lost what is beyond 64 bits keep it.
+// Sums that have lost the part beyond 64 bits keep their fraction.
 START_TEST(fractions_of_wrapped_sums) {
   FixedPointSum sum;
   std::int64_t wrapped = 0;

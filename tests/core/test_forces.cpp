@@ -21,7 +21,7 @@ namespace {
 template <int Dim>
 using Vectors = std::vector<std::array<double, Dim>>;
 
-// Forces on all nodes, in the order of memory.
+// Returns the forces on all nodes in the order of memory.
 template <int Dim, class Law>
 Vectors<Dim> block_forces(const Bubbles<Dim>& b, const Law& law) {
   Vectors<Dim> forces(static_cast<std::size_t>(b.nodes.count));
@@ -40,10 +40,10 @@ Vectors<Dim> block_forces(const Bubbles<Dim>& b, const Law& law) {
   return forces;
 }
 
-// The paper's equation (2) and the push, written down once more.
+// An independent form of equation (2) of the paper and of the linear push.
 double cubic(double w) { return w > 1.5 ? 0 : 1.25 * w * w * w - 2.375 * w * w + 1.125; }
 double push(double w) { return w > 1.06 ? 0 : 1 - w / 1.06; }
-// Their integrals from w to the range.
+// Integrals of these from w to the range.
 double cubic_energy(double w) {
   const auto primitive = [](double s) {
     return 1.25 / 4 * s * s * s * s - 2.375 / 3 * s * s * s + 1.125 * s;
@@ -58,7 +58,7 @@ struct DirectForce {
   double magnitudes = 0;
 };
 
-// The factor of a pair's force besides f(w).
+// Returns the factor of a pair's force besides f(w).
 template <int Dim>
 double factor(const CubicLaw&, double) {
   return 1;
@@ -110,10 +110,10 @@ void expect_direct_sum(const Law& law, double (*formula)(double), std::int64_t n
       ck_assert_double_eq_tol(forces[i][k], direct.sum[k], 1e-13 * (1 + direct.magnitudes));
     strongest = std::max(strongest, direct.magnitudes);
   }
-  ck_assert_double_gt(strongest, factor<Dim>(law, 0.14));  // there was something to add up
+  ck_assert_double_gt(strongest, factor<Dim>(law, 0.14));  // there were forces to add
 }
 
-// Minus the gradient of the energy of all pairs, by central differences.
+// Compares the forces with minus the gradient of the energy of all pairs, by central differences.
 template <int Dim, class Law>
 void expect_gradient(const Law& law, double (*energy)(double)) {
   const Bubbles<Dim> b = random_set<Dim>(32, 300);
@@ -157,7 +157,7 @@ void expect_direct_ratio() {
   }
 }
 
-// The overlap ratio of the node nearest the middle of the box.
+// Returns the overlap ratio of the node nearest to the centre of the box.
 template <int Dim>
 double ratio_in_the_middle(Bubbles<Dim>& b, const std::vector<Point<Dim>>& points, double d) {
   std::vector<Bubble<Dim>> bubbles;
@@ -176,7 +176,7 @@ double ratio_in_the_middle(Bubbles<Dim>& b, const std::vector<Point<Dim>>& point
   return pnpbs::overlap_ratio<Dim>(b.nodes, b.lists, nearest);
 }
 
-// Copies of a cell's points throughout the unit cube.
+// Returns copies of a cell's points throughout the unit cube.
 std::vector<Point<3>> crystal(double cell, const std::vector<Point<3>>& basis) {
   std::vector<Point<3>> points;
   for (int i = 0; i * cell < 1; ++i)
@@ -245,7 +245,7 @@ START_TEST(forces_are_the_gradient_of_an_energy) {
 }
 END_TEST
 
-// By id, every bit is the same whatever the order in memory and however long the lists.
+// Forces by id are equal to the bit for any order in memory and any length of the lists.
 START_TEST(forces_do_not_depend_on_the_order_in_memory) {
   const auto by_id = [](const Bubbles<2>& b) {
     std::map<std::int64_t, std::array<double, 2>> forces;
@@ -293,14 +293,14 @@ START_TEST(accelerations_are_scaled_and_damped) {
 }
 END_TEST
 
-// Two regions that are squeezed alike, one of bubbles twice as large: what each presses with on a
-// length of the border between them is the same, by the law that leaves no stress. (By the paper's
-// law the fine one presses twice as hard.)
+// Two regions are compressed alike, one with bubbles twice as large. With the stress-free law both
+// exert the same force per length of their interface. (With the paper's law the fine region exerts
+// twice as much.)
 START_TEST(bubbles_squeezed_alike_press_alike) {
   constexpr double kSqueezed = 0.9;
   const LinearPush law;
   const CubicLaw letter;
-  // Per column of a square arrangement: one pair's force, over the length that the column takes.
+  // Force of one pair per column of a square arrangement, over the width of the column.
   const auto stress = [&](const auto& of, double d) {
     const double distance = kSqueezed * d;
     return of.template per_length<2>(distance, d) * distance / distance;
@@ -311,7 +311,7 @@ START_TEST(bubbles_squeezed_alike_press_alike) {
     return law.per_length<3>(kSqueezed * d, d) * kSqueezed * d / (kSqueezed * d * kSqueezed * d);
   };
   ck_assert_double_eq_tol(stress_in_volume(0.1), stress_in_volume(0.2), 1e-14);
-  // And all are equally stiff: the acceleration over d is the same.
+  // Bubbles of all sizes are equally stiff: the acceleration over d is the same.
   const auto stiffness = [&](auto dim, double d) {
     constexpr int kDim = dim();
     return LinearPush::acceleration_scale<kDim>(d) * law.per_length<kDim>(kSqueezed * d, d);
@@ -345,7 +345,7 @@ START_TEST(hexagonal_lattice_is_free_of_forces) {
 }
 END_TEST
 
-// Two nodes in one place push each other nowhere; nobody gets a NaN.
+// Two coincident nodes exert no force on each other, and no force becomes NaN.
 START_TEST(coincident_nodes) {
   Bubbles<2> b;
   b.grow_tree([](const Point<2>&) { return 0.2; });
@@ -366,8 +366,8 @@ START_TEST(overlap_ratio_of_lattices) {
   for (int i = 0; i <= 10; ++i) line.push_back({0.1 * i, 0.5});
   ck_assert_double_eq_tol(ratio_in_the_middle<2>(plane, line, 0.1), 2, 1e-12);
 
-  // Face-centred cubic at nearest distance d: 12 from the first shell, and the second one, 6 at
-  // sqrt(2) d, is still within 1.5 d.
+  // A face-centred cubic lattice with nearest distance d: 12 neighbours are at d, and the 6 of the
+  // second shell at sqrt(2) d are still within 1.5 d.
   Bubbles<3> volume;
   const double d = 0.14;
   const auto close_packing =
@@ -375,7 +375,8 @@ START_TEST(overlap_ratio_of_lattices) {
   ck_assert_double_eq_tol(ratio_in_the_middle<3>(volume, close_packing, d),
                           12 + 6 * (3 - 2 * std::sqrt(2.0)), 1e-11);
 
-  // Body-centred cubic with a mean Delaunay edge (8 of the half diagonal, 6 of the side) of d.
+  // A body-centred cubic lattice whose mean Delaunay edge is d. A node has 8 edges of half the cell
+  // diagonal and 6 of the cell side.
   const double cell = 14 * d / (4 * std::sqrt(3.0) + 6);
   ck_assert_double_eq_tol(2 / std::pow(cell / d, 3), 1.575, 1e-3);
   const auto body_centred = crystal(cell, {{0, 0, 0}, {0.5, 0.5, 0.5}});

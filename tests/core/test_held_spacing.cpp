@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where d is held down at places, the background tree of a level knows these, however few of its
-// samples see them.
+// Points at which d is held down reach the background tree of a level even if few of its samples
+// are near them.
 #include <memory>
 
 #include "level/level.hpp"
@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kSpacing = 0.05, kHeld = 0.002;
 
-// A block has samples enough, and a plate beside it is so thin that hardly any lie in it.
+// The block has enough samples. The plate beside it is so thin that hardly any lie in it.
 constexpr pnpbs::Box<3> kBlock{{0, 0, 0}, {1, 1, 0.3}}, kPlate{{0, 0, 0.306}, {1, 1, 0.31}};
 
-// The least d that the tree of a level expects around the place.
+// Returns the smallest d that the tree of a level assumes around the point.
 double expected_at(const Point3& place) {
   auto domain = std::make_shared<pnpbs::VolumeDomain>();
   domain->add_box(kBlock.low, kBlock.high, 1);
@@ -42,7 +42,8 @@ START_TEST(a_place_is_known_between_samples) {
   Random random(27);
   for (int k = 0; k < 40; ++k) {
     const Point3 place = random.point(kPlate);
-    // 1.4 times it at most; nodes that meet d below kFarFiner of it would begin the run anew.
+    // At most 1.4 times kHeld. Nodes that meet a d below kFarFiner times the tree's value would
+    // restart the run.
     ck_assert_double_le(expected_at(place), 2 * kHeld);
   }
 }

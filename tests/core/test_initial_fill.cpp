@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Initial inner nodes: hexagonal where d is constant, as many as d means where it is not.
+// Initial inner nodes: hexagonal for constant d, and with the expected number for variable d.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,8 +63,8 @@ void add_ring(PlaneDomain& domain) {
   add_circle(domain, 0.5, -0.1, 0.31);
 }
 
-// Inner nodes far from the boundary have six neighbours, no farther than d plus the stretch that
-// makes a lattice end on the box of the domain.
+// Expects six neighbours of inner nodes far from the boundary. Their distances are at most d plus
+// the stretch that fits the lattice to the box of the domain.
 void expect_hexagonal(const Build& build, double d, double stretch) {
   const Filled filled(build, constant(d));
   std::int64_t inner = 0;
@@ -86,7 +86,7 @@ void expect_hexagonal(const Build& build, double d, double stretch) {
   ck_assert_int_gt(inner, 300);
 }
 
-// Nodes that d means where there is half a spacing to the boundary, by a fine sum.
+// Returns the expected number of nodes, integrated over the points at least d/2 from the boundary.
 double meant(const Filled& filled, const Plane& d) {
   const pnpbs::Box<2> box = filled.domain.bounds();
   constexpr int kFine = 1000;
@@ -111,7 +111,7 @@ void expect_meant(const Build& build, const Plane& d, std::size_t min_nodes) {
     quick_assert(filled.map.inside(x));
     ck_assert_double_ge(filled.map.clearance(x, d(x[0], x[1])), 0.4 * d(x[0], x[1]));
   }
-  // Patches meet without a node in two of them.
+  // Adjacent patches have no node in common.
   std::vector<P> sorted = filled.nodes;
   std::sort(sorted.begin(), sorted.end());
   quick_assert(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
@@ -120,7 +120,7 @@ void expect_meant(const Build& build, const Plane& d, std::size_t min_nodes) {
 }  // namespace
 
 START_TEST(hexagonal_where_d_is_constant) {
-  // 1.37 and 0.93 are 45.7 steps and 35.8 rows: stretched to 46 and 36.
+  // 1.37 and 0.93 are 45.7 steps and 35.8 rows, stretched to 46 and 36.
   expect_hexagonal([](PlaneDomain& p) { add_loop(p, rectangle(-0.2, 0.1, 1.17, 1.03)); }, 0.03,
                    0.012);
   expect_hexagonal(add_ring, 0.04, 0.02);
@@ -128,7 +128,7 @@ START_TEST(hexagonal_where_d_is_constant) {
 }
 END_TEST
 
-// With this box nothing is stretched: distances are d.
+// This box fits the lattice without stretching, so distances equal d.
 START_TEST(exactly_hexagonal) {
   const double height = 0.04 * std::sqrt(0.75) * 30;
   expect_hexagonal([=](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1.2, height)); }, 0.04, 1e-12);
@@ -150,7 +150,8 @@ START_TEST(as_many_as_d_means) {
 }
 END_TEST
 
-// Where d grows by a fifth of the distance: in every band of a factor of two, what d asks for.
+// d grows by a fifth of the distance. The number of nodes must match d in every band of a factor of
+// two.
 START_TEST(steep_spacings_are_met_from_band_to_band) {
   const auto d = [](double y) { return 0.001 + 0.2 * std::fabs(y - 0.4371); };
   LevelRun run([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); },
@@ -166,14 +167,14 @@ START_TEST(steep_spacings_are_met_from_band_to_band) {
     }
     for (std::int64_t i = 0; i < nodes.count; ++i)
       placed += nodes.d(i) >= from && nodes.d(i) < 2 * from;
-    // Bands are a few nodes wide, and nodes on the sides of the square count whole.
+    // Bands are a few nodes wide, and nodes on the sides of the square count fully.
     ck_assert_double_eq_tol(placed, wanted, 0.06 * wanted + 4);
   }
 }
 END_TEST
 
-// Lattices of which nodes lie, but for the last digits, on borders of leaves: each node is made by
-// the leaf that leaf_at says, by which nodes are numbered and distributed, and by no other.
+// Lattices with nodes on the borders of leaves, up to rounding. Each node is created only by the
+// leaf that leaf_at returns, which also determines its id and its rank.
 START_TEST(each_leaf_makes_its_own) {
   for (const double d : {0.05, 0.0625, 0.0697, 0.07, 0.0714, 0.08, 0.1}) {
     const Filled filled([](PlaneDomain& p) { add_loop(p, rectangle(-1, -1, 1, 1)); }, constant(d));
@@ -200,7 +201,8 @@ START_TEST(no_room_for_any) {
 }
 END_TEST
 
-// What a level makes of a fill: ids in the order of memory, boundary nodes as laid, d and tags.
+// Properties of the nodes of a filled level: ids in the order of memory, boundary nodes, d and
+// tags.
 START_TEST(levels_number_their_nodes) {
   LevelRun run(add_ring, [](double x, double) { return 0.05 + 0.02 * x; });
   fill_level(*run.level);
@@ -225,7 +227,7 @@ START_TEST(levels_number_their_nodes) {
 }
 END_TEST
 
-// Ids beyond those that are doubles: the new ones still come after them.
+// Ids that doubles cannot represent: ids of new nodes are still larger.
 START_TEST(large_ids_stay_unique) {
   constexpr std::int64_t kLarge = (std::int64_t{1} << 53) + 1;
   for (const std::int64_t id : {kLarge, kLarge + 1, std::int64_t{1} << 62}) {
@@ -238,7 +240,7 @@ START_TEST(large_ids_stay_unique) {
 }
 END_TEST
 
-// Given nodes keep their ids; new ones come after them; what does not fit is left out.
+// Given nodes keep their ids, new nodes have larger ones, and nodes that do not fit are left out.
 START_TEST(levels_take_given_nodes) {
   LevelRun run([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); }, constant(0.1));
   const std::int64_t left_out = pnpbs::take(*run.level,

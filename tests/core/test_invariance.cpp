@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same nodes, bit for bit, whenever the lists are rebuilt and however memory is ordered.
+// Nodes are equal to the bit for any rebuild schedule of the lists and any order in memory.
 #include <cmath>
 #include <map>
 #include <string>
@@ -19,7 +19,7 @@ using P = pnpbs::Point<2>;
 
 namespace {
 
-// Position and velocity of each node.
+// Position and velocity of each node, by id.
 using State = std::map<std::int64_t, std::array<double, 4>>;
 
 State state_of(const Level& level) {
@@ -77,7 +77,7 @@ std::vector<Case> cases() {
           {"islands", islands, on_lakes, {}},  {"lake, paper", lake, on_lake, kPaper}};
 }
 
-// A fill, shaken so that there is something to do.
+// Returns a fill with random displacements, so that nodes move.
 pnpbs::IncomingNodes<2> shaken(const Case& c, std::uint64_t seed) {
   LevelRun fill(c.build, c.d);
   fill_level(*fill.level);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stars restored by flips after nodes have moved are those that are found anew, in the same order;
-// or they are given up, and then only for a reason.
+// Stars restored by flips after nodes moved equal newly built stars, in the same order. Otherwise
+// the restoration is abandoned, and only for a valid reason.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -18,7 +18,7 @@ using Level = pnpbs::Level<2>;
 
 namespace {
 
-// Neighbours by their ids, and whether a triangle follows each.
+// Neighbours by id, and whether a triangle follows each.
 using Star = std::vector<std::pair<std::int64_t, bool>>;
 using StarsById = std::map<std::int64_t, Star>;
 
@@ -37,7 +37,7 @@ StarsById found_anew(Level& level) {
   return stars_of(level);
 }
 
-// With the same neighbours, in whatever order.
+// Counts the stars whose sets of neighbours differ.
 std::int64_t stars_with_others(const StarsById& a, const StarsById& b) {
   const auto sorted = [](Star star) {
     std::sort(star.begin(), star.end());
@@ -48,7 +48,7 @@ std::int64_t stars_with_others(const StarsById& a, const StarsById& b) {
   });
 }
 
-// Moves every so many nodes that move, each by up to that many d.
+// Moves every `every`-th free node by up to `by` times d in each direction.
 void shake(Level& level, Random& random, double by, std::int64_t every = 1) {
   for (std::int64_t i = 0; i < level.nodes.count; ++i) {
     if (!level.nodes.moves(i) || level.nodes.id(i) % every != 0) continue;
@@ -59,7 +59,7 @@ void shake(Level& level, Random& random, double by, std::int64_t every = 1) {
   level.nodes.moved();
 }
 
-// Returns how many stars have other neighbours than before; -1 if they were given up.
+// Returns how many stars have other neighbours than before, or -1 if the restoration was abandoned.
 std::int64_t expect_as_found_anew(const std::string& what, Level& level) {
   const StarsById before = stars_of(level);
   const bool restored = pnpbs::restore_stars(level);
@@ -110,7 +110,7 @@ START_TEST(after_nodes_moved_a_little) {
 }
 END_TEST
 
-// Many flips in the same places.
+// Many flips around the same nodes.
 START_TEST(after_few_nodes_moved_far) {
   Random random(92);
   LevelRun run(add_square, graded(0.02));
@@ -125,7 +125,7 @@ START_TEST(after_few_nodes_moved_far) {
 }
 END_TEST
 
-// Four nodes of each cell are on a circle, four neighbours of each node equally near.
+// The four nodes of each cell lie on a circle, and each node has four equally near neighbours.
 START_TEST(to_an_exact_grid) {
   constexpr int kCells = 32;
   LevelRun run(add_square, constant(1.0 / kCells));
@@ -153,7 +153,7 @@ START_TEST(to_an_exact_grid) {
 }
 END_TEST
 
-// Not of the nodes there are.
+// Stars of another set of nodes cannot be restored.
 START_TEST(of_other_nodes) {
   LevelRun run(add_square, constant(0.05));
   fill_level(*run.level);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The small meshes that repairs are tried on, against a lattice, areas and circles.
+// The small meshes on which repairs are tried, against a lattice, areas and circles.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,8 +14,7 @@ using P = pnpbs::Point<2>;
 
 namespace {
 
-// A patch of the hexagonal lattice with distances 1: rows and columns of a rhombus, whose rim
-// stays.
+// A rhombic patch of the hexagonal lattice with distances 1. Nodes of its rim do not move.
 constexpr int kSide = 9;
 std::int32_t place(int column, int row) { return row * kSide + column; }
 P lattice_point(int column, int row) { return {column + 0.5 * row, std::sqrt(0.75) * row}; }
@@ -57,7 +56,8 @@ double area_of(const LocalMesh& mesh) {
   return 0.5 * twice;
 }
 
-// The triangles cover the rhombus once, and no circle around one has another node in it.
+// Expects that the triangles cover the rhombus once, and that no circumcircle contains another
+// node.
 void check_delaunay(const LocalMesh& mesh, std::int32_t places, std::int32_t gone) {
   ck_assert_double_eq_tol(area_of(mesh), kArea, 1e-9 * kArea);
   for (const LocalMesh::Corners& t : mesh.triangles()) {
@@ -98,7 +98,8 @@ START_TEST(quality_of_the_lattice) {
 }
 END_TEST
 
-// Wherever it comes, its triangles are where it was put, and all are Delaunay again.
+// The triangles of the inserted node cover the one it was inserted in, for any position, and all
+// are Delaunay again.
 START_TEST(a_node_comes) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     LocalMesh mesh = rhombus(0.2, seed);
@@ -136,7 +137,7 @@ START_TEST(a_node_goes) {
 }
 END_TEST
 
-// One more and one less again is the lattice again.
+// Inserting and removing a node restores the lattice.
 START_TEST(a_node_comes_and_goes) {
   LocalMesh mesh = rhombus(0, 1);
   const std::int32_t room =
@@ -147,7 +148,7 @@ START_TEST(a_node_comes_and_goes) {
 }
 END_TEST
 
-// Around one at the rim no ring of triangles closes.
+// A node of the rim has no closed ring of triangles.
 START_TEST(a_node_at_the_rim_stays) {
   LocalMesh mesh = rhombus(0, 1);
   ck_assert(!mesh.remove(place(0, kMiddle)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a body is narrower than d, in plates whose thickness is known.
+// Detection of regions narrower than d, in plates of known thickness.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSpacing = 0.2;
 
-// With a block beside it that is not narrow.
+// Returns a plate of this thickness, and a block beside it that is not narrow.
 std::unique_ptr<Placement3> plate(double thickness) {
   auto domain = std::make_shared<pnpbs::VolumeDomain>();
   domain->add_box({0, 0, 0}, {1, 1, thickness}, 1);
@@ -38,7 +38,7 @@ bool on_a_side(const Point3& x, double thickness) {
 
 }  // namespace
 
-// On both sides of it, and nowhere else: not at the rim, nor at the block.
+// Both sides of the plate are found, but neither its rim nor the block.
 START_TEST(a_plate_is_narrow_all_over) {
   constexpr double kThickness = 0.1;
   const auto placement = plate(kThickness);
@@ -69,7 +69,7 @@ START_TEST(near_places_alone) {
 }
 END_TEST
 
-// However thin it is, one round goes so far and no farther.
+// One round reduces d by a bounded factor, however thin the plate is.
 START_TEST(a_foil_is_come_near_to_in_rounds) {
   const auto placement = plate(0.01);
   const std::vector<Source> found = pnpbs::narrow_places(placement->level(), {});

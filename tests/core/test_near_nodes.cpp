@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes near each other, against a loop over all pairs: with d that varies by 100 times, nodes that
-// do not count, and rows in the order of ids, whatever the order in memory.
+// Pairs of near nodes against a loop over all pairs: d varies by a factor of 100, some nodes do not
+// count, and rows are in the order of ids for any order in memory.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

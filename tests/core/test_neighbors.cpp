@@ -28,7 +28,7 @@ bool meet(const Box<Dim>& a, const Box<Dim>& b, double rim) {
 
 // ------------------------------------------------------------------ the tree -------------------
 
-// Fine near a point off the middle, 2000 times coarser far away.
+// A spacing that is fine near an off-centre point and 2000 times coarser far away.
 template <int Dim>
 double steep(const Point<Dim>& x) {
   double square = 0;
@@ -70,7 +70,7 @@ void expect_leaves_fill_the_root() {
   }
 }
 
-// The bits of the cell indices, those of dimension 0 last, as one number at the largest depth.
+// Returns the bits of the cell indices, interleaved with those of dimension 0 last.
 template <int Dim>
 std::vector<bool> morton_key(const pnpbs::BackgroundTree<Dim>& tree, std::int32_t leaf) {
   const auto& cell = tree.cell(tree.leaf_cell(leaf));
@@ -119,7 +119,7 @@ void expect_points_in_their_leaves() {
     expect_found(box.low);
     if (!at_rim) expect_found(box.high);
   }
-  // Beyond the root: the leaf at the rim.
+  // Points outside the root belong to the nearest leaf.
   Point<Dim> far;
   far.fill(1e9);
   Point<Dim> corner;
@@ -142,7 +142,7 @@ void expect_leaves_in_boxes() {
       box.low[k] = middle - half;
       box.high[k] = middle + half;
     }
-    if (trial % 3 == 0)  // one that touches leaves exactly
+    if (trial % 3 == 0)  // a box that touches leaves exactly
       box =
           tree.cell_box(tree.leaf_cell(static_cast<std::int32_t>(random.below(tree.leaf_count()))));
     std::vector<std::int32_t> found;
@@ -156,7 +156,7 @@ void expect_leaves_in_boxes() {
 
 // ------------------------------------------------------------------ lists ----------------------
 
-// Neighbours' ids, as listed, of the nodes in the order of their ids.
+// Returns the ids of the listed neighbours, for each node in the order of ids.
 template <int Dim>
 std::vector<std::pair<std::int64_t, std::vector<std::int64_t>>> listed(const Bubbles<Dim>& b) {
   std::vector<std::pair<std::int64_t, std::vector<std::int64_t>>> lists;
@@ -192,8 +192,8 @@ void expect_all_pairs(const Bubbles<Dim>& b, double radius,
   }
 }
 
-// Lists them, by the buckets of a tree for spacing d, and compares; then once more from another
-// order in memory, which must give the very same lists.
+// Compares the lists with all pairs, with buckets of a tree for spacing d. Another order in memory
+// must give the same lists.
 template <int Dim>
 void expect_lists(const std::vector<Bubble<Dim>>& bubbles, const SpacingFunction<Dim>& d,
                   double radius) {
@@ -219,7 +219,7 @@ void expect_random_sets() {
       expect_lists<Dim>(random_bubbles<Dim>(random, 1200, constant, variation), constant, radius);
 }
 
-// d varies by a factor of 100, with no limit on its growth, and jumps.
+// d varies by a factor of 100 without a limit on its growth, and jumps.
 template <int Dim>
 void expect_graded_sets() {
   Random random(45);
@@ -228,7 +228,7 @@ void expect_graded_sets() {
   const SpacingFunction<Dim> jump = [](const Point<Dim>& x) {
     return x[0] < 0.43 ? kFine : 100 * kFine;
   };
-  // The tree sees nothing of these bubbles' sizes.
+  // The tree is built without information about the sizes of these bubbles.
   const SpacingFunction<Dim> blind = [](const Point<Dim>&) { return 0.05; };
   for (const auto& d : {ramp, jump}) {
     const auto bubbles = random_bubbles<Dim>(random, 1500, d);
@@ -237,7 +237,7 @@ void expect_graded_sets() {
   }
 }
 
-// Dense clusters in a few places, and nothing elsewhere: most buckets are empty.
+// Dense clusters, between which most buckets are empty.
 template <int Dim>
 void expect_clusters() {
   Random random(46);
@@ -250,7 +250,7 @@ void expect_clusters() {
       bubbles[i].x[k] =
           std::clamp(centres[i % 5][k] + 0.06 * (bubbles[i].x[k] - 0.5), 1e-9, 1 - 1e-9);
   expect_lists<Dim>(bubbles, d, 1.7);
-  // All nodes in one bucket.
+  // All nodes are in one bucket.
   expect_lists<Dim>(
       bubbles, [](const Point<Dim>&) { return 10.0; }, 1.7);
 }
@@ -267,7 +267,7 @@ void expect_any_count() {
   }
 }
 
-// One set of buckets and lists through changes of positions, sizes and number, as in a run.
+// One set of buckets and lists is reused while positions, sizes and the number of nodes change.
 template <int Dim>
 void expect_lists_after_changes() {
   Random random(48);
@@ -342,7 +342,7 @@ START_TEST(nodes_are_sorted_by_bucket) {
       min = std::min(min, b.nodes.d(i));
     }
     quick_assert(b.buckets.min_spacing(leaf) == min);
-    // Links lead there and back, in order, and the bucket itself is among them.
+    // Links are symmetric and sorted, and each bucket is linked to itself.
     std::vector<std::int32_t> others;
     b.buckets.for_neighbours(leaf, [&](std::int32_t other) { others.push_back(other); });
     quick_assert(std::is_sorted(others.begin(), others.end()));
@@ -357,7 +357,7 @@ START_TEST(nodes_are_sorted_by_bucket) {
 }
 END_TEST
 
-// Enough entries for a part for each thread. -1: left out.
+// Large enough to give each thread a part. Entries with key -1 are left out.
 START_TEST(counting_sort_is_stable) {
   Random random(60);
   for (const std::int64_t n : {0, 1, 1000, 90001})
@@ -404,8 +404,7 @@ START_TEST(counting_sort_tells_order) {
 }
 END_TEST
 
-// What they remember of nodes that were dropped in between, appended or moved may be of no use, but
-// does no harm.
+// Buckets may reuse data although nodes were dropped, appended or moved in between.
 START_TEST(buckets_of_kept_nodes) {
   Random random(70);
   const SpacingFunction<2> d = [](const Point<2>& x) { return 0.02 + 0.05 * x[0]; };
@@ -443,7 +442,8 @@ std::vector<std::int64_t> listed_by(const pnpbs::AdjacencyList<3>& lists, std::i
   return listed;
 }
 
-// Of owned nodes, then of some ghosts, one of them twice and one that is owned, then of all.
+// Builds lists of owned nodes first, then of some ghosts (one twice, and one owned node), then of
+// all.
 START_TEST(lists_of_ghosts_come_later) {
   Random random(51);
   const SpacingFunction<3> d = [](const Point<3>& x) { return 0.06 + 0.05 * x[0]; };
@@ -522,7 +522,7 @@ START_TEST(lists_of_pairs_that_see_each_other) {
 }
 END_TEST
 
-// Blocks are padded with the place behind the last node, and nodes in one place are neighbours.
+// Blocks are padded with the index behind the last node. Coincident nodes are neighbours.
 START_TEST(blocks_are_padded) {
   Bubbles<2> b;
   b.grow_tree([](const Point<2>&) { return 0.1; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing from values at nodes: linear on triangles, extended from the border, and the same
-// however the triangles are distributed; against plain loops over all of them.
+// A spacing from nodal values: linear on triangles, extrapolated from the border, and independent
+// of the distribution of the triangles. Results are compared with plain loops over all triangles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ using P = pnpbs::Point<2>;
 
 namespace {
 
-// It cannot be asked on one rank alone.
+// NodalSpacing is collective and therefore not a LocalSpacing.
 using pnpbs::LocalSpacing;
 static_assert(std::is_convertible_v<const pnpbs::GridSpacing<2>*, const LocalSpacing<2>*>);
 static_assert(!std::is_convertible_v<const pnpbs::NodalSpacing<2>*, const LocalSpacing<2>*>);
@@ -28,8 +28,8 @@ static_assert(!std::is_convertible_v<pnpbs::SpacingEvaluator<2>, pnpbs::LocalSpa
 
 constexpr int kCells = 12;
 
-// A square grid with shaken inner nodes, each cell cut in two, ids shuffled; one cell in the middle
-// is a hole.
+// A square grid with randomly moved inner nodes, each cell cut in two, with shuffled ids and one
+// cell in the middle missing.
 Patch shaken_grid(Random& random, double (*value)(double, double)) {
   Patch patch;
   std::vector<std::int64_t> ids((kCells + 1) * (kCells + 1));
@@ -86,7 +86,7 @@ bool in_domain(const Patch& patch, const P& x) {
   return x[0] > 0 && x[0] < 1 && x[1] > 0 && x[1] < 1 && !in_hole(patch, x);
 }
 
-// Value at the nearest point of the border, by looking at all of it.
+// Returns the value at the nearest point of the border, by a search over all of it.
 double nearest_value(const Patch& patch, const P& x) {
   double min = std::numeric_limits<double>::infinity(), value = 0;
   for (const auto& edge : patch.border) {
@@ -123,7 +123,7 @@ START_TEST(linear_functions_are_exact) {
 }
 END_TEST
 
-// Barycentric coordinates in the one triangle that plain loops find.
+// Compares with barycentric interpolation in the triangle that a plain loop finds.
 START_TEST(interpolates_in_the_right_triangle) {
   Random random(2);
   const Patch patch = shaken_grid(random, waves);
@@ -179,7 +179,7 @@ START_TEST(extends_from_the_nearest_point_of_the_border) {
 }
 END_TEST
 
-// On edges, on nodes, inside and outside: to the bit.
+// Results are equal to the bit on edges, at nodes, inside and outside.
 START_TEST(the_same_however_distributed) {
   Random random(4);
   const Patch patch = shaken_grid(random, waves);
@@ -191,7 +191,7 @@ START_TEST(the_same_however_distributed) {
 }
 END_TEST
 
-// The value at a node is the one given there, whichever of its triangles it comes from.
+// The value at a node is the given one, independent of the triangle used.
 START_TEST(nodes_have_their_values) {
   Random random(5);
   const Patch patch = shaken_grid(random, waves);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a killed process leaves of a file goes when that is written next, and nothing else does.
+// The temporary file of a killed process is removed when the same file is written again; other
+// files stay.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -92,7 +93,7 @@ START_TEST(what_others_write_stays) {
   Writer other(folder.file("nodes.csv2"));
   other.kill();
   write(folder.file("nodes.csv"));
-  ck_assert_int_eq(folder.unfinished(), 1);  // of another file
+  ck_assert_int_eq(folder.unfinished(), 1);  // that of the other file
   const Writer alive(folder.file("nodes.csv"));
   write(folder.file("nodes.csv"));
   ck_assert_int_eq(folder.unfinished(), 2);

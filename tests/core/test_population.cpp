@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kSpacing = 0.05;
 
-// A hexagonal lattice whose bubbles are 1 / stretch of its spacing; the outer ones do not move.
+// Returns a hexagonal lattice whose bubbles have a size of its spacing over `stretch`. The outer
+// ones do not move.
 Set<2> lattice(double stretch) {
   return hexagonal_lattice(unit_box<2>(), kSpacing, kSpacing / stretch, 2.5 * kSpacing);
 }
@@ -28,7 +29,7 @@ START_TEST(perfect_lattices_stay) {
 }
 END_TEST
 
-// Whichever of the six around the hole are the sparsest, one new bubble comes into it, no second.
+// Exactly one bubble is inserted in a hole, for any overlap ratios of the six bubbles around it.
 START_TEST(a_hole_is_filled_once) {
   Random random(62);
   for (const double radius : {1.5, 1.7}) {
@@ -85,7 +86,8 @@ START_TEST(nodes_without_room_go_first) {
   const std::size_t hole = nearest_to<2>(set, {0.5, 0.5});
   const Point<2> x = set[hole].x;
   set.erase(set.begin() + static_cast<std::ptrdiff_t>(hole));
-  // Beside the hole: its going takes precedence over filling the hole, within three hops.
+  // A bubble beside the hole must be deleted. This takes precedence over filling the hole within
+  // three hops.
   const std::int64_t beside = set[nearest_to<2>(set, {x[0] + kSpacing, x[1]})].id;
   Freedom freedom;
   freedom.must_go = {beside};
@@ -95,7 +97,7 @@ START_TEST(nodes_without_room_go_first) {
     ck_assert_double_gt(pnpbs::distance<2>(set[nearest_to<2>(set, x)].x, x), 0);
     quick_assert(parent != beside);
   }
-  // Two side by side: one now, the other the next time.
+  // One of two adjacent bubbles that must be deleted is deleted now, the other at the next event.
   freedom.must_go.insert(set[nearest_to<2>(set, {x[0] + 2 * kSpacing, x[1]})].id);
   const Change<2> first = choose<2>(set, by_thresholds<2>(), freedom);
   ck_assert_uint_eq(first.deleted.size(), 1);
@@ -113,8 +115,8 @@ START_TEST(nothing_is_born_where_it_does_not_fit) {
 }
 END_TEST
 
-// The node on the right is no neighbour of the one in the middle, only a neighbour's, but it is in
-// the way of what would be born beside it.
+// The node on the right is not a neighbour of the central one, only of one of its neighbours. It
+// still lies too near to the insertion point.
 START_TEST(nothing_is_born_on_neighbours_of_neighbours) {
   const double d = 0.1;
   const auto fixed = [d](double x, double y, std::int64_t id) {
@@ -133,8 +135,8 @@ START_TEST(nothing_is_born_on_neighbours_of_neighbours) {
 }
 END_TEST
 
-// Beyond the free place, as far from it as that is allowed, lie nodes that are dense for d, as at a
-// small hole: what were born there would be one too many and go at once.
+// Nodes that are dense for d lie beyond the free point, at the smallest permitted distance, as at a
+// small hole. A node inserted there is surplus and is deleted at once.
 START_TEST(nothing_is_born_that_would_have_to_go) {
   const double d = 0.1, degree = std::acos(-1.0) / 180;
   Set<2> set{
@@ -151,8 +153,9 @@ START_TEST(nothing_is_born_that_would_have_to_go) {
 }
 END_TEST
 
-// Two octaves of d, one too loose by four per cent in its distances, the other as much too dense:
-// in each, so many are below or above its threshold as are missing or too many.
+// Two octaves of d: distances in one are four per cent too large, and in the other four per cent
+// too small. In each, the number of nodes beyond the threshold equals the number of missing or
+// surplus nodes.
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(64);
   PopulationRule rule = default_rule<2>();
@@ -194,7 +197,7 @@ START_TEST(thresholds_follow_the_mean_distance) {
     else
       ck_assert_double_eq(pair.insert_below, 0);
   }
-  // Near enough to the aim, or without one, nobody acts but for its own ratio.
+  // Close to the target, or without one, the thresholds stay at those of the rule.
   for (const auto& [aim, tolerance] : {std::pair{1.0, 0.05}, std::pair{0.0, 0.001}}) {
     rule.mean_distance = aim;
     const auto left = pnpbs::choose_thresholds<2>(*pnpbs::serial_communicator(), b.nodes, b.lists,
@@ -207,9 +210,9 @@ START_TEST(thresholds_follow_the_mean_distance) {
 }
 END_TEST
 
-// Many equal candidates: nobody within three hops of a winner wins as well.
+// No two of many equal candidates within three hops win.
 START_TEST(winners_are_far_apart) {
-  Set<2> set = lattice(1.2);  // every bubble is too lonely
+  Set<2> set = lattice(1.2);  // the overlap ratio of every bubble is too small
   PopulationRule rule = by_thresholds<2>();
   rule.min_gap = 0;
   const Change<2> change = choose<2>(set, rule);

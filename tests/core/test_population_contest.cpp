@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rules of the population control once more, as a search over all nodes, in plane and volume.
+// An independent implementation of population control as a search over all nodes, in the plane and
+// in space.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +19,8 @@ struct Candidate {
   Point<Dim> place{};
 };
 
-// Solves rows * u = right by elimination with pivots; false if the rows depend on each other.
+// Solves rows * u = right by elimination with pivoting. Returns false if the rows are linearly
+// dependent.
 template <int Dim>
 bool solve(std::array<Point<Dim>, Dim> rows, Point<Dim> right, Point<Dim>& u) {
   for (std::size_t c = 0; c < Dim; ++c) {
@@ -39,8 +41,8 @@ bool solve(std::array<Point<Dim>, Dim> rows, Point<Dim> right, Point<Dim>& u) {
   return true;
 }
 
-// The middle of the largest empty circle (sphere) through node i and Dim of its neighbours: where
-// the planes halfway to them meet. False if there is none, or the largest is wider than d.
+// Finds the centre of the largest empty circle (sphere) through node i and Dim of its neighbours.
+// Returns false if none exists, or if its radius exceeds d.
 template <int Dim>
 bool hole_by_search(const Set<Dim>& set, std::size_t i, double radius, Point<Dim>& middle) {
   const Point<Dim>& x = set[i].x;
@@ -96,9 +98,9 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
     result.removed = true;
   } else if (ratio < rule.insert_below) {
     if (!hole_by_search<Dim>(set, i, radius, result.place))
-      result.place = pnpbs::free_place<Dim>(own.x, own.d, around);  // away from all of them
+      result.place = pnpbs::free_place<Dim>(own.x, own.d, around);  // away from all neighbours
     if (!freedom.fits(result.place[0], result.place[1])) return result;
-    double there = 0;  // the new bubble's ratio
+    double there = 0;  // overlap ratio of the new bubble
     for (std::size_t j : within_hops<Dim>(set, i, 2, radius)) {
       const double gap = pnpbs::distance<Dim>(set[j].x, result.place);
       if (j != i && gap < rule.min_gap * 0.5 * (own.d + set[j].d)) return result;
@@ -110,7 +112,7 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
   return result;
 }
 
-// Two candidates this close may both act on the same place.
+// Two candidates within this number of hops may compete.
 constexpr int kHops = 3;
 template <int Dim>
 bool rivals(const Set<Dim>& set, const std::vector<Candidate<Dim>>& candidates, std::size_t i,
@@ -148,7 +150,7 @@ void expect_as_by_search(const Set<Dim>& set, const PopulationRule& rule, const 
   }
   ck_assert_uint_ge(expected.deleted.size() + expected.born.size(), min_actors);
 
-  // From another order in memory: the same, bit for bit.
+  // Another order in memory gives the same bits.
   Set<Dim> mixed = set;
   Random(61).shuffle(mixed);
   quick_assert(choose<Dim>(mixed, rule, freedom, radius) == change);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a finer level begins with, counted by Euler's formula: n nodes, b of them on the boundary of
-// a domain without holes, have 3 n - 3 - b edges, b of them on the boundary, and 2 n - b - 2
+// Start nodes of a finer level, counted by Euler's formula. On a domain without holes, n nodes with
+// b on the boundary have 3 n - 3 - b edges, b of which are on the boundary, and 2 n - b - 2
 // triangles.
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 
 void square(PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 1)); }
 
-// A square in which the bubbles rest.
+// A square in which the bubbles are at rest.
 struct Rested {
   LevelRun run;
   std::int64_t n, b;
@@ -42,7 +42,7 @@ IncomingNodes new_ones(const IncomingNodes& nodes) {
   return found;
 }
 
-// Is x in the middle between two of the nodes? By all pairs.
+// Returns whether x is the midpoint of two of the nodes, by a search over all pairs.
 bool halves_a_pair(const IncomingNodes& nodes, const P& x, double longest) {
   for (const IncomingNode& a : nodes) {
     if (a.id < 0 || pnpbs::distance<2>(a.position, x) > longest) continue;
@@ -61,7 +61,7 @@ START_TEST(half_the_spacing_halves_every_edge) {
   ck_assert_int_eq(nodes.size() - born.size(), level.n);
   for (const IncomingNode& node : born) {
     quick_assert(halves_a_pair(nodes, node.position, 0.05));
-    quick_assert(node.inner && node.d == 0);  // none is too many
+    quick_assert(node.inner && node.d == 0);  // none is to be thinned
   }
 }
 END_TEST
@@ -70,7 +70,7 @@ START_TEST(a_third_fills_triangles_too) {
   Rested level(constant(0.05));
   const IncomingNodes born =
       new_ones(pnpbs::refined(*level.run.level, *spacing_of(constant(0.05 / 3))));
-  // An edge that is short by a sixth is only halved: few.
+  // The few edges that are shorter by a sixth are only halved.
   const double edges = static_cast<double>(3 * level.n - 3 - 2 * level.b),
                triangles = static_cast<double>(2 * level.n - level.b - 2);
   ck_assert_double_le(static_cast<double>(born.size()), 2 * edges + triangles);
@@ -87,10 +87,10 @@ START_TEST(only_where_it_is_finer) {
     const IncomingNodes nodes = pnpbs::refined(*level.run.level, *spacing_of(constant(d)));
     ck_assert_int_eq(nodes.size(), level.n);
     ck_assert_uint_eq(new_ones(nodes).size(), 0);
-    // Those that were placed for a smaller d say so, to be thinned.
+    // Nodes placed for a smaller d carry it, so that they can be thinned.
     for (const IncomingNode& node : nodes) quick_assert((node.d > 0) == (d > 0.1));
   }
-  // Edges are their end's with the lesser id: so much is not sure beside the line.
+  // An edge belongs to its end with the smaller id, so counts near the line are uncertain.
   const IncomingNodes born = new_ones(pnpbs::refined(
       *level.run.level, *spacing_of([](double x, double) { return x < 0.5 ? 0.025 : 0.05; })));
   ck_assert_double_ge(static_cast<double>(born.size()),
@@ -99,7 +99,7 @@ START_TEST(only_where_it_is_finer) {
 }
 END_TEST
 
-// Within a leaf d grows by more than what tells that it has grown since the nodes were placed.
+// The growth of d within a leaf exceeds the threshold above which nodes are thinned.
 START_TEST(growth_of_d_thins_none) {
   const auto grows = [](double scale) {
     return [scale](double x, double y) { return scale * (0.02 + 0.1 * std::hypot(x, y)); };
@@ -111,14 +111,15 @@ START_TEST(growth_of_d_thins_none) {
 }
 END_TEST
 
-// Nodes that stay keep ids and places; the level made of them rests with about six neighbours each.
+// Nodes that stay keep their ids and positions. Nodes of the refined level have about six
+// neighbours each.
 START_TEST(a_refined_level_is_nearly_right) {
   Rested coarse(constant(0.05));
   LevelRun fine(square, constant(0.025));
   const IncomingNodes nodes = pnpbs::refined(*coarse.run.level, *spacing_of(constant(0.025)));
   const pnpbs::ImportedNodes taken = pnpbs::take(*fine.level, nodes, coarse.run.level->next_id);
   ck_assert_int_eq(taken.thinned, 0);
-  // The boundary is laid anew, at half of the spacing.
+  // The boundary is discretised again, at half the spacing.
   ck_assert_int_eq(fine.level->geometry.boundary_nodes(), 2 * coarse.b);
   ck_assert_int_eq(fine.level->owned_count() + taken.left_out,
                    coarse.n - coarse.b + (3 * coarse.n - 3 - 2 * coarse.b) + 2 * coarse.b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repair of the last defects: nodes that are one too many, and bad triangles.
+// Repair of the last defects: surplus nodes and bad triangles.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -23,7 +23,8 @@ namespace {
 const Build kSquare = [](pnpbs::PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
 constexpr double kD = 0.05;
 
-// The inner nodes of a lattice, and more of them, with ids from kMore on; then the boundary's.
+// Returns a level with the inner nodes of a lattice and additional nodes. The ids of the latter
+// begin with kMore, those of boundary nodes with kBoundary.
 constexpr std::int64_t kMore = 100000, kBoundary = 200000;
 LevelRun lattice_with(const std::vector<P>& more) {
   LevelRun fill(kSquare, constant(kD));
@@ -37,7 +38,8 @@ LevelRun lattice_with(const std::vector<P>& more) {
   return run;
 }
 
-// The middle of an edge of the lattice: from its node nearest to a point, about in that direction.
+// Returns the midpoint of a lattice edge: from the node nearest to a point, approximately in this
+// direction.
 P middle_of_edge(const P& near, double angle) {
   const LevelRun run = lattice_with({});
   const pnpbs::Nodes<2>& nodes = run.level->nodes;
@@ -60,7 +62,7 @@ std::int64_t nodes_added(const Level& level) {
   return count;
 }
 
-// The shape of a triangle by its angles.
+// Returns the shape measure of a triangle from its angles.
 double shape_of(const Triangle& t, const Places& places) {
   const P a = places.at(t[0]), b = places.at(t[1]), c = places.at(t[2]);
   const auto angle = [](const P& at, const P& u, const P& w) {
@@ -85,7 +87,7 @@ START_TEST(node_in_the_middle_of_an_edge_goes) {
 }
 END_TEST
 
-// The stars without the node are those of the lattice.
+// The stars after the removal are those of the lattice.
 START_TEST(stars_close_over_the_hole) {
   const LevelRun lattice = lattice_with({});
   LevelRun run = lattice_with({middle_of_edge({0.3, 0.4}, 0), middle_of_edge({0.6, 0.7}, 1.05)});
@@ -93,7 +95,7 @@ START_TEST(stars_close_over_the_hole) {
   const std::vector<std::int32_t> surplus = pnpbs::remove_surplus_nodes(run.level->nodes, stars);
   ck_assert_uint_eq(surplus.size(), 2);
   const auto triangles = [](const Level& level, const DelaunayStars& of) {
-    std::multiset<std::array<std::int64_t, 3>> all;  // from each corner
+    std::multiset<std::array<std::int64_t, 3>> all;  // once from each corner
     for (std::int64_t i = 0; i < level.nodes.count; ++i)
       of.for_simplices(i, [&](const DelaunayStars::Corners& others) {
         all.insert({level.nodes.id(i), level.nodes.id(others[0]), level.nodes.id(others[1])});
@@ -108,7 +110,7 @@ START_TEST(stars_close_over_the_hole) {
 }
 END_TEST
 
-// Two nodes on one edge are neighbours, and both have four.
+// Two additional nodes on one edge are neighbours, and both have four neighbours.
 START_TEST(neighbours_do_not_both_go) {
   const P middle = middle_of_edge({0.4, 0.5}, 0);
   LevelRun run = lattice_with({{middle[0] - kD / 6, middle[1]}, {middle[0] + kD / 6, middle[1]}});
@@ -121,7 +123,7 @@ START_TEST(neighbours_do_not_both_go) {
 }
 END_TEST
 
-// In the middle of four nodes on a square a node has four good triangles: it stays.
+// A node at the centre of a square of nodes has four good triangles and stays.
 START_TEST(good_node_with_four_neighbours_stays) {
   IncomingNodes nodes;
   const double d = 0.25;
@@ -157,12 +159,12 @@ START_TEST(shape_by_the_angles) {
 }
 END_TEST
 
-// No triangle that is bad gets worse, no good one bad, and nearly every worst one gets better.
+// No bad triangle gets worse, no good one becomes bad, and nearly every worst one improves.
 START_TEST(bad_triangles_get_better) {
   std::uint64_t seed = 160;
   for (const Shape& shape : shapes_to_finish()) {
     LevelRun run = distorted(shape.build, shape.d, ++seed, {});
-    pnpbs::sweep_and_repair(*run.level, 3);  // so that few are bad
+    pnpbs::sweep_and_repair(*run.level, 3);  // leaves few bad triangles
     run.renew_stars();
     const double bad = run.level->settings.repair.bad_below;
     const std::vector<Triangle> triangles = triangles_by_id(*run.level);
@@ -186,7 +188,7 @@ START_TEST(bad_triangles_get_better) {
 }
 END_TEST
 
-// It moves only nodes of bad triangles, and keeps them off the boundary.
+// The repair moves only nodes of bad triangles, and keeps them off the boundary.
 START_TEST(repair_leaves_the_rest_alone) {
   std::uint64_t seed = 170;
   for (const Shape& shape : shapes_to_finish()) {
@@ -213,8 +215,8 @@ START_TEST(repair_leaves_the_rest_alone) {
 }
 END_TEST
 
-// More triangles count as bad, and so more would bar the worst ones from getting better: they come
-// first.
+// A higher bound makes more triangles count as bad, which could block the improvement of the worst
+// ones. Therefore the worst ones are repaired first.
 START_TEST(a_higher_bound_costs_the_worst_nothing) {
   std::uint64_t seed = 190;
   for (const Shape& shape : shapes_to_finish()) {

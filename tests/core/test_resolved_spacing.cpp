@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing that resolves a shape, against walls, gaps and wedges whose thickness is known, and
-// what it is found by, against loops over all triangles and all sources.
+// The spacing that resolves a shape, against walls, gaps and wedges of known thickness. Its search
+// structures are compared with loops over all triangles and all sources.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,14 +37,14 @@ pnpbs::SizingField<3> resolved(const pnpbs::VolumeDomain& domain) {
   return field;
 }
 
-// Where the limit is `at_surface` all over a surface, `gap` away from it: sources are up to 1.5
-// times that limit wide, so at most 0.87 of it away from what they stand for.
+// Checks d at a distance `gap` from a surface with the constant limit `at_surface`. Sources are up
+// to 1.5 times that limit wide, so their points lie within 0.87 of it.
 void expect_near_surface(double d, double at_surface, double gap) {
   ck_assert_double_ge(d, std::min(kSpacing, at_surface + kGrowth * gap) - 1e-12);
   ck_assert_double_le(d, std::min(kSpacing, at_surface * (1 + 0.87 * kGrowth) + kGrowth * gap));
 }
 
-// How far x + t way goes until it crosses one of the triangles (Moeller and Trumbore).
+// Returns the smallest t for which x + t way lies on a triangle (Moeller and Trumbore).
 double first_crossing(const surfaces::Surface& s, const P& x, const P& way) {
   double first = 1;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
@@ -105,7 +105,8 @@ START_TEST(first_facets_on_the_way) {
 }
 END_TEST
 
-// Against all facets, to the bit: far away and near, on facets, and where these are needles.
+// Compares with a search over all facets, to the bit: far away, near and on facets, also for
+// needles.
 START_TEST(nearest_points) {
   Random random(5);
   for (const double thin : {1.0, 1e-5}) {
@@ -136,7 +137,7 @@ START_TEST(nearest_points) {
 }
 END_TEST
 
-// Half of its thickness on both of its sides, and more in the middle.
+// d is half of the thickness on both sides, and larger in the middle.
 START_TEST(a_plate) {
   constexpr double kThick = 0.06;
   pnpbs::VolumeDomain domain;
@@ -151,7 +152,7 @@ START_TEST(a_plate) {
 }
 END_TEST
 
-// A gap in a block is resolved by three quarters of its width; from there d grows.
+// d in a gap is three quarters of its width and grows from there.
 START_TEST(a_gap) {
   constexpr double kWide = 0.04;
   pnpbs::VolumeDomain domain;
@@ -167,7 +168,7 @@ START_TEST(a_gap) {
 }
 END_TEST
 
-// A block much thicker than d is left as it is.
+// A block much thicker than d does not change d.
 START_TEST(a_block) {
   pnpbs::VolumeDomain domain;
   domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
@@ -179,8 +180,8 @@ START_TEST(a_block) {
 }
 END_TEST
 
-// At the edge what its sides leave of room a d away, and never less; farther out half of the
-// thickness, if it is more.
+// At the edge, d is the thickness of the wedge at a distance d, and nowhere smaller. Farther out it
+// is half of the thickness if that is larger.
 START_TEST(a_wedge) {
   const double angle = std::acos(-1.0) / 9, room = 2 * std::sin(angle / 2);
   const double c = 2 * std::cos(angle), s = 2 * std::sin(angle);
@@ -192,7 +193,7 @@ START_TEST(a_wedge) {
   domain.check();
   const pnpbs::SizingField<3> spacing = resolved(domain);
   for (double r = 0; r < 1.5; r += 0.05) {
-    // On the bisector: the wall is as thick there as the way across is long.
+    // The thickness of the wall on the bisector equals the length of the segment across it.
     const P x{r * std::cos(angle / 2), r * std::sin(angle / 2), 0.5};
     const double d = resolved_at(spacing, x);
     const double at_surface = std::max(room * kSpacing, r * std::tan(angle) / 2);

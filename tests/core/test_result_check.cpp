@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The check of the results finds what is wrong, and says it: right results are spoilt by hand, each
-// time in one way.
+// The result check detects errors and describes them. Correct results are corrupted by hand, in one
+// way each time.
 #include <functional>
 #include <string>
 
@@ -13,7 +13,7 @@ using Placement = pnpbs::PlacementImpl<2>;
 
 namespace {
 
-// A square with a slit: some of its edges are of the boundary, with triangles on both sides.
+// Returns a square with a slit, whose edges have triangles on both sides.
 std::unique_ptr<Placement> small_placement() {
   auto domain = std::make_shared<pnpbs::PlaneDomain>();
   shapes::add_loop(*domain, shapes::rectangle(0, 0, 1, 1));
@@ -27,7 +27,7 @@ std::unique_ptr<Placement> small_placement() {
   return placement;
 }
 
-// A whole sphere, whose patch is laid.
+// Returns a whole sphere with its closing patch.
 std::unique_ptr<Placement> laid_sphere() {
   auto domain = std::make_shared<pnpbs::PlaneDomain>(pnpbs::StereographicChart(1, {0, 0, 1}));
   auto placement =
@@ -42,12 +42,12 @@ std::unique_ptr<Placement> laid_sphere() {
 
 const pnpbs::Nodes<2>& nodes_of(const Placement& placement) { return placement.level().nodes; }
 
-// To spoil them.
+// Returns the nodes for corruption.
 pnpbs::Nodes<2>& nodes_of(Placement& placement) {
   return const_cast<pnpbs::Nodes<2>&>(placement.level().nodes);
 }
 
-// The inner node nearest to a point.
+// Returns the inner node nearest to a point.
 std::int64_t node_near(const Placement& placement, const pnpbs::Point<2>& x) {
   const pnpbs::Nodes<2>& nodes = nodes_of(placement);
   std::int64_t nearest = -1;
@@ -58,7 +58,7 @@ std::int64_t node_near(const Placement& placement, const pnpbs::Point<2>& x) {
   return nearest;
 }
 
-// A neighbour in the star.
+// Returns a neighbour in the star.
 std::int64_t neighbour_of(const Placement& placement, std::int64_t i) {
   std::int64_t neighbour = -1;
   placement.level().stars.for_neighbours(i, [&](std::int64_t j) { neighbour = j; });
@@ -129,7 +129,7 @@ START_TEST(finds_a_boundary_node_moved_or_missing) {
 }
 END_TEST
 
-// Before the finish frees those in the margin of its patch, a whole sphere has all of them.
+// The check requires all nodes in the margin of the patch before the finish frees them.
 START_TEST(finds_a_node_of_a_patch_missing) {
   expect_check_to_say<2>(*laid_sphere(), [](Placement& p) -> std::vector<std::string> {
     pnpbs::Nodes<2>& nodes = nodes_of(p);
@@ -152,7 +152,7 @@ START_TEST(finds_a_list_that_lacks_a_neighbour) {
     std::int32_t n = 0;
     p.level().lists().for_neighbours(i, [&](std::int64_t j) { last = j, ++n; });
     const_cast<std::int32_t&>(block.entries[(n - 1) * pnpbs::kLanes + i % pnpbs::kLanes]) =
-        static_cast<std::int32_t>(nodes_of(p).count);  // the padding
+        static_cast<std::int32_t>(nodes_of(p).count);  // the index of the padding
     return {"adjacency list", id_text(p, i), id_text(p, last)};
   });
 }
@@ -185,7 +185,7 @@ START_TEST(finds_triangles_on_the_wrong_side_of_the_boundary) {
   expect_complaint([](Placement& p) -> std::vector<std::string> {
     auto& edges = const_cast<pnpbs::Boundary&>(p.level().geometry.boundary()).facets;
     for (pnpbs::BoundaryEdge& e : edges)
-      if (e.left_inside && e.right_inside) e.left_inside = false;  // the slit's
+      if (e.left_inside && e.right_inside) e.left_inside = false;  // edges of the slit
     return {"a triangle outside the domain"};
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time steps against the exact solution of a damped oscillator: one bubble between two fixed ones.
-// With a linear push that reaches far enough the force on it is exactly linear.
+// A linear push with a sufficient range exerts an exactly linear force.
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -18,7 +18,7 @@ using pnpbs::Motion;
 
 namespace {
 
-// Of const nodes nothing can be written.
+// Const nodes cannot be modified.
 using ConstNodes = const pnpbs::Nodes<3>;
 static_assert(std::is_assignable_v<decltype(std::declval<pnpbs::Nodes<3>>().x[0](0)), double>);
 static_assert(!std::is_assignable_v<decltype(std::declval<ConstNodes>().x[0](0)), double>);
@@ -63,7 +63,7 @@ struct Run {
 
 constexpr double kSpacing = 0.05, kHalf = 0.06, kStart = 0.04, kRange = 4, kDamping = 0.4;
 
-// The direction along which the three lie.
+// Returns the direction of the line through the three bubbles.
 template <int Dim>
 Point<Dim> direction() {
   Point<Dim> u;
@@ -83,9 +83,9 @@ Point<Dim> along(double s) {
   return x;
 }
 
-// The largest error of position and velocity, over the amplitude, after time 3 in n steps.
-// With y the distance from the middle, the two pushes add up to f = -2 y / (range d); in scaled
-// units y'' + c y' = d f.
+// Returns the largest error of position and velocity over the amplitude after time 3 in n steps.
+// With y the distance from the middle, the two pushes add up to f = -2 y / (range d). In scaled
+// units the equation is y'' + c y' = d f.
 template <int Dim>
 double oscillator_error(Scheme scheme, int n) {
   Run<Dim> run({{along<Dim>(-kHalf), kSpacing, 0, false},
@@ -122,7 +122,7 @@ void expect_order(Scheme scheme, double order, double error_at_16) {
   }
 }
 
-// Two bubbles pressed together: without a limit each would move by much more.
+// Two strongly compressed bubbles, which would move much farther without a limit.
 void expect_clamp(Scheme scheme) {
   const double d = 0.1;
   Run<2> run({{{0.5, 0.5}, d, 0}, {{0.503, 0.504}, d, 1}, {{0.503, 0.504}, 1e-9, 2, false}}, 1.7);
@@ -146,7 +146,7 @@ void expect_clamp(Scheme scheme) {
   ck_assert(run.bubbles.nodes.position(run.node(2)) == before[2]);
 }
 
-// The force on bubble i by the volume's law, as a sum over all others.
+// Returns the force on bubble i by the law for space, as a sum over all others.
 Point<3> force_on(const std::vector<Bubble<3>>& all, std::size_t i) {
   Point<3> force{};
   for (std::size_t j = 0; j < all.size(); ++j) {
@@ -159,7 +159,7 @@ Point<3> force_on(const std::vector<Bubble<3>>& all, std::size_t i) {
   return force;
 }
 
-// Velocity and position of one bubble after the volume's step of 0.6 with damping 0.2.
+// Advances one bubble by a step of 0.6 with damping 0.2, the scheme for space.
 void step_one(const Point<3>& force, const Bubble<3>& b, Point<3>& v, Point<3>& x) {
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -175,7 +175,7 @@ void step_one(const Point<3>& force, const Bubble<3>& b, Point<3>& v, Point<3>& 
 
 }  // namespace
 
-// Bubbles of all sizes, some of which do not move, and some of which are too fast.
+// Bubbles of all sizes, some of which are fixed and some too fast.
 START_TEST(volume_steps_as_one_bubble_after_the_other) {
   Random random(99);
   const SpacingFunction<3> d = [](const Point<3>& x) { return 0.05 + 0.1 * x[0]; };
@@ -217,7 +217,7 @@ END_TEST
 START_TEST(runge_kutta_is_of_fourth_order) { expect_order(Scheme::runge_kutta, 4, 1e-4); }
 END_TEST
 
-// Bubbles of any size swing alike in scaled units: x / d after the same time is the same.
+// Bubbles of any size oscillate alike in scaled units: x / d is equal at equal times.
 START_TEST(fine_and_coarse_bubbles_move_alike) {
   for (const Scheme scheme : {Scheme::damped, Scheme::predictor_corrector, Scheme::runge_kutta}) {
     double scaled[2];

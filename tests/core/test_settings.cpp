@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of a placement, and the settings that follow from them.
+// The options of a placement, and the settings derived from them.
 #include <string>
 
 #include "geometry/expect_error.hpp"
@@ -14,8 +14,8 @@ START_TEST(laws_and_options_agree) {
 }
 END_TEST
 
-// Where the default in space is another one, the help says so, with its value, and with that of the
-// best effort where that is another one again.
+// The help of an option must contain its default in space if that differs, and also the default
+// with effort=best if that differs again.
 START_TEST(helps_name_both_defaults) {
   const pnpbs::Options in_plane, in_space = in_plane.in(3);
   pnpbs::Options with_best_effort;
@@ -48,7 +48,7 @@ START_TEST(helps_name_both_defaults) {
 }
 END_TEST
 
-// Over all ranks there may be 2^40 nodes.
+// All ranks together may have 2^40 nodes.
 START_TEST(numbers_of_nodes) {
   pnpbs::Options options;
   options.set("max_nodes", "1099511627776");

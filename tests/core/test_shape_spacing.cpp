@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spacing that follows the shape: distances against loops over all segments and triangles,
+// A spacing that follows the shape: distances against loops over all segments and triangles,
 // curvature of circles, balls and cylinders, widths of channels, slabs and annuli, and growth.
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ void add_polygon(pnpbs::PlaneDomain& domain, const std::vector<double>& xy) {
   domain.add_polyline(CurveRole::boundary, true, std::ssize(xy) / 2, xy.data(), nullptr, 0);
 }
 
-// By trial: of all points of a segment, or of the triangle (a, b, c), in barycentric coordinates.
+// Reference distances: the distance from x to a segment.
 double to_segment(const Point<2>& a, const Point<2>& b, const Point<2>& x) {
   const Point<2> u{b[0] - a[0], b[1] - a[1]}, v{x[0] - a[0], x[1] - a[1]};
   const double t = std::clamp((u[0] * v[0] + u[1] * v[1]) / (u[0] * u[0] + u[1] * u[1]), 0.0, 1.0);
@@ -67,7 +67,8 @@ double to_segment(const Point<3>& a, const Point<3>& b, const Point<3>& x) {
   return pnpbs::length(pnpbs::shifted(v, -t, u));
 }
 
-// The foot of the perpendicular, where it lies in the triangle; or else the nearest of the edges.
+// Returns the distance to the foot of the perpendicular if it lies in the triangle, and to the
+// nearest edge otherwise.
 double to_triangle(const pnpbs::FacetCorners<3>& f, const Point<3>& x) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) least = std::min(least, to_segment(f[k], f[(k + 1) % 3], x));
@@ -135,7 +136,7 @@ START_TEST(distances_in_the_plane) {
 }
 END_TEST
 
-// To the circle itself, not to chords.
+// Distances are to the circle itself, not to its chords.
 START_TEST(distances_to_arcs) {
   pnpbs::PlaneDomain domain;
   domain.add_arc(CurveRole::boundary, {1, 2}, 3, 0, 2 * pi, 4);
@@ -199,7 +200,7 @@ START_TEST(curvature_of_circles) {
 }
 END_TEST
 
-// Of an ellipse at the ends of its axes, and none at the corners of a square.
+// The curvature of an ellipse at the ends of its axes; corners of a square have none.
 START_TEST(curvature_of_curves) {
   pnpbs::PlaneDomain ellipse, square;
   ellipse.add_curve(
@@ -277,7 +278,7 @@ START_TEST(width_of_a_slab) {
 }
 END_TEST
 
-// A tooth that comes near to a wall it does not stand over the middle of.
+// A tooth ends near a wall whose nearest vertices are far away.
 START_TEST(width_under_a_tooth) {
   pnpbs::PlaneDomain domain;
   add_polygon(domain, {0, 0, 10, 0, 10, 5, 7.2, 5, 7, 0.3, 6.8, 5, 0, 5});
@@ -289,7 +290,7 @@ START_TEST(width_under_a_tooth) {
 }
 END_TEST
 
-// Beside corners nothing is narrow, however finely the sides are divided.
+// Corners are not narrow, however finely the sides are divided.
 START_TEST(width_at_corners) {
   pnpbs::PlaneDomain square;
   std::vector<double> xy;
@@ -316,13 +317,14 @@ START_TEST(edges_of_the_input) {
 }
 END_TEST
 
-// Of triangles, and none where it had none.
+// d follows the edges of given surfaces. A ball has no edges of its own, so d near it follows from
+// growth.
 START_TEST(edges_of_surfaces) {
   pnpbs::VolumeDomain domain;
   domain.add_box({0, 0, 0}, {3, 4, 3}, 1);
   domain.add_ball({1.5, 2, 1.5}, 0.5, 2);
   const ShapeSpacing<3> spacing(index_of(domain), kEdge, {kGrowth, 0, 100});
-  const double least = (3 + 3 + std::sqrt(18.0)) / 3;  // of the triangles of a square side
+  const double least = (3 + 3 + std::sqrt(18.0)) / 3;  // triangles of a square side
   ck_assert_double_eq_tol(at(spacing, {1, 0, 1}), least, 1e-14);
   ck_assert_double_eq_tol(at(spacing, {1.5, 2, 1}), least + kGrowth * 2, 1e-14);
 }

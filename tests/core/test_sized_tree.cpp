@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The background tree of a domain: inside and outside, clearances and leaf sizes, against searches
-// over all boundary edges; and how inner nodes are kept off the boundary.
+// over all boundary edges; and keeping inner nodes off the boundary.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -43,7 +43,7 @@ struct Mapped {
   P end(const BoundaryEdge& e) const { return boundary.nodes[e.end].position; }
 };
 
-// How often the boundary, with the domain on its left, goes round x.
+// Returns the winding number of the boundary, with the domain on its left, around x.
 int winding_number(const Mapped& m, const P& x) {
   int winding = 0;
   for (const BoundaryEdge& e : m.boundary.facets) {
@@ -81,8 +81,8 @@ bool on_boundary(const Mapped& m, const P& x) {
   return false;
 }
 
-// Islands in lakes on islands, side by side and one in the other; on a coarse grid of numbers, so
-// that many points lie level with vertices, and a curve inside that bounds nothing.
+// Adds islands in lakes on islands, nested and side by side, and an inner curve. Coordinates are on
+// a coarse grid, so that many points are level with vertices.
 void add_nested(PlaneDomain& domain) {
   add_loop(domain, rectangle(-1, -1, 3, 2));
   for (int k = 1; k <= 6; ++k)
@@ -171,7 +171,7 @@ START_TEST(clearances) {
 }
 END_TEST
 
-// Edges near a point: all those that come that near are named.
+// All edges within the distance of a point are reported.
 START_TEST(edges_near_points) {
   const Mapped m(add_nested, constant(0.15));
   Random random(87);
@@ -218,7 +218,7 @@ START_TEST(leaf_sizes_follow_d) {
     ck_assert_double_le(side, 4 * min);
     ck_assert_double_le(min, graded.map.leaf_spacing(leaf) * (1 + 1e-12));
     ck_assert_double_le(graded.map.leaf_spacing(leaf), max * (1 + 1e-12));
-    // d grows by 0.2 per unit of length, so the samples tell it to within 0.2 of the diagonal.
+    // d grows by 0.2 per unit of length, so the samples determine it up to 0.2 times the diagonal.
     ck_assert_double_le(max - min, 0.2 * 1.42 * side);
     for (const double fx : {0.1, 0.6})
       for (const double fy : {0.3, 0.9}) {
@@ -228,7 +228,7 @@ START_TEST(leaf_sizes_follow_d) {
         ck_assert_double_le(d(x[0], x[1]), max + 0.2 * 1.42 * side);
       }
     if (graded.map.leaf_has_facets(leaf)) continue;
-    // No finer than needed: half as fine would not have done (least d of four such leaves).
+    // Leaves are no finer than necessary: a leaf of twice the width would violate the limit.
     ck_assert_double_gt(2 * side, 4 * (min - 0.2 * 1.42 * 2 * side));
     nodes += side * side / std::pow(graded.map.leaf_spacing(leaf), 2);
     constexpr int kFine = 8;
@@ -243,7 +243,7 @@ START_TEST(leaf_sizes_follow_d) {
 }
 END_TEST
 
-// There d would have the tree deeper than it can be.
+// Here d would require a deeper tree than is possible.
 START_TEST(finest_leaves_there_can_be) {
   const Mapped m([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 3, 2)); },
                  [](double x, double y) { return 1e-10 + 0.2 * std::hypot(x, y); });
@@ -265,7 +265,7 @@ START_TEST(too_many_nodes) {
                 "max_nodes allows 100000"},
                [&] { Mapped(square, constant(0.001), 100'000); });
   Mapped(square, constant(0.001), 1'160'000);
-  // Only a small part of the domain is to blame, and the message says where.
+  // Only a small part of the domain is too fine, and the message gives its location.
   expect_error(
       pnpbs::ErrorKind::spacing, {"spacing d = ", " near (0.2", ", 0.7", "max_nodes allows 50000"},
       [&] {
@@ -281,19 +281,20 @@ END_TEST
 
 namespace {
 
-// All edges, in order, as the nodes nearby have them.
+// Returns all edges, in order, as nodes have those near them.
 std::vector<std::int32_t> all_edges(const Mapped& m) {
   std::vector<std::int32_t> edges(m.boundary.facets.size());
   std::iota(edges.begin(), edges.end(), 0);
   return edges;
 }
 
-// In which chamber of the box of expect_walls_hold x lies.
+// Returns the chamber of the box in expect_walls_hold that contains x.
 int chamber(const P& x) { return (x[0] > 1) + 2 * (x[1] > 0.4 + 0.1 * x[0]); }
 
 }  // namespace
 
-// Four chambers between inner walls; whatever a node wants, it stays in its own, inside the box.
+// Inner walls divide the box into four chambers. A node stays in its own chamber, whatever its goal
+// is.
 START_TEST(walls_hold) {
   const Mapped m(
       [](PlaneDomain& p) {
@@ -320,7 +321,7 @@ START_TEST(walls_hold) {
       quick_assert(kept.position == to);
     else
       ++held;
-    // The chambers' corners have 84 degrees at least.
+    // The corners of the chambers have angles of at least 84 degrees.
     quick_assert(kept.clear);
   }
   ck_assert_int_gt(held, 5000);
@@ -335,14 +336,14 @@ START_TEST(clearance_is_reached_where_there_is_room) {
     return pnpbs::clear_position<2>(m.map, edges, from, to, d);
   };
   for (const double y : {0.3, 0.51, 0.777}) {
-    pnpbs::ClearPosition<2> kept = keep({0.06, y}, {0.01, y + 0.02});  // too near a side
+    pnpbs::ClearPosition<2> kept = keep({0.06, y}, {0.01, y + 0.02});  // too near to a side
     quick_assert(kept.clear);
     ck_assert_double_eq_tol(kept.position[0], 0.04, 1e-15);
     ck_assert_double_eq_tol(kept.position[1], y + 0.02, 1e-15);
-    kept = keep({0.06, y}, {-0.05, y});  // beyond it: back to where it was
+    kept = keep({0.06, y}, {-0.05, y});  // beyond the side: back to the old position
     quick_assert(kept.clear);
     quick_assert(kept.position == (P{0.06, y}));
-    kept = keep({0.06, y}, {0, y});  // onto it
+    kept = keep({0.06, y}, {0, y});  // onto the side
     quick_assert(kept.position == (P{0.06, y}));
   }
   const pnpbs::ClearPosition<2> corner = keep({0.05, 0.05}, {0.01, 0.02});
@@ -352,7 +353,7 @@ START_TEST(clearance_is_reached_where_there_is_room) {
 }
 END_TEST
 
-// A corner that points into the domain, and the end of an open curve: the node goes round them.
+// A corner that points into the domain, and the end of an open curve: the node moves around them.
 START_TEST(tips_are_kept_off) {
   const double d = 0.1;
   const Mapped m(
@@ -364,14 +365,14 @@ START_TEST(tips_are_kept_off) {
       constant(d));
   const std::vector<std::int32_t> edges = all_edges(m);
   for (const double y : {0.5, 0.2}) {
-    const double side = y == 0.5 ? -1 : 1;  // where there is room
+    const double side = y == 0.5 ? -1 : 1;  // the side with room
     const P to{0.503, y + side * 0.02};
     const pnpbs::ClearPosition<2> kept =
         pnpbs::clear_position<2>(m.map, edges, {0.46, y + side * 0.05}, to, d);
     quick_assert(kept.clear);
     const double gap = std::hypot(kept.position[0] - 0.5, kept.position[1] - y);
     ck_assert_double_eq_tol(gap, 0.4 * d, 1e-15);
-    // Straight away from the tip.
+    // The node moves straight away from the tip.
     ck_assert_double_eq_tol((kept.position[0] - 0.5) * (to[1] - y),
                             (kept.position[1] - y) * (to[0] - 0.5), 1e-15);
   }
@@ -395,7 +396,7 @@ START_TEST(no_room_in_wedges_and_gaps) {
     quick_assert(!kept.clear);
     quick_assert(wedge.map.inside(kept.position));
   }
-  // Gaps between two walls: pushed to 0.4 d off the one, a node must be 0.35 d off the other.
+  // A node between two walls that is pushed to 0.4 d off one wall must keep 0.35 d off the other.
   for (const double width : {0.068, 0.074, 0.076, 0.081}) {
     const Mapped gap([&](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, width)); }, constant(d));
     const pnpbs::ClearPosition<2> kept =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sizing field: its parts apply in their order, against the formula, and tell their places.
-// Work that takes long calls beat(), and what that throws ends it.
+// The sizing field: its parts apply in order, compared with the formula, and report their points.
+// Long computations call beat(), and an exception from it ends them.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -23,7 +23,7 @@ const Source kResolved{{0.2, 0.3, 0.4}, 0.02}, kReduced{{0.7, 0.6, 0.5}, 0.01};
 
 double raw(const P& x) { return 0.05 + 0.1 * x[0] + 0.05 * x[1]; }
 
-// A spacing with values of its own that it tells.
+// A spacing that reports a value of its own.
 class Told : public pnpbs::LocalSpacing<3> {
  public:
   void evaluate(std::int64_t n, const P* x, double* d) const override {
@@ -86,7 +86,8 @@ START_TEST(values_that_are_not_finite_stay) {
 }
 END_TEST
 
-// Of the source by both factors, as are the places that runs found; then those of the reductions.
+// The value of the source and the points found by runs are multiplied by both factors, those of the
+// reductions by one.
 START_TEST(places_are_told) {
   const pnpbs::SpacingHints<3> known = field().spacing_hints();
   ck_assert_int_eq(std::ssize(known.values), 1);

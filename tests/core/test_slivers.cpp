@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What finishes a volume's nodes: sweeps to the mean of the neighbours, and the repair of slivers,
-// with the triangulation that follows every node that goes elsewhere.
+// The finish in space: sweeps to the mean of the neighbours, and the repair of slivers with a
+// triangulation that follows every moved node.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -27,7 +27,7 @@ namespace {
 
 bool anywhere(std::int64_t, const Point<3>&) { return true; }
 
-// A lattice box, shaken, with its stars.
+// A lattice box with random displacements, and its stars.
 struct Shaken {
   Bubbles<3> b;
   pnpbs::KnownRegion<3> everywhere;
@@ -49,7 +49,7 @@ struct Shaken {
     stars.build({b.nodes, b.tree, b.buckets, b.lists, everywhere});
   }
 
-  // Of tetrahedra with a node that moves, by the present stars.
+  // Returns the smallest angle of tetrahedra with a node that moves, by the current stars.
   double least_angle() const {
     double least = 180;
     for (std::int64_t i = 0; i < b.nodes.count; ++i)
@@ -68,7 +68,7 @@ double volume(const Corners& x) {
   return pnpbs::dot(pnpbs::cross(u, v), pnpbs::difference(x[3], x[0])) / 6;
 }
 
-// Of positive orientation.
+// Returns the corners in positive orientation.
 Corners corners_of(const Ids& ids, const Places& places) {
   Corners x;
   for (std::size_t k = 0; k < 4; ++k) x[k] = places.at(ids[k]);
@@ -76,7 +76,8 @@ Corners corners_of(const Ids& ids, const Places& places) {
   return x;
 }
 
-// By all nodes: four times in the stars, no node in any sphere, no gap and no overlap.
+// Checks against all nodes that each tetrahedron is in four stars, no node is inside a sphere, and
+// tetrahedra neither overlap nor leave gaps.
 void expect_delaunay(const std::multiset<Ids>& tetrahedra, const Places& places, double space) {
   double sum = 0;
   for (auto t = tetrahedra.begin(); t != tetrahedra.end(); t = tetrahedra.upper_bound(*t)) {
@@ -105,12 +106,12 @@ START_TEST(known_angles) {
   const double h = std::sqrt(2.0) / 2;
   const Corners body_centred{Point<3>{-h, 0, 0}, Point<3>{h, 0, 0}, Point<3>{0, h, h},
                              Point<3>{0, -h, h}};
-  // Two angles are of 90 degrees, four of 60.
+  // Two angles are 90 degrees, four are 60.
   const pnpbs::SmallAngles below_61(61), below_59(59);
   quick_assert(below_61.any(body_centred) && !below_59.any(body_centred));
   ck_assert_double_eq_tol(below_61.penalty(body_centred), 4, 1e-9);
   ck_assert_double_eq(below_59.penalty(body_centred), 0);
-  // Flat: four angles of 0 and two of 180.
+  // A flat tetrahedron has four angles of 0 and two of 180.
   const Corners flat{Point<3>{0, 0, 0}, Point<3>{1, 0, 0}, Point<3>{1, 1, 0}, Point<3>{0, 1, 0}};
   ck_assert_double_eq_tol(pnpbs::SmallAngles(35).penalty(flat), 4 * 35 * 35, 1e-6);
 }
@@ -125,7 +126,7 @@ START_TEST(angles_of_any_tetrahedron) {
     for (const double angle : pnpbs::dihedral_angles(x))
       expected += std::pow(std::max(0.0, 35 - angle), 2);
     ck_assert_double_eq_tol(pnpbs::SmallAngles(35).penalty(x), expected, 1e-7 * (1 + expected));
-    std::swap(x[1], x[2]);  // turned over
+    std::swap(x[1], x[2]);  // with negative orientation
     ck_assert_double_eq_tol(pnpbs::SmallAngles(35).penalty(x), expected, 1e-7 * (1 + expected));
   }
 }
@@ -147,7 +148,7 @@ START_TEST(small_node_set_is_found) {
 }
 END_TEST
 
-// What is surely none is none in every order, and most tetrahedra are told apart by it.
+// surely_none is never wrong, for any order of the corners, and decides most tetrahedra.
 START_TEST(surely_no_small_angles) {
   Random random(2);
   const pnpbs::SmallAngles small(35);
@@ -174,7 +175,7 @@ START_TEST(surely_no_small_angles) {
 }
 END_TEST
 
-// ------------------------------------------------------------------ one node goes --------------
+// ------------------------------------------------------------------ one node moves -------------
 
 START_TEST(stars_follow_nodes) {
   Shaken s(6, 0.25);
@@ -207,7 +208,7 @@ START_TEST(stars_follow_nodes) {
   ck_assert_int_gt(made, 2000);
   ck_assert_int_gt(far, 3);
   ck_assert_int_lt(refused, far);
-  // And the neighbours.
+  // Neighbours are updated as well.
   const std::multiset<Ids> followed = in_stars(s.b.nodes, changes);
   std::map<std::int64_t, std::set<std::int64_t>> neighbours;
   for (std::int64_t i = 0; i < nodes.count; ++i)
@@ -226,7 +227,7 @@ END_TEST
 
 namespace {
 
-// As long as there are slivers. Returns how many nodes have moved.
+// Repairs until there are no slivers left. Returns how many nodes have moved.
 std::int64_t repair(pnpbs::SliverRepair& slivers) {
   std::int64_t moved = 0;
   for (std::int64_t round = 0; round < 300 && slivers.slivers() > 0; ++round)
@@ -257,7 +258,7 @@ START_TEST(no_sliver_is_left) {
 }
 END_TEST
 
-// The stars that a repair leaves are those found anew, in the same order.
+// The stars that a repair leaves equal newly built stars, in the same order.
 START_TEST(stars_that_are_left) {
   using volume_tetrahedra::Star;
   Shaken s(9, 0.25);
@@ -278,7 +279,7 @@ START_TEST(stars_that_are_left) {
 }
 END_TEST
 
-// Every round makes the sum of what small angles lack less, whatever goes at once.
+// Every round reduces the sum of the penalties, even if several nodes move at once.
 START_TEST(rounds_only_help) {
   Shaken s(9, 0.3);
   const pnpbs::SmallAngles small(kSlivers.penalty_below());
@@ -296,7 +297,7 @@ START_TEST(rounds_only_help) {
     return sum;
   };
   double last = penalty();
-  int several = 0;  // rounds in which more than one went
+  int several = 0;  // rounds in which more than one moved
   for (std::int64_t round = 0; round < 8; ++round) {
     pnpbs::SliverRepair slivers(s.b.nodes, s.stars, kSlivers, anywhere);
     const std::int64_t moved = one_round(slivers, round);
@@ -338,7 +339,7 @@ START_TEST(the_same_in_another_order) {
 }
 END_TEST
 
-// What the owner of its nodes has to tell the other one.
+// Returns the changes that the owner of the nodes sends to the other rank.
 std::vector<pnpbs::ChangedTetrahedron> news_of(const pnpbs::SliverRepair& slivers) {
   std::vector<pnpbs::ChangedTetrahedron> news;
   for (const std::int32_t i : slivers.moved_nodes()) {
@@ -348,7 +349,7 @@ std::vector<pnpbs::ChangedTetrahedron> news_of(const pnpbs::SliverRepair& sliver
   return news;
 }
 
-// Two that own one half each and tell the other what has changed.
+// Two ranks that own one half each, and exchange changes.
 START_TEST(the_same_from_two_halves) {
   Shaken whole(9, 0.3), low(9, 0.3), high(9, 0.3);
   const auto is_low = [](const Point<3>& x) { return x[1] < 4.9; };
@@ -391,7 +392,7 @@ START_TEST(sweeps_go_to_the_mean) {
   pnpbs::Field<3> proposed;
   pnpbs::reserve_field<3>(proposed, "proposed", nodes.count);
   pnpbs::sweep_to_means(nodes, s.stars, 0.6, proposed, [](std::int64_t, const Point<3>& x) {
-    return x[2] < 4;  // the goal
+    return x[2] < 4;  // decides by the goal
   });
   std::int64_t went = 0, stayed = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
@@ -412,7 +413,7 @@ START_TEST(sweeps_go_to_the_mean) {
 }
 END_TEST
 
-// Ranks find no means for ghosts, which their owners move.
+// Ranks do not move ghosts; their owners do.
 START_TEST(sweeps_move_owned_nodes_alone) {
   Shaken s(6, 0.2);
   pnpbs::Nodes<3>& nodes = s.b.nodes;

@@ -52,7 +52,7 @@ struct Limited {
 
 void add_square(PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 1)); }
 
-// A place of fine bubbles, with d rising steeply around it up to a plateau.
+// A region of fine bubbles, from which d rises steeply to a plateau.
 struct Pit {
   P middle;
   double min, slope, max;
@@ -60,7 +60,7 @@ struct Pit {
   double operator()(double x, double y) const {
     return std::min(max, min + slope * std::hypot(x - middle[0], y - middle[1]));
   }
-  // What a growth limit below the slope makes of it in a convex domain.
+  // Returns the limited d in a convex domain, for a growth limit below the slope.
   double limited(const P& x, double growth) const {
     return std::min(max, min + growth * pnpbs::distance<2>(x, middle));
   }
@@ -93,7 +93,7 @@ START_TEST(grids_are_linear_in_each_direction) {
 END_TEST
 
 START_TEST(grids_are_linear_only_between_neighbours) {
-  // A kink at every grid line: only the four values around a point count.
+  // Kinks at every grid line: only the four values around a point count.
   const GridSpacing<2> grid({3, 2}, {0, 0}, {1, 1}, {1, 2, 10, 3, 5, 20});
   ck_assert_double_eq(value_at<2>(grid, {0.5, 0}), 1.5);
   ck_assert_double_eq(value_at<2>(grid, {1.5, 0}), 6);
@@ -104,8 +104,8 @@ START_TEST(grids_are_linear_only_between_neighbours) {
 }
 END_TEST
 
-// Of a grid in space with noise of 1 % and a few low points, which samples of d may miss, those and
-// their slopes, found here by looking at all neighbours of each.
+// A grid in space with noise of 1 % and a few low points, which samples of d may miss. The hints
+// must contain these points and their slopes, compared with all neighbours of each.
 START_TEST(grids_know_their_low_points) {
   constexpr int kSize = 6;
   const P3 origin{1, 2, 3}, step{0.5, 1, 2};
@@ -158,7 +158,7 @@ START_TEST(grids_in_space_and_thin_ones) {
 END_TEST
 
 START_TEST(values_beside_a_hole_in_the_grid) {
-  // NaN marks what is not known; a point that does not need it is not spoilt by it.
+  // NaN marks unknown values. It affects only points that need it.
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const GridSpacing<2> grid({3, 2}, {0, 0}, {1, 1}, {1, 2, nan, 1, 2, nan});
   ck_assert_double_eq(value_at<2>(grid, {1, 0.5}), 2);
@@ -214,8 +214,8 @@ END_TEST
 
 // ------------------------------------------------------------------ growth limit ---------------
 
-// Never more than d itself, never less than the exact answer and not much more, and the growth
-// between any two points as allowed, but for 5 % of d.
+// The limited d never exceeds d, is never below the exact limit and not much above it. Between any
+// two points it grows at most at the limit, up to 5 % of d.
 START_TEST(growth_limit_of_pits) {
   for (const double slope : {0.225, 0.5}) {
     for (const double max : {0.03, 0.2}) {
@@ -240,7 +240,7 @@ START_TEST(growth_limit_of_pits) {
 }
 END_TEST
 
-// Beside a jump the exact answer is that of a line, wherever the leaves of the tree end.
+// The exact limit beside a jump is that of a line, whatever the position of the leaves.
 START_TEST(growth_limit_of_jumps) {
   constexpr double kFine = 0.004;
   for (const double jump : {0.5, 0.503, 0.561, 0.7499}) {
@@ -284,7 +284,7 @@ START_TEST(steepest_growth_of_slopes) {
   for (const double g : {0.05, 0.3, 1.0}) {
     const pnpbs::SteepestGrowth<2> even =
         steepest_of(add_square, [=](double x, double y) { return 0.02 + g * (0.6 * x + 0.8 * y); });
-    // Between samples to the east and to the north, where the slope is 1.4 / sqrt(2) of the whole.
+    // Slopes between samples to the east and to the north are 1.4 / sqrt(2) of the gradient.
     ck_assert_double_le(even.growth, g * (1 + 1e-9));
     ck_assert_double_ge(even.growth, 0.98 * g);
     const pnpbs::SteepestGrowth<2> cone = steepest_of(
@@ -297,7 +297,7 @@ START_TEST(steepest_growth_of_slopes) {
 }
 END_TEST
 
-// Wherever the leaves of the tree end; the place is told.
+// The growth is found for any position of the leaves, with its location.
 START_TEST(steepest_growth_of_jumps) {
   for (const double jump : {0.5, 0.503, 0.561, 0.7499}) {
     const pnpbs::SteepestGrowth<2> steepest =
@@ -308,7 +308,7 @@ START_TEST(steepest_growth_of_jumps) {
 }
 END_TEST
 
-// Two sides of a gap have nothing to do with each other, those of an inner curve share its nodes.
+// Growth is not measured across a gap, but across an inner curve, whose nodes both sides share.
 START_TEST(steepest_growth_of_two_sides) {
   const Build apart = [](PlaneDomain& p) {
     add_loop(p, rectangle(0, 0, 0.5, 1));
@@ -342,7 +342,7 @@ START_TEST(growth_limit_leaves_alone_what_grows_slowly) {
 }
 END_TEST
 
-// A fine source at a boundary node counts, too; and ways lead through the domain, not across gaps.
+// A fine source at a boundary node counts as well. Paths lead through the domain, not across gaps.
 START_TEST(growth_limit_goes_through_the_domain) {
   const Build horseshoe = [](PlaneDomain& p) {
     const std::vector<double> xy{0, 0, 1, 0, 1, 1, 0, 1, 0, 0.6, 0.8, 0.6, 0.8, 0.4, 0, 0.4};
@@ -351,7 +351,7 @@ START_TEST(growth_limit_goes_through_the_domain) {
   const double growth = 0.01, min = 0.004;
   const Limited limited(
       horseshoe, [=](double x, double y) { return x + y < 1e-3 ? min : 0.03; }, growth);
-  // From the lower left corner round the bend, 0.8 or so, and back.
+  // The path from the lower left corner around the bend, about 0.8, and back.
   const double bend = std::hypot(0.8, 0.4) + 0.2;
   for (const double x : {0.01, 0.2, 0.4}) {
     const double far = bend + 0.8 - x, near = std::hypot(x, 0.39);
@@ -361,7 +361,7 @@ START_TEST(growth_limit_goes_through_the_domain) {
 }
 END_TEST
 
-// d from many points of different fineness: against the least over all of them.
+// d from many sources of different fineness, against the minimum over all of them.
 START_TEST(growth_limit_of_many_sources) {
   struct Source {
     P x;
@@ -390,7 +390,7 @@ END_TEST
 
 namespace {
 
-// Straight or past corners of a rectangular hole, whichever is shortest.
+// The shortest path: straight, or past corners of a rectangular hole.
 class WaysAround {
  public:
   WaysAround(P low, P high)
@@ -413,7 +413,7 @@ class WaysAround {
   }
 
  private:
-  // Where the way is over both pairs of sides at once, it is in the hole.
+  // A segment crosses the hole if some part of it is between both pairs of sides.
   bool open(const P& a, const P& b) const {
     double begin = 0, end = 1;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -433,8 +433,8 @@ class WaysAround {
 
 }  // namespace
 
-// Behind a hole the way leads past its corners: never shorter, but for what a leaf or two cut off,
-// and not much longer. In sight of the source it is straight.
+// Paths behind a hole lead past its corners. They are not shorter, up to the width of a leaf or
+// two, and not much longer. They are straight in sight of the source.
 START_TEST(growth_limit_around_a_hole) {
   const P low{0.35, 0.2}, high{0.6, 0.7}, tip{0.2, 0.45};
   const WaysAround ways(low, high);
@@ -477,7 +477,8 @@ START_TEST(growth_limit_reports_bad_values) {
                        }),
                        0.1, 1000000);
   });
-  // What is bad later, where nobody has looked, stays and is seen then.
+  // A value that becomes invalid later, between the samples, is kept and detected by a later
+  // evaluation.
   bool broken = false;
   const pnpbs::SizingField<2> limited = limited_spacing<2>(
       pnpbs::serial_communicator(), line_of_sight(domain, *spacing_of(constant(0.1))),

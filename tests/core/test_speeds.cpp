@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The speeds by which a run ends, against a direct sum.
+// The speeds of the stop test, against a direct sum.
 #include <cmath>
 
 #include "level/speeds.hpp"
@@ -19,7 +19,7 @@ LevelRun square() {
   return run;
 }
 
-// Of the k-th inner node, in d per unit of time.
+// Returns the speed of the k-th inner node, in d per unit of time.
 double speed_of(int k) { return 0.001 * k; }
 
 int set_speeds(pnpbs::Nodes<2>& nodes) {
@@ -43,8 +43,8 @@ START_TEST(they_are_in_spacings) {
 }
 END_TEST
 
-// Being held off the boundary may push a node farther than any force, to and fro for ever: that
-// does not keep the bubbles from resting.
+// Keeping a node off the boundary may move it farther than any force, back and forth without end.
+// Such moves must not prevent the run from ending.
 START_TEST(none_is_faster_than_a_force_makes_it) {
   const LevelRun run = square();
   pnpbs::Nodes<2>& nodes = run.level->nodes;

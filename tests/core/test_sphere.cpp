@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chart of a sphere against angles and lengths in space, great circles, caps and their areas,
-// and d along the sphere: its growth, and the limit of that. How domains of each kind are measured.
+// The chart of a sphere against angles and lengths in space, great circles, caps and their areas; d
+// along the sphere, its growth and the limit of that; and measures of domains of each kind.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -62,8 +62,8 @@ START_TEST(there_and_back) {
 }
 END_TEST
 
-// Steps to the east and to the north in the chart are at right angles on the sphere, as long as
-// each other over the stretch, and turn left seen from outside.
+// Small steps to the east and to the north in the chart are orthogonal on the sphere, have the same
+// length over the stretch, and turn left as seen from outside.
 START_TEST(it_keeps_angles) {
   Random random(2);
   for (const StereographicChart& chart : charts()) {
@@ -114,14 +114,15 @@ START_TEST(ways_follow_great_circles) {
     for (std::size_t p = 0; p + 1 < way.size(); ++p) {
       const Point<3> begin = chart.on_sphere(way[p]), end = chart.on_sphere(way[p + 1]);
       quick_assert(std::fabs(pnpbs::dot(begin, normal)) < 1e-9);
-      // The straight segment of the chart leaves it by little beside its length.
+      // The straight segment of the chart deviates little from the great circle, compared with its
+      // length.
       const Point<3> middle = chart.on_sphere(pnpbs::middle_of<2>(way[p], way[p + 1]));
       quick_assert(std::fabs(pnpbs::dot(middle, normal)) <= 0.0014 * gap(begin, end));
     }
     some += way.size() > 10;
   }
   ck_assert_int_gt(some, 50);
-  // Without these points it would leave it far.
+  // A segment without intermediate points deviates much.
   const Point<2> u = chart.in_chart(from_degrees(0, 0)), v = chart.in_chart(from_degrees(90, 0));
   const Point<3> middle = chart.on_sphere(pnpbs::middle_of<2>(u, v));
   ck_assert_double_gt(std::fabs(middle[2]), 0.5);
@@ -137,10 +138,10 @@ START_TEST(areas_of_caps) {
     domain.check();
     const double cap = 2 * kPi * 9 * (1 - std::sin(latitude * kPi / 180));
     ck_assert_double_eq_tol(pnpbs::area_on_sphere(domain) / cap, 1, 1e-5);
-    // Every vertex that was given is a corner, and none that is on the way.
+    // Given vertices are corners; intermediate points are not.
     ck_assert_int_eq(domain.corners().size(), 3600);
   }
-  // As an outline seen from the other side: the rest of the sphere.
+  // Seen as an outline from the other side, the domain is the rest of the sphere.
   pnpbs::PlaneDomain rest(StereographicChart(1, from_degrees(0, 90)));
   std::vector<Point<3>> ring;
   for (int k = 0; k < 8; ++k) ring.push_back(from_degrees(45 * k, 80));
@@ -148,7 +149,7 @@ START_TEST(areas_of_caps) {
   rest.check();
   // The octagon around the pole, by l'Huilier's theorem.
   const double side = pnpbs::angle_between(ring[0], ring[1]), around = 10 * kPi / 180;
-  const double half = around + side / 2;  // of the perimeter of a triangle with the pole
+  const double half = around + side / 2;  // half the perimeter of a triangle with the pole
   const double octagon = 8 * 4 *
                          std::atan(std::tan((half - around) / 2) *
                                    std::sqrt(std::tan(half / 2) * std::tan((half - side) / 2)));
@@ -156,7 +157,7 @@ START_TEST(areas_of_caps) {
 }
 END_TEST
 
-// At all distances from the point that the chart lacks, so that some go around it.
+// Caps at all distances from the centre of projection, some of which contain it.
 START_TEST(caps_hold_what_is_near) {
   Random random(7);
   int around = 0;
@@ -178,7 +179,8 @@ START_TEST(caps_hold_what_is_near) {
         const double far = gap(chart.on_sphere(u), at) / length;
         quick_assert(cap.holds(u) || far > 1 - 1e-6);
         quick_assert(!cap.holds(u) || far < 1 + 1e-6);
-        // A box is met if a point of it is held, and not if all of it is clearly farther away.
+        // A cap meets a box if it holds a point of it, and does not if the whole box is clearly
+        // farther away.
         const double half = std::pow(10.0, random.between(-1, 0.5)) * length *
                             std::min(chart.stretch(u), chart.stretch(centre));
         const pnpbs::Box<2> box{{u[0] - half * random.between(0, 1), u[1] - half},
@@ -200,8 +202,8 @@ START_TEST(caps_hold_what_is_near) {
 }
 END_TEST
 
-// A circle in the chart is held if nothing inside of it is farther away, also where the smaller
-// part of the sphere is outside of it.
+// A circle in the chart is held if no point inside it is farther away, also if the smaller part of
+// the sphere is outside of it.
 START_TEST(caps_hold_circles) {
   Random random(8);
   int some = 0, large = 0;
@@ -221,7 +223,8 @@ START_TEST(caps_hold_circles) {
                      b = chart.on_sphere(corner[2]);
       const Point<3> normal =
           pnpbs::unit_vector(pnpbs::cross(pnpbs::difference(a, x), pnpbs::difference(b, x)));
-      // Behind the plane of the circle, seen from the middle of the sphere, or all but that.
+      // The inside is the part of the sphere behind the plane of the circle, or the rest of the
+      // sphere.
       const double plane = pnpbs::dot(normal, x);
       const double across = 2 * std::sqrt(std::max(0.0, radius * radius - plane * plane));
       if (std::fabs(plane) < 0.01 * radius || across > 1.7 * radius) continue;
@@ -230,7 +233,7 @@ START_TEST(caps_hold_circles) {
                    is_small);
       quick_assert(!SphereCap(chart, corner[0], 0.999 * across).holds_circle(corner[1], corner[2]));
       quick_assert(SphereCap(chart, corner[0], 1.9 * radius).holds_circle(corner[1], corner[2]));
-      // The point projected from is never inside.
+      // The centre of projection is never inside.
       quick_assert(pnpbs::dot(normal, chart.projection_centre()) <= plane);
       some += is_small;
       large += !is_small;
@@ -240,7 +243,7 @@ START_TEST(caps_hold_circles) {
 }
 END_TEST
 
-// A constant along the sphere does not grow there, whatever it does in the chart.
+// A constant d along the sphere does not grow there, although it does in the chart.
 START_TEST(growth_is_along_the_sphere) {
   Random random(6);
   const StereographicChart chart(2, {0, 0, -1});
@@ -270,7 +273,7 @@ Point<Dim> anywhere(Random& random) {
   return x;
 }
 
-// To the last bit: nodes in the plane and in space do not depend on this.
+// Expects equality to the bit: nodes in the plane and in space do not depend on the embedding.
 template <int Dim>
 void measures_as_coordinates_are(const Embedding<Dim>& embedding) {
   Random random(7);

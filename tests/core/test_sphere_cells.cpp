@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arcs, areas and circles on the unit sphere against known ones, also where they are small, and the
-// rings of nodes and triangles around a node.
+// Arcs, areas and circles on the unit sphere against known values, also for small ones, and the
+// rings of neighbours and triangles around a node.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,7 +25,7 @@ Point<3> on_unit_sphere(Random& random) {
   return {across * std::cos(turn), across * std::sin(turn), z};
 }
 
-// So far from a point, in a direction that is given by an angle.
+// Returns the point at the distance `way` from x, in the direction given by an angle.
 Point<3> beside(const Point<3>& x, double way, double angle) {
   const Point<3> any = std::fabs(x[2]) < 0.9 ? Point<3>{0, 0, 1} : Point<3>{1, 0, 0};
   const Point<3> u = pnpbs::unit_vector(pnpbs::cross(x, any)), v = pnpbs::cross(x, u);
@@ -58,7 +58,7 @@ START_TEST(arcs_and_areas) {
 }
 END_TEST
 
-// The error is that of the corners, not that over the size of the triangle.
+// The error is that of the corners, not that error over the size of the triangle.
 START_TEST(circles_go_through_the_corners) {
   Random random(3);
   for (int k = 0; k < 1000; ++k) {
@@ -72,7 +72,7 @@ START_TEST(circles_go_through_the_corners) {
 END_TEST
 
 START_TEST(angles_to_the_east) {
-  const Point<3> at{std::cos(0.7), 0, std::sin(0.7)};  // in the north
+  const Point<3> at{std::cos(0.7), 0, std::sin(0.7)};  // in the northern hemisphere
   const Point<3> north{-std::sin(0.7), 0, std::cos(0.7)};
   for (double angle = -3; angle < 3.1; angle += 0.5) {
     const Point<3> way{std::sin(angle) * north[0], std::cos(angle), std::sin(angle) * north[2]};
@@ -83,9 +83,9 @@ START_TEST(angles_to_the_east) {
 }
 END_TEST
 
-// A hexagon of triangles in any order, each turned in any way, and one without the last triangle.
+// A hexagon of triangles in any order and with rotated corners, and one without the last triangle.
 START_TEST(rings_are_in_order) {
-  const std::vector<std::int64_t> ids{50, 7, 9, 3, 8, 2, 6};  // node 0 in the middle
+  const std::vector<std::int64_t> ids{50, 7, 9, 3, 8, 2, 6};  // node 0 is the centre
   std::vector<pnpbs::StarRings::Triangle> triangles{{4, 5, 0}, {0, 1, 2}, {6, 1, 0},
                                                     {2, 3, 0}, {0, 5, 6}, {3, 4, 0}};
   const auto neighbours = [&] {

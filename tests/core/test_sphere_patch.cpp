@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values at nodes on a sphere: linear on triangles below it, extended from the border, and the same
-// however the triangles are distributed; against plain loops over all of them.
+// Values at nodes on a sphere: linear on the triangles below it, extrapolated from the border, and
+// independent of the distribution of the triangles. Results are compared with plain loops over all
+// triangles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,8 +32,8 @@ P on_sphere(const P& x) {
 
 P middle(const P& a, const P& b) { return on_sphere({a[0] + b[0], a[1] + b[1], a[2] + b[2]}); }
 
-// An octahedron, without the face that looks along (1, 1, 1), whose faces are cut in four three
-// times.
+// Returns an octahedron without the face in the direction (1, 1, 1), whose other faces are cut in
+// four three times.
 Patch seven_octants(double (*value)(const P&)) {
   pnpbs::SphereField field;
   field.points = {{kRadius, 0, 0},  {0, kRadius, 0},  {0, 0, kRadius},
@@ -83,14 +84,15 @@ double determinant(const P& a, const P& b, const P& c) {
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-// Of x = sum of parts times corners, by Cramer's rule; they are positive inside.
+// Returns the coefficients of x as a sum of the corners, by Cramer's rule. They are positive
+// inside.
 std::array<double, 3> parts_of(const Patch& patch, const Triangle& t, const P& x) {
   const P &a = node(patch, t[0]), &b = node(patch, t[1]), &c = node(patch, t[2]);
   const double whole = determinant(a, b, c);
   return {determinant(x, b, c) / whole, determinant(a, x, c) / whole, determinant(a, b, x) / whole};
 }
 
-// The value at x, or NaN where no triangle is above by more than rounding.
+// Returns the value at x, or NaN if no triangle contains it by more than rounding.
 double plain_value(const Patch& patch, const P& x) {
   for (const Triangle& t : patch.simplices) {
     const auto [a, b, c] = parts_of(patch, t, x);
@@ -103,7 +105,7 @@ double plain_value(const Patch& patch, const P& x) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// At the nearest of many places of all arcs of the border.
+// Returns the value at the nearest of many points on the arcs of the border.
 double plain_border_value(const Patch& patch, const P& x) {
   constexpr int kPlaces = 2000;
   double least = std::numeric_limits<double>::infinity(), value = 0;
@@ -151,8 +153,8 @@ START_TEST(interpolates_on_the_ray_and_extends_from_the_border) {
 }
 END_TEST
 
-// A transfer takes these: they make up the answer, and beyond the border the triangle behind it
-// goes on where it is known.
+// A transfer uses these weights. They reproduce the value; beyond the border, the triangle behind
+// it is extrapolated if it is known.
 START_TEST(weights_make_up_the_answer) {
   Random random(4);
   Patch patch = seven_octants(waves);
@@ -189,7 +191,7 @@ START_TEST(weights_make_up_the_answer) {
 }
 END_TEST
 
-// At 90 degrees from a triangle no ray meets its plane, and farther away only those backwards do.
+// At 90 degrees from a triangle no ray meets its plane, and farther away only backward rays do.
 START_TEST(weights_are_bounded_far_away) {
   Patch patch;
   constexpr double kSide = 0.1;
@@ -210,7 +212,7 @@ START_TEST(weights_are_bounded_far_away) {
 }
 END_TEST
 
-// Also at nodes and on edges, which belong to several triangles.
+// Equal results also at nodes and on edges, which belong to several triangles.
 START_TEST(the_same_however_distributed) {
   Random random(5);
   Patch patch = seven_octants(waves);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Delaunay stars against the constrained Delaunay triangulation of another library (CGAL).
+// Delaunay stars against the constrained Delaunay triangulation of CGAL.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -46,8 +46,8 @@ int place_in_circle(const Level& level, const Triangle& t, std::int64_t d) {
   return turn * pnpbs::in_circle(x(t[0]), x(t[1]), x(t[2]), x(d));
 }
 
-// Of the triangles beside t among `others`: does a corner lie exactly on the circle of t, and none
-// inside?
+// Returns whether a corner of an adjacent triangle in `others` lies exactly on the circle of t and
+// none lies inside.
 bool tied(const Level& level, const Triangle& t, const std::vector<Triangle>& others) {
   const auto in_t = [&](std::int64_t d) { return std::count(t.begin(), t.end(), d) > 0; };
   bool on_circle = false;
@@ -63,7 +63,8 @@ bool tied(const Level& level, const Triangle& t, const std::vector<Triangle>& ot
   return on_circle;
 }
 
-// The same triangles; where four or more nodes lie exactly on a circle, as many, on that circle.
+// Expects the same triangles. Where four or more nodes lie exactly on a circle, expects the same
+// number on that circle.
 void expect_reference(const Level& level, const std::string& what) {
   const std::vector<Triangle> ours = star_triangles(level), theirs = reference(level);
   std::vector<Triangle> ours_only, theirs_only;
@@ -83,7 +84,7 @@ void expect_reference(const Level& level, const std::string& what) {
   }
 }
 
-// From the fill and on: at the start, soon after, and when most has settled.
+// Checks the stars of the fill, soon after, and when most nodes have settled.
 void expect_stars(const std::string& what, const Build& build, const Plane& d,
                   std::int64_t min_nodes = 100) {
   LevelRun run(build, d);
@@ -112,7 +113,7 @@ void take_all(const LevelRun& run, const pnpbs::IncomingNodes<2>& nodes) {
                    static_cast<long long>(taken.left_out), static_cast<long long>(taken.thinned));
 }
 
-// Nodes anywhere, far too few or too many for d: nothing is as the lists would have it.
+// Nodes at random positions, far too few or too many for d, so that the lists are of no use.
 void expect_stars_of_scattered_nodes(const std::string& what, const Build& build, const Plane& d) {
   std::uint64_t seed = 70;
   for (const std::int64_t n : {0, 1, 2, 5, 30, 200, 3000}) {
@@ -143,7 +144,7 @@ START_TEST(small_shapes_with_a_jump) {
 }
 END_TEST
 
-// d larger than everything: few nodes but those of the boundary.
+// d is larger than the domain: there are few nodes besides those of the boundary.
 START_TEST(small_shapes_far_too_coarse) {
   for (const Shape& shape : small_shapes())
     expect_stars(std::string("coarse ") + shape.name, shape.build, constant(0.4), 3);
@@ -176,8 +177,8 @@ START_TEST(scattered_nodes) {
 }
 END_TEST
 
-// The triangle of the three nodes named is so flat that its circle reaches beyond all nodes, but
-// beyond the upper side, one long edge, nothing counts.
+// The triangle of the three nodes named is so flat that its circle reaches beyond all nodes.
+// Nothing beyond the upper side, one long edge, counts.
 START_TEST(flat_triangle) {
   LevelRun run([](PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 0.1)); },
                [](double, double y) { return y > 0.0999 ? 10 : 0.02; });
@@ -194,8 +195,9 @@ START_TEST(flat_triangle) {
 }
 END_TEST
 
-// Coarse bubbles close to where d jumps, and one fine bubble beyond a strip of empty buckets: too
-// small for the list of the coarse one opposite, but within the circle of its triangle.
+// Coarse bubbles lie close to a jump of d, and one fine bubble lies beyond a strip of empty
+// buckets. It is too small for the list of the coarse bubble opposite, but within the circle of its
+// triangle.
 START_TEST(fine_node_beyond_empty_buckets) {
   LevelRun run(add_square, [](double x, double) { return x < 0.5 ? 0.06 : 0.004; });
   pnpbs::IncomingNodes<2> nodes;
@@ -209,8 +211,8 @@ START_TEST(fine_node_beyond_empty_buckets) {
 }
 END_TEST
 
-// All circles hold four nodes or more, and the diagonals are just within, just beyond or exactly
-// at the reach of the lists.
+// All circles hold four or more nodes. The diagonals are just within, just beyond or exactly at the
+// reach of the lists.
 START_TEST(exact_grids) {
   const double h = 1.0 / 16;
   for (const double radius : {1.5, 1.7}) {
@@ -236,7 +238,7 @@ START_TEST(exact_grids) {
 }
 END_TEST
 
-// Ids decide ties, so every order of them must give stars that fit together.
+// Ids decide ties, so every order of the ids must give consistent stars.
 START_TEST(many_nodes_on_one_circle) {
   Random random(72);
   for (int trial = 0; trial < 20; ++trial) {
@@ -256,15 +258,15 @@ START_TEST(many_nodes_on_one_circle) {
 }
 END_TEST
 
-// Nodes that have been pushed into one corner may end next to each other to the last bit: flat
-// triangles whose circles rounding would make too small, or far too large.
+// Nodes that were pushed into one corner may end one unit in the last place apart. Rounding would
+// make the circles of their flat triangles too small or far too large.
 START_TEST(nodes_an_ulp_apart) {
   Random random(73);
   for (const double factor : {1.0, 25.0}) {
     LevelRun run(add_square, [&](double x, double) { return x < 0.52 ? factor * 0.012 : 0.012; });
     pnpbs::IncomingNodes<2> nodes;
     for (int pair = 0; pair < 60; ++pair) {
-      // With 25, close to the clearance of the coarse nodes, 0.12.
+      // The factor 25 places them close to the clearance of the coarse nodes, 0.12.
       const P x{0.12 + (pair % 2) * random.between(0, 0.3), 0.12 + 0.01 * pair};
       nodes.push_back({x, -1});
       nodes.push_back({{std::nextafter(x[0], 1.0), x[1]}, -1});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stars found before nodes moved: those kept and those found anew are together the ones that are
-// found with nothing known, in the same order, however far the nodes have gone.
+// Stars found before nodes moved. Kept stars and newly found ones together equal the stars built
+// from scratch, in the same order, for any displacement of the nodes.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -26,7 +26,7 @@ std::vector<Bubble<3>> shaken(const volume_box::Crystal& crystal, double by) {
   return bubbles;
 }
 
-// Nodes with lists, in any order at first.
+// Nodes with lists, in random order.
 struct Listed {
   Bubbles<3> b;
 
@@ -41,7 +41,7 @@ struct Listed {
   }
   VolumeStarInput input() const { return volume_tetrahedra::input_of(b, kEverywhere); }
   std::vector<char> owned() const { return owned_; }
-  // Those beyond this plane are another rank's.
+  // Assigns the nodes beyond this plane to another rank.
   void give_away(double beyond) {
     owned_.assign(static_cast<std::size_t>(b.nodes.count), 1);
     for (std::int64_t i = 0; i < b.nodes.count; ++i) {
@@ -66,10 +66,10 @@ struct Listed {
   std::vector<char> owned_;
 };
 
-// What there is to be taken: the bubbles are put, those beyond the plane are not ours, and stars
-// are found.
+// Places the bubbles, assigns those beyond the plane to another rank, builds the stars and returns
+// them as PreviousStars.
 PreviousStars taken(Listed& listed, const std::vector<Bubble<3>>& bubbles, double beyond,
-                    Random& random, std::uint64_t digest = 0) {
+                  Random& random, std::uint64_t digest = 0) {
   listed.put(bubbles, random);
   listed.give_away(beyond);
   VolumeStars stars;
@@ -90,7 +90,8 @@ struct Count {
   std::int64_t stars, found;
 };
 
-// Nodes move by up to so much, in each direction, and those beyond the plane are not ours.
+// Moves nodes by up to `moved_by` in each direction, assigns those beyond the plane to another
+// rank, and compares the stars.
 Count follow(double shaken_by, double moved_by, double beyond) {
   constexpr double kFar = 1e9;
   Random random(3);
@@ -105,7 +106,7 @@ Count follow(double shaken_by, double moved_by, double beyond) {
   listed.give_away(beyond);
   VolumeStarInput input = listed.input();
   Count count{std::ssize(bubbles), 0};
-  input.complete = [&](std::int64_t) {  // asked where a star is to be found
+  input.complete = [&](std::int64_t) {  // called where a star is to be found
 #pragma omp atomic
     ++count.found;
     return true;
@@ -123,7 +124,7 @@ Count follow(double shaken_by, double moved_by, double beyond) {
 START_TEST(little_moves) {
   for (const double way : {0.0, 0.001, 0.02}) {
     const Count count = follow(0.15, way, 1e9);
-    // The outer layers have open stars, which are found in any case.
+    // The outer layers have open stars, which are always searched.
     const std::int64_t kOpen = 6 * 2 * 10 * 10;
     ck_assert_int_lt(count.found, kOpen + (count.stars - kOpen) / 4);
   }
@@ -143,14 +144,14 @@ START_TEST(ties) {
 }
 END_TEST
 
-// Where some are another rank's now, stars beside these are found.
+// Stars beside nodes that moved to another rank are searched again.
 START_TEST(nodes_given_away) {
   for (const double beyond : {2.0, 5.0, -1.0}) follow(0.15, 0.02, beyond);
 }
 END_TEST
 
-// Where nodes are only in another order, stars are put back, open ones, too; but for those around
-// which some are not known any more.
+// Stars are restored, including open ones, if only the order of nodes has changed, except around
+// nodes that are not known any more.
 START_TEST(restore) {
   constexpr double kFar = 1e9, kBeyond = 5;
   Random random(9);
@@ -189,7 +190,7 @@ START_TEST(restore) {
 }
 END_TEST
 
-// Nodes may come and go.
+// Nodes may be removed and inserted.
 START_TEST(other_nodes) {
   Random random(5);
   const volume_box::Crystal crystal{8};
@@ -215,7 +216,7 @@ START_TEST(other_nodes) {
 }
 END_TEST
 
-// Stars of other nodes than these are not taken, so that nothing is kept that is not so.
+// Stars of other nodes are rejected, so that no wrong star is kept.
 START_TEST(stars_of_others) {
   Random random(7);
   const volume_box::Crystal crystal{6};

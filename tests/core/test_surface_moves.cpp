@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes on surfaces that go along them to mend slivers: what changes then, against stars of all
-// nodes made anew.
+// Nodes on surfaces that move along them to remove slivers: the changed stars, against stars built
+// from scratch.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,10 +26,10 @@ using volume_tetrahedra::places_by_id;
 
 namespace {
 
-constexpr double kUnit = 0x1p-6, kStep = 3 * kUnit;  // a cube's corners are six apart
+constexpr double kUnit = 0x1p-6, kStep = 3 * kUnit;  // the corners of a cube are six apart
 const pnpbs::KnownRegion<3> kEverywhere;
 
-// Is there one of the pierced cube's cubes just beside a place, in that direction?
+// Returns whether a cube of the pierced cube lies beside the point in this octant.
 bool solid_beside(const std::array<std::int64_t, 3>& place, unsigned octant) {
   std::array<std::int64_t, 3> cube;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -45,9 +45,9 @@ bool solid_beside(const std::array<std::int64_t, 3>& place, unsigned octant) {
 
 struct Lattice {
   std::vector<Bubble<3>> bubbles;
-  std::map<std::int64_t, int> axis;  // by id, of those in the middle of a side: at right angles
+  std::map<std::int64_t, int> axis;  // by id, for nodes inside a side: the axis orthogonal to it
 
-  // Nodes on sides are shaken along these.
+  // Nodes on sides are displaced along these.
   Lattice(double inner_shake, double side_shake) {
     Random random(24);
     for (std::int64_t i = 0; i <= 48; i += 3)
@@ -80,7 +80,7 @@ struct Lattice {
   }
 };
 
-// With the pierced cube as the domain.
+// A lattice with the pierced cube as domain.
 struct Pierced {
   Mapped domain;
   Lattice lattice;
@@ -130,7 +130,7 @@ struct Pierced {
     return {walk, rule(), {}, on_one_sheet};
   }
 
-  // Slivers with a node on a side, by the present stars.
+  // Counts slivers with a node on a side, by the current stars.
   std::int64_t slivers_at_sides() const {
     std::int64_t found = 0;
     for (std::int64_t i = 0; i < b.nodes.count; ++i)
@@ -204,7 +204,7 @@ START_TEST(stars_follow_nodes_on_surfaces) {
 }
 END_TEST
 
-// Free nodes may not help here, so those on the sides do.
+// Free nodes are not allowed to move here, so nodes on sides do.
 START_TEST(slivers_at_surfaces_are_mended) {
   Pierced p(0.25, 0.25);
   const auto nowhere = [](std::int64_t, const P&) { return false; };
@@ -230,7 +230,7 @@ START_TEST(slivers_at_surfaces_are_mended) {
 }
 END_TEST
 
-// Where walks end beside the surface, nodes are put onto it, or do not move at all.
+// Nodes whose walks end beside the surface are projected onto it, or do not move at all.
 START_TEST(nodes_are_settled_on_surfaces) {
   for (const bool found : {true, false}) {
     Pierced p(0.25, 0.25);
@@ -248,7 +248,7 @@ START_TEST(nodes_are_settled_on_surfaces) {
     ways.settle = [&](std::vector<pnpbs::AlongSurfaces::Place>& places) {
       for (pnpbs::AlongSurfaces::Place& place : places) {
         ++settled;
-        for (double& c : place.x)  // the places of surfaces are multiples of kUnit
+        for (double& c : place.x)  // coordinates on surfaces are multiples of kUnit
           if (std::fabs(c - 0x1p-12 - kUnit * std::round(c / kUnit)) < 1e-12) c -= 0x1p-12;
         place.facet = found ? 9 : -1;
       }
@@ -275,7 +275,8 @@ START_TEST(nodes_are_settled_on_surfaces) {
 }
 END_TEST
 
-// As long as others can mend it, nodes on surfaces stay; and always if nobody says how they go.
+// Nodes on surfaces stay as long as free nodes can remove the sliver, and also if there is no rule
+// for moving along surfaces.
 START_TEST(free_nodes_come_first) {
   Pierced p(0.25, 0), alone(0.25, 0);
   const auto anywhere = [](std::int64_t, const P&) { return true; };
@@ -293,7 +294,7 @@ START_TEST(free_nodes_come_first) {
 }
 END_TEST
 
-// Two that own one half each and tell the other what has changed, facets as well.
+// Two ranks that own one half each, and exchange changes including facets.
 START_TEST(the_same_from_two_halves) {
   Pierced whole(0.25, 0.25), low(0.25, 0.25), high(0.25, 0.25);
   for (std::int64_t i = 0; i < low.b.nodes.count; ++i) {

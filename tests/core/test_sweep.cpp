@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finishing sweeps: what they improve, and the guard against what they could spoil.
+// Finishing sweeps: their improvements, and the guard against worse triangles.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -21,7 +21,7 @@ double mean_quality(const std::vector<Triangle>& triangles, const Places& places
   return sum / static_cast<double>(triangles.size());
 }
 
-// To be swept with this guard, and not repaired.
+// Returns distorted nodes with settings for sweeps with this guard and without repairs.
 LevelRun sweep_only(const Shape& shape, std::uint64_t seed, double bad_below) {
   return distorted(shape.build, shape.d, seed, [&](pnpbs::Settings& s) {
     s.sweep.bad_below = bad_below;
@@ -29,7 +29,8 @@ LevelRun sweep_only(const Shape& shape, std::uint64_t seed, double bad_below) {
   });
 }
 
-// Triangles that are bad after as many sweeps over the same stars, and were better before.
+// Counts triangles that are bad after this number of sweeps over the same stars, and were better
+// before.
 std::int64_t spoilt(const Shape& shape, std::uint64_t seed, std::int64_t sweeps, double bad_below,
                     double limit) {
   LevelRun run = sweep_only(shape, seed, bad_below);
@@ -55,11 +56,11 @@ START_TEST(no_bad_triangle_gets_worse) {
       ck_assert_int_eq(spoilt(shape, ++seed, sweeps, limit, limit), 0);
       without_guard += spoilt(shape, seed, sweeps, -2, limit);
     }
-  ck_assert_int_gt(without_guard, 20);  // so there was something to guard against
+  ck_assert_int_gt(without_guard, 20);  // so the guard had an effect
 }
 END_TEST
 
-// Where all triangles are good, an inner node goes 0.6 of the way to the mean of its neighbours.
+// An inner node moves 0.6 of the way to the mean of its neighbours if all triangles are good.
 START_TEST(nodes_go_towards_the_mean) {
   const Plane d = constant(0.05);
   const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
@@ -96,7 +97,7 @@ START_TEST(nodes_go_towards_the_mean) {
 }
 END_TEST
 
-// No sweep moves a node by more than a tenth of d, across the boundary, or too near to it.
+// No sweep moves a node by more than 0.1 d, across the boundary, or too near to it.
 START_TEST(sweeps_move_a_little_and_keep_off) {
   std::uint64_t seed = 120;
   for (const Shape& shape : shapes_to_finish()) {

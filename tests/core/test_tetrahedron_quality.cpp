@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures of tetrahedra against the formulas for those whose are known.
+// Measures of tetrahedra against known values.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,7 +14,7 @@ using P = pnpbs::Point<3>;
 
 namespace {
 
-// Four of the corners of a cube that is two wide.
+// Four corners of a cube with side 2.
 constexpr TetrahedronCorners kRegular{P{1, 1, 1}, P{-1, -1, 1}, P{1, -1, -1}, P{-1, 1, -1}};
 // Two centres of neighbouring cells, and an edge of the square between them.
 constexpr TetrahedronCorners kBodyCentred{P{0, 0, 0}, P{0, 0, 2}, P{1, 1, 1}, P{1, -1, 1}};
@@ -25,7 +25,7 @@ std::array<double, 6> sorted_angles(const TetrahedronCorners& x) {
   return angles;
 }
 
-// Turned, stretched and shifted, with the corners in any order.
+// Returns a rotated, scaled and shifted copy with the corners in random order.
 TetrahedronCorners similar(TetrahedronCorners x, Random& random, double size) {
   const double phi = random.between(0, 6), psi = random.between(0, 6);
   const P shift{random.between(-9, 9), random.between(-9, 9), random.between(-9, 9)};
@@ -58,7 +58,7 @@ START_TEST(regular_tetrahedron) {
 }
 END_TEST
 
-// r_in = sqrt(2) / 4 and R = sqrt(5) / 4 of the cell's side: 3 r_in / R = 3 / sqrt(10).
+// r_in = sqrt(2) / 4 and R = sqrt(5) / 4 of the cell side, so 3 r_in / R = 3 / sqrt(10).
 START_TEST(tetrahedron_of_the_body_centred_lattice) {
   Random random(2);
   for (const double size : {1.0, 1e-9, 1e7}) {
@@ -72,7 +72,7 @@ START_TEST(tetrahedron_of_the_body_centred_lattice) {
 }
 END_TEST
 
-// Each edge's own angle: at the edges of the corner of a cube, and across from it.
+// The angle at each edge of the corner of a cube, and at the opposite edges.
 START_TEST(angles_by_edge) {
   const TetrahedronCorners corner{P{0, 0, 0}, P{1, 0, 0}, P{0, 1, 0}, P{0, 0, 2}};
   const std::array<double, 6> angles = pnpbs::dihedral_angles(corner);
@@ -83,7 +83,7 @@ START_TEST(angles_by_edge) {
                               std::acos(1.0 / 3) / degree,
                               std::acos(2.0 / 3) / degree,
                               std::acos(2.0 / 3) / degree};
-  // The normals: (2, 2, 1) / 3 of the oblique face, the axes of the others.
+  // The normal of the oblique face is (2, 2, 1) / 3, those of the others are the axes.
   for (std::size_t k = 0; k < 6; ++k) ck_assert_double_eq_tol(angles[k], expected[k], 1e-12);
 }
 END_TEST
@@ -94,13 +94,13 @@ START_TEST(turned_over) {
 }
 END_TEST
 
-// Four nodes nearly on one circle: angles near 0 at the sides and near 180 at the diagonals, or all
-// of this exactly; R stays what it is.
+// Four nodes nearly or exactly on a circle: angles are near 0 at the sides and near 180 at the
+// diagonals, and R stays accurate.
 START_TEST(slivers) {
   for (const double lift : {1e-3, 1e-6, 1e-9}) {
     const TetrahedronCorners x{P{1, 0, lift}, P{0, 1, -lift}, P{-1, 0, lift}, P{0, -1, -lift}};
     const std::array<double, 6> angles = sorted_angles(x);
-    // Half of each is the height over the distance from the side to the middle, sqrt(1 / 2).
+    // Half of each angle is the height over the distance from the side to the centre, sqrt(1 / 2).
     const double small = 2 * std::atan(lift * std::sqrt(2.0)) * 180 / std::acos(-1.0);
     for (std::size_t k = 0; k < 4; ++k) ck_assert_double_eq_tol(angles[k], small, 1e-6 * small);
     const double large = 180 - 2 * std::atan(2 * lift) * 180 / std::acos(-1.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The graph of leaves, the tree of boxes and the cells around a rank, in plane and volume, against
+// The graph of leaves, the tree of boxes and the cells near a rank, in 2 and 3 dimensions, against
 // all pairs.
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@ namespace {
 
 using Indices = std::vector<std::int32_t>;
 
-// Between the nearest points of two boxes, by projecting one's middle on the other and back: the
-// nearest points of boxes along the axes are found axis by axis.
+// Returns the distance of two boxes, by projecting the centre of one on the other and back, axis by
+// axis.
 template <int Dim>
 double gap_between(const Box<Dim>& a, const Box<Dim>& b) {
   Point<Dim> in_a, in_b;
@@ -31,7 +31,7 @@ double gap_between(const Box<Dim>& a, const Box<Dim>& b) {
 
 // ------------------------------------------------------------------ leaves ---------------------
 
-// From leaves 1/64 of the root wide to such that are half of it.
+// Returns a tree with leaves from 1/64 to 1/2 of the width of the root.
 template <int Dim>
 pnpbs::BackgroundTree<Dim> graded_tree() {
   Bubbles<Dim> b;
@@ -43,7 +43,7 @@ pnpbs::BackgroundTree<Dim> graded_tree() {
   return b.tree;
 }
 
-// Linked are those of which one reaches the other, and each to itself.
+// Expects that leaves are linked if one reaches the other, and each to itself.
 template <int Dim>
 void expect_links(const pnpbs::BackgroundTree<Dim>& tree, const std::vector<double>& reach) {
   pnpbs::LeafGraph<Dim> graph;
@@ -71,7 +71,8 @@ void expect_leaf_graphs() {
   ck_assert_int_gt(tree.leaf_count(), 100);
   Random random(81);
   const auto leaves = static_cast<std::size_t>(tree.leaf_count());
-  // As far as each is wide; at random, with some that reach nobody; only to those that touch.
+  // Reaches: the width of each leaf; random, some of them zero; and so small that only touching
+  // leaves are linked.
   std::vector<double> widths(leaves), any(leaves), touching(leaves, 1e-9);
   for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
     widths[leaf] = 1.01 * tree.cell_side(tree.leaf_cell(static_cast<std::int32_t>(leaf)));
@@ -120,7 +121,7 @@ void expect_boxes_at(const std::vector<Box<Dim>>& boxes, const pnpbs::BoxTree<Di
   std::sort(near.begin(), near.end());
   quick_assert(holding == expected_holding);
   quick_assert(near == expected_near);
-  // The nearest one, with a limit that shrinks on the way.
+  // Finds the nearest box, with a limit that shrinks during the search.
   double nearest = std::numeric_limits<double>::infinity();
   tree.for_near(
       x, [&] { return nearest; },
@@ -138,19 +139,19 @@ void expect_box_queries() {
     const pnpbs::BoxTree<Dim> tree(boxes);
     for (int trial = 0; trial < 400; ++trial) {
       Point<Dim> x = random.point<Dim>({pnpbs::box_around<Dim>({}, 0.2).low, unit_box<Dim>().high});
-      // A corner of a box, which it holds.
+      // The corner of a box, which belongs to it.
       if (trial % 5 == 0 && n > 0) x = boxes[static_cast<std::size_t>(trial) % n].high;
       expect_boxes_at<Dim>(boxes, tree, x, 0.15 * random.between(0, 1));
     }
   }
 }
 
-// Every box lies in one of the cover, which is not much more than was asked for.
+// Expects that every box lies in one of the cover, whose size is not much more than requested.
 template <int Dim>
 void expect_cover() {
   Random random(83);
   std::vector<Box<Dim>> boxes = random_boxes<Dim>(random, 500, 0.03);
-  constexpr std::size_t kLong = Dim - 1;  // by a factor of 8
+  constexpr std::size_t kLong = Dim - 1;  // longer by a factor of 8
   for (Box<Dim>& box : boxes) {
     box.low[kLong] *= 8;
     box.high[kLong] *= 8;
@@ -163,15 +164,15 @@ void expect_cover() {
       quick_assert(std::any_of(cover.begin(), cover.end(), [&](const Box<Dim>& c) {
         return lies_in<Dim>(box.low, c) && lies_in<Dim>(box.high, c);
       }));
-    // They are cut where they are longest.
+    // Boxes are cut along their longest side.
     for (const Box<Dim>& c : cover)
       quick_assert(c.high[kLong] - c.low[kLong] < (many == 1 ? 5 : 2));
   }
 }
 
-// ------------------------------------------------------------------ cells near a rank's --------
+// ------------------------------------------------------------------ cells near those of a rank -
 
-// Cells with the largest d in them, as wide as they are over four; some with none of the domain.
+// Cells with a largest d of a quarter of their width. Some lie outside the domain.
 template <int Dim>
 pnpbs::PartitionCells<Dim> cells_of(const pnpbs::BackgroundTree<Dim>& tree, Random& random) {
   std::vector<pnpbs::PartitionCell<Dim>> cells;
@@ -183,7 +184,8 @@ pnpbs::PartitionCells<Dim> cells_of(const pnpbs::BackgroundTree<Dim>& tree, Rand
   return {tree.cell_box(0), cells};
 }
 
-// Own cells, and those that have a bubble of ours within their way or are within the way of one.
+// Expects own cells, cells with an own bubble within their reach, and cells within the reach of an
+// own bubble.
 template <int Dim>
 void expect_cells_near_own(const pnpbs::PartitionCells<Dim>& cells, int rank,
                            const std::vector<std::int32_t>& owner, int hops, double reach) {
@@ -209,12 +211,12 @@ void expect_cells_near_ranks() {
   const pnpbs::PartitionCells<Dim> cells = cells_of(tree, random);
   ck_assert_int_eq(cells.count(), tree.leaf_count());
   constexpr int kRanks = 7;
-  std::vector<std::int32_t> in_rows, anywhere;  // as a partition would cut; and torn apart
+  std::vector<std::int32_t> in_rows, anywhere;  // contiguous, as a partition would be; and random
   for (std::int32_t c = 0; c < cells.count(); ++c) {
     in_rows.push_back(kRanks * c / cells.count());
     anywhere.push_back(static_cast<std::int32_t>(random.below(kRanks)));
   }
-  for (int rank = 0; rank <= kRanks; ++rank)  // the last has nothing
+  for (int rank = 0; rank <= kRanks; ++rank)  // the last has no cells
     for (const int hops : {1, 3})
       for (const std::vector<std::int32_t>& owner : {in_rows, anywhere})
         expect_cells_near_own<Dim>(cells, rank, owner, hops, 0.07);

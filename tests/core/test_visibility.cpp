@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The adjacency lists of a domain: all pairs within the radius that no boundary separates.
+// The adjacency lists in a domain: all pairs within the radius that no boundary separates.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -28,14 +28,15 @@ class Walls {
     close_ = 1e-9 * (box.high[0] - box.low[0]);
   }
 
-  // Ways from x are asked for next, none longer than this.
+  // Prepares queries for segments from x that are at most `longest` long.
   void stand_at(const P& x, double longest) {
     near_.clear();
     for (const BoundaryEdge& e : level_.geometry.boundary().facets)
       if (gap(at(e.begin), at(e.end), x) < longest + 2 * close_) near_.push_back(e);
   }
 
-  // Blocked by an edge that is crossed or by a piece of the way outside; unclear where it touches.
+  // Returns blocked if the segment crosses an edge or partly lies outside, and unclear if it
+  // touches an edge.
   Way between(const P& x, const P& y) const {
     bool touches = false;
     for (const BoundaryEdge& e : near_) {
@@ -152,7 +153,8 @@ START_TEST(shorelines_separate) {
 }
 END_TEST
 
-// Ways that meet a boundary node exactly: through a wall, along one, past its end, past a corner.
+// Segments that meet a boundary node exactly: through a wall, along one, past its end, past a
+// corner.
 START_TEST(ways_through_boundary_nodes) {
   const auto listed = [](const Build& build, const P& x, const P& y) {
     LevelRun run(build, constant(0.2));
@@ -184,8 +186,9 @@ START_TEST(ways_through_boundary_nodes) {
       },
       left, right));
   quick_assert(listed(with_wall({0.5, 0.125, 0.5, 0.5}), left, right));  // past an end
-  quick_assert(listed(with_wall({0.4375, 0.25, 0.5, 0.5, 0.5625, 0.25}), left, right));  // a corner
-  // An island whose two corners lie on the way.
+  // Past a corner.
+  quick_assert(listed(with_wall({0.4375, 0.25, 0.5, 0.5, 0.5625, 0.25}), left, right));
+  // An island with two corners on the segment.
   quick_assert(!listed(
       [](PlaneDomain& domain) {
         hard_shapes::add_square(domain);
@@ -196,8 +199,8 @@ START_TEST(ways_through_boundary_nodes) {
 }
 END_TEST
 
-// Nodes driven against the boundary, far between two events: none comes nearer than it may, whether
-// its edges are tested in a step or not.
+// Nodes are driven against the boundary, far between two events. None comes closer than permitted,
+// whether its edges are tested in a step or not.
 START_TEST(nodes_stay_off_the_boundary) {
   LevelRun run([](PlaneDomain& p) { shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1)); },
                constant(0.1), {{"event_interval", "100"}});
@@ -220,8 +223,8 @@ START_TEST(nodes_stay_off_the_boundary) {
 }
 END_TEST
 
-// How far a node may come until the next event decides whether the boundary concerns it. Where
-// options change that, nodes count from where they are.
+// The distance that a node can move before the next event determines whether the boundary is tested
+// for it. If options change this distance, it counts from the current position.
 START_TEST(changed_options_count_from_here) {
   LevelRun run([](PlaneDomain& p) { shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1)); },
                [](double x, double) { return 0.03 + 0.04 * x; }, {{"event_interval", "100"}});

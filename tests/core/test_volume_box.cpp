@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A shaken body-centred cubic lattice comes to rest as the lattice again, bit for bit the same with
-// any number of threads and from any order in memory. The number of threads is fixed once per
-// process, so the program runs itself: `test_volume_box <threads> <seed> <file>` does a run, from
-// an order that the seed shuffles, and writes where all nodes end.
+// A body-centred cubic lattice with random displacements returns to the lattice, with the same bits
+// for any number of threads and any order in memory. The number of threads is fixed per process, so
+// the program starts itself: `test_volume_box <threads> <seed> <file>` performs a run from an order
+// that the seed shuffles, and writes the final positions.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,8 +18,8 @@ namespace {
 
 std::string program;
 
-constexpr volume_box::Crystal kCrystal{WHEN_SANITIZED(12, 24)};  // of 24: 29 449 nodes
-constexpr double kShaken = 0.3;                                  // d, at most
+constexpr volume_box::Crystal kCrystal{WHEN_SANITIZED(12, 24)};  // with 24 cells: 29 449 nodes
+constexpr double kShaken = 0.3;                                  // largest displacement, in d
 constexpr int kSteps = 200;
 
 // All positions, by id.
@@ -38,7 +38,7 @@ Places relax(int seed) {
   return places;
 }
 
-// In a process of its own, without Check: failures end it.
+// Runs in a process of its own, without Check; failures end it.
 int do_run(const char* threads, const char* seed, const char* name) {
   pnpbs::start_kokkos(std::atoi(threads), 1, [] {});
   const Places places = relax(std::atoi(seed));
@@ -54,7 +54,8 @@ Places run(int threads, int seed) {
   const std::string name = PNPBS_TEST_WORK_DIR "/volume_box_" + number + "_" + shuffled;
   const pid_t child = fork();
   if (child == 0) {
-    setenv("OMP_WAIT_POLICY", "passive", 0);  // on a busy machine others would wait for the cores
+    // Spinning threads block others on a busy machine.
+    setenv("OMP_WAIT_POLICY", "passive", 0);
     execl(program.c_str(), program.c_str(), number.c_str(), shuffled.c_str(), name.c_str(),
           static_cast<char*>(nullptr));
     _exit(127);
@@ -86,7 +87,7 @@ START_TEST(shaken_lattice_comes_to_rest) {
   std::vector<Bubble<3>> shaken = volume_box::sites(kCrystal);
   volume_box::shake(shaken, kShaken);
   const volume_box::Deviation before = volume_box::deviation_from_sites(shaken, kCrystal);
-  ck_assert_double_eq_tol(before.mean, 0.75 * kShaken, 0.01 * kShaken);  // of a full ball
+  ck_assert_double_eq_tol(before.mean, 0.75 * kShaken, 0.01 * kShaken);  // mean over a ball
 
   const Places places = run(1, 0);
   const volume_box::Deviation after =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A volume's domain on its background tree: inside and outside, facets near a point, the nearest
-// point, and how the tree follows d; against whole numbers and loops over all triangles.
+// A volume's domain in its background tree: inside and outside, facets near a point, the nearest
+// point, and the refinement by d; against integers and loops over all triangles.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,7 +24,7 @@ using Spacing = VolumeSpacing;
 
 namespace {
 
-// What points into itself stays where it is.
+// Objects that point into themselves can be neither copied nor moved.
 using pnpbs::ResolvedVolume;
 static_assert(!std::is_copy_constructible_v<ResolvedVolume> &&
               !std::is_move_constructible_v<ResolvedVolume> &&
@@ -32,7 +32,7 @@ static_assert(!std::is_copy_constructible_v<ResolvedVolume> &&
               !std::is_move_assignable_v<ResolvedVolume>);
 
 Surface fine_sphere() { return scaled(surfaces::sphere(4, 900), 0x1p-10); }
-// Its triangles in no order, so that of equally near ones any may be met first.
+// Triangles are in random order, so that any of equally near ones may be found first.
 Surface block() {
   Surface s = scaled(surfaces::pierced_cube(), 0x1p-4);
   Random(0).shuffle(s.triangles);
@@ -40,7 +40,7 @@ Surface block() {
 }
 Surface oblique_block() { return scaled(surfaces::sheared(surfaces::pierced_cube()), 0x1p-6); }
 
-// Anywhere around the surface, and where one decision after the other is a tie: on triangles and in
+// Points anywhere around the surface, and points for which predicates are ties: on triangles and in
 // their planes, on the lines of their edges, and level with corners.
 std::vector<Place> places_around(const Surface& s, int many, std::uint64_t seed) {
   Random random(seed);
@@ -112,8 +112,9 @@ START_TEST(sides_of_pierced_blocks) {
 }
 END_TEST
 
-// Every way between two places crosses an even number of triangles if both are on the same side:
-// through corners, along edges and in the planes of triangles too. Here all decisions are ties.
+// Every segment between two points crosses an even number of triangles if both are on the same
+// side, also through corners, along edges and in the planes of triangles, where all predicates are
+// ties.
 START_TEST(ways_cross_as_often_as_they_should) {
   for (const Surface& s : {block(), oblique_block(), fine_sphere()}) {
     std::vector<pnpbs::FacetCorners<3>> facets;
@@ -134,7 +135,7 @@ START_TEST(ways_cross_as_often_as_they_should) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       const auto j = static_cast<std::size_t>(random.below(std::ssize(places)));
       expect_parity(places[i], places[j], inside[i] != inside[j]);
-      // To the other side of a corner, and of the middle of an edge.
+      // Segments through a corner, and through the midpoint of an edge.
       const auto t = static_cast<std::size_t>(random.below(std::ssize(s.triangles)));
       const Place &a = s.corner(t, 0), &b = s.corner(t, 1);
       for (const Place& through : {2 * a, a + b}) {
@@ -173,7 +174,7 @@ void expect_nearest(const Mapped& m, int many, std::uint64_t seed) {
       if (nearest.facet < 0) continue;
       ck_assert_double_eq_tol(gaps[nearest.facet], min, 1e-14 * size);
       ck_assert_double_eq_tol(pnpbs::distance<3>(nearest.x, x), nearest.gap, 1e-14 * size);
-      // On the axes all is exact, ties too.
+      // Everything is exact along the axes, including ties.
       if (unit != 0x1p-4) continue;
       for (std::int32_t t = 0; t < nearest.facet; ++t) quick_assert(gaps[t] > min);
       equally_near += std::count(gaps.begin(), gaps.end(), min) > 1;
@@ -191,8 +192,8 @@ START_TEST(nearest_points) {
 }
 END_TEST
 
-// Each leaf has all triangles that meet it, as points of them in it tell, and between two places in
-// it lies a triangle where only one of them is inside.
+// Each leaf has all triangles that meet it, tested by points of triangles in it. A triangle lies
+// between any two points of a leaf of which only one is inside.
 START_TEST(facets_of_leaves) {
   for (const Surface& s : {fine_sphere(), oblique_block()}) {
     const Mapped m(s, constant(0.1));
@@ -246,7 +247,7 @@ START_TEST(leaf_sizes_follow_d) {
     ck_assert_double_le(graded.map.leaf_spacing(leaf), max * (1 + 1e-12));
     ck_assert_double_le(max - min, 0.1 * 1.7321 * side);
     if (graded.map.leaf_has_facets(leaf)) continue;
-    // No finer than needed: half as fine would not have done.
+    // Leaves are no finer than necessary: a leaf of twice the width would violate the limit.
     ck_assert_double_gt(2 * side, 4 * (min - 0.1 * 1.7321 * 2 * side));
     nodes += std::pow(side / graded.map.leaf_spacing(leaf), 3);
     constexpr int kFine = 4;
@@ -263,7 +264,7 @@ END_TEST
 
 namespace {
 
-// A cone with a fan of needles around its tip.
+// Returns a cone with a fan of needles around its tip.
 Surface cone(int needles) {
   Surface s;
   s.unit = 0x1p-20;
@@ -287,7 +288,7 @@ std::int32_t greatest_depth(const pnpbs::BackgroundTree<3>& tree) {
 
 }  // namespace
 
-// Whatever d is; but what meets in one corner is in one leaf.
+// The number of facets per leaf is bounded for any d, except for facets that meet in one corner.
 START_TEST(leaves_hold_few_boundary_nodes) {
   const Mapped sphere(fine_sphere(), constant(10));
   const pnpbs::BackgroundTree<3>& tree = sphere.map.tree();
@@ -302,7 +303,7 @@ START_TEST(leaves_hold_few_boundary_nodes) {
 }
 END_TEST
 
-// There d would have the tree deeper than it can be.
+// Here d would require a deeper tree than is possible.
 START_TEST(finest_leaves_there_can_be) {
   const Mapped m(block(), [](const P& x) { return 1e-10 + 0.3 * pnpbs::distance<3>(x, {}); });
   const pnpbs::BackgroundTree<3>& tree = m.map.tree();
@@ -358,7 +359,7 @@ struct Chambers {
     map.build(box.bounds(), mesh, evaluator_of(constant(0.11)), 1'000'000);
   }
   static bool beyond_wall(const P& x) { return 12 * x[0] > 11 + 2 * x[1]; }
-  // By the planes of the faces.
+  // Returns the distance to the boundary, from the planes of the faces.
   static double gap(const P& x) {
     double min = std::fabs(12 * x[0] - 11 - 2 * x[1]) / std::hypot(12.0, 2.0);
     for (std::size_t k = 0; k < 3; ++k) min = std::min({min, x[k], (k == 0 ? 2 : 1) - x[k]});
@@ -368,7 +369,7 @@ struct Chambers {
 
 }  // namespace
 
-// Whatever a node wants, it stays in its chamber, inside the box.
+// A node stays in its chamber, inside the box, whatever its goal is.
 START_TEST(walls_hold) {
   const Chambers m;
   const std::vector<std::int32_t> facets = all_facets(m.mesh);
@@ -410,7 +411,7 @@ START_TEST(clearance_is_reached_where_there_is_room) {
     pnpbs::ClearPosition<3> kept = keep({0.06, y, 0.4}, {0.01, y + 0.02, 0.41});  // too near
     quick_assert(kept.clear);
     ck_assert_double_eq_tol(pnpbs::distance<3>(kept.position, {0.04, y + 0.02, 0.41}), 0, 1e-15);
-    for (const double x : {-0.05, 0.0}) {  // beyond a side, and onto it: back to where it was
+    for (const double x : {-0.05, 0.0}) {  // beyond a side, and onto it: back to the old position
       kept = keep({0.06, y, 0.4}, {x, y, 0.4});
       quick_assert(kept.clear && kept.position == (P{0.06, y, 0.4}));
     }
@@ -418,10 +419,11 @@ START_TEST(clearance_is_reached_where_there_is_room) {
   const pnpbs::ClearPosition<3> corner = keep({0.05, 0.05, 0.05}, {0.01, 0.02, 0.03});
   quick_assert(corner.clear);
   ck_assert_double_eq_tol(pnpbs::distance<3>(corner.position, {0.04, 0.04, 0.04}), 0, 1e-15);
-  // Between the floor, a side and the wall, 81 degrees from it: off each, and off the side again.
+  // The corner of the floor, a side and the wall at 81 degrees: the node is moved off each, and off
+  // the side again.
   const P wedged{0.92561, 0.005, 0.004};
   quick_assert(keep({0.98, 0.06, 0.06}, wedged).clear);
-  // Straight away from the fixed node.
+  // The node moves straight away from the fixed node.
   const pnpbs::ClearPosition<3> kept = keep({0.5, 0.5, 0.6}, {0.5, 0.51, 0.51});
   ck_assert_double_eq_tol(pnpbs::distance<3>(kept.position, Chambers::kFixed), 0.04, 1e-15);
   ck_assert_double_eq_tol(kept.position[1], kept.position[2], 1e-15);
@@ -429,14 +431,14 @@ START_TEST(clearance_is_reached_where_there_is_room) {
 }
 END_TEST
 
-// Nodes of a level set are where it is 0, beside the triangles: what is in a leaf outside the
-// domain belongs to no rank.
+// Nodes of a level set lie on f = 0, beside the triangles. Leaves outside the domain belong to no
+// rank.
 START_TEST(no_nodes_of_level_sets_outside) {
   const auto torus = [](std::int64_t n, const P* x, double* f) {
     for (std::int64_t i = 0; i < n; ++i)
       f[i] = std::hypot(std::hypot(x[i][0], x[i][1]) - 1, x[i][2]) - 0.4;
   };
-  // Of edges up to the square root of 3 resolutions long, where the radius is 0.4.
+  // Deviation of edges that are up to sqrt(3) resolutions long, with a radius of 0.4.
   constexpr double kResolution = 0.2, kDeviation = 3 * kResolution * kResolution / (8 * 0.4);
   pnpbs::VolumeDomain domain;
   domain.add_level_set(torus, {{-1.5, -1.5, -0.5}, {1.5, 1.5, 0.5}}, kResolution, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Initial inner nodes of a volume: A15 where d is constant, as many as d means where it is not, and
-// the same ones whichever parts of the domain are asked for.
+// Initial inner nodes of a volume: A15 for constant d, the expected number for variable d, and the
+// same nodes for any requested parts of the domain.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,9 +20,9 @@ using pnpbs::Box;
 
 namespace {
 
-constexpr double kA15Cell = 1.7395;  // its side over d: the cube root of 8 / 1.52
+constexpr double kA15Cell = 1.7395;  // side of a cell over d: the cube root of 8 / 1.52
 
-// A cube with one corner in the origin.
+// Returns a cube with one corner at the origin.
 surfaces::Surface cube(double side) {
   return scaled(surfaces::cubes(1, [](auto, auto, auto) { return true; }), side / 6);
 }
@@ -58,7 +58,8 @@ double min_distance(const std::vector<P>& nodes) {
   return std::sqrt(min);
 }
 
-// How many nodes have how many others within this distance, away from the rim of the box.
+// Returns how many nodes have each number of neighbours within this distance, away from the rim of
+// the box.
 std::vector<int> neighbour_counts(const std::vector<P>& nodes, const Box<3>& box, double within) {
   std::vector<int> counts(40, 0);
   Box<3> inner = box;
@@ -91,7 +92,7 @@ Box<3> cube_box(double low, double side) {
 
 START_TEST(a15_over_the_whole_domain) {
   const double d = 0.1, cell = kA15Cell * d;
-  // From one full layer to the other so many half cells that nothing is stretched.
+  // The layers are an integer number of half cells apart, so nothing is stretched.
   const Box<3> bounds = cube_box(3, 1.4 * d + 15 * 0.5 * cell);
   const pnpbs::CubicLattice lattice(d, bounds, true);
   const Box<3> cells = cube_box(3 + 0.9 * d, 5 * cell);
@@ -138,7 +139,7 @@ double gap_to_sides(const P& x) {
   return gap;
 }
 
-// Nodes that d means in the unit cube, so many d off its sides.
+// Returns the expected number of nodes in the unit cube without a margin of `gap` times d.
 double meant(double density, const VolumeSpacing& d, double gap) {
   constexpr int kFine = 150;
   Random random(1);
@@ -158,21 +159,22 @@ void expect_meant(double density, const VolumeSpacing& d, double gap, double tol
   const double expected = meant(density, d, gap);
   ck_assert_double_gt(expected, 5000);
   ck_assert_double_eq_tol(static_cast<double>(nodes.size()), expected, tolerance * expected);
-  for (const P& x : nodes) quick_assert(gap_to_sides(x) > 0.45 * d(x));  // d of the leaf may differ
+  // The leaf may have another d than the node.
+  for (const P& x : nodes) quick_assert(gap_to_sides(x) > 0.45 * d(x));
 }
 
 }  // namespace
 
 START_TEST(as_many_as_d_means) {
-  // The nodes of a side stand for what is nearer to it than 0.38 d. Between 36 half cells nothing
-  // is stretched.
+  // The nodes of a side represent the region within 0.38 d of it. Between 36 half cells nothing is
+  // stretched.
   expect_meant(1.52, constant(1 / (1.4 + 36 * 0.5 * kA15Cell)), 0.38, 0.01);
   for (const P& finest : {P{0.3, 0.7, 0.4}, P{0.4, 0.63, 0.45}, P{0.6, 0.5, 0.55}}) {
     const auto way = [=](const P& x) { return pnpbs::distance<3>(x, finest); };
-    // On the high sides of the box the lattices of patches end anywhere, on average at 0.5 d.
+    // The lattices of patches end on average at 0.5 d from the high sides of the box.
     expect_meant(
         1.575, [=](const P& x) { return 0.018 + 0.012 * way(x); }, 0.44, 0.01);
-    // Cell by cell, and so rough at the sides.
+    // The cells are filled one by one, which is less accurate at the sides.
     expect_meant(
         1.575, [=](const P& x) { return 0.007 + 0.16 * way(x); }, 0.5, 0.015);
   }
@@ -181,7 +183,7 @@ END_TEST
 
 namespace {
 
-// A hole and a cavity, in which no leaf is wanted of what is not the domain.
+// A domain with a hole and a cavity. Leaves outside the domain are not requested.
 surfaces::Surface pierced() { return scaled(surfaces::pierced_cube(), 1.0 / 48); }
 
 void expect_the_same_from_parts(const VolumeSpacing& d, std::size_t min_nodes) {
@@ -210,7 +212,8 @@ START_TEST(the_same_from_parts) {
 }
 END_TEST
 
-// A tree that is fine in one half only makes the nodes there if it is told what is in the other.
+// A tree that is fine in one half only creates the nodes there, given information about the other
+// half.
 START_TEST(the_same_from_a_tree_of_which_a_part_is_fine) {
   const VolumeSpacing d = [](const P& x) { return 0.04 + 0.02 * x[1]; };
   const Mapped m(pierced(), d);
@@ -250,7 +253,8 @@ START_TEST(clear_of_a_sphere) {
     ck_assert_uint_gt(nodes.size(), 2000);
     std::size_t nearly_too_near = 0;
     for (const P& x : nodes) {
-      // On one side of every facet, as the sphere is convex, and by its plane so far from it.
+      // The sphere is convex, so nodes are on one side of the plane of every facet, at this
+      // distance from it.
       double gap = 1;
       for (std::size_t t = 0; t < m.count(); ++t) {
         const P a = m.surface.at(m.surface.corner(t, 0)), b = m.surface.at(m.surface.corner(t, 1)),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The growth limit in space: in the open the straight distance counts, around an edge the way.
+// The growth limit in space: straight distances without obstacles, and the path around an edge.
 #include <cmath>
 #include <memory>
 
@@ -20,7 +20,7 @@ double value_at(const pnpbs::Spacing<3>& spacing, const P3& x) {
   return d;
 }
 
-// Never more than d itself; of the exact answer at least `least` and at most `most`.
+// Expects a value that is at most d itself, and between `min` and `max` times the exact limit.
 void expect_limited(const Block& block, double min, double max, std::uint64_t seed) {
   const pnpbs::SizingField<3> limited = limited_spacing<3>(
       pnpbs::serial_communicator(), block.ways(), block.spacing(), Block::kGrowth, 1'000'000'000);
@@ -45,7 +45,7 @@ START_TEST(limit_in_the_open) {
 }
 END_TEST
 
-// From leaf to leaf the way may cut the edge by some of a leaf, or be up to 8 % too long.
+// Paths from leaf to leaf may cut the edge by a part of a leaf, or be up to 8 % too long.
 START_TEST(limit_around_an_edge) { expect_limited(Block(true, {0.9, 0.3, 0.2}), 0.99, 1.1, 612); }
 END_TEST
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lattice that a volume's bubbles settle into, and the law that takes them there: against
-// formulas, direct sums over all pairs and differences of the energy.
+// The lattice that bubbles in space settle into, and the default law: against formulas, direct sums
+// over all pairs and differences of the energy.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kRange = 1.2;
 
-// f(w), and its integral from w to where it ends.
+// f(w), and its integral from w to the range.
 double formula(double w) { return w < kRange ? std::pow(1 - std::pow(w / kRange, 2), 2) : 0; }
 double energy(double w) {
   const double u = w / kRange;
@@ -57,7 +57,7 @@ std::vector<Point<Dim>> forces_on(const Bubbles<Dim>& b) {
   return forces;
 }
 
-// A pair's energy: minus its slope along the distance is d_ij^(Dim-1) f(w).
+// Energy of a pair. Minus its derivative by the distance is d_ij^(Dim-1) f(w).
 template <int Dim>
 double energy_at(const std::vector<Bubble<Dim>>& all, std::size_t i, const Point<Dim>& x) {
   double sum = 0;
@@ -89,7 +89,7 @@ void expect_direct_sum() {
       ck_assert_double_eq_tol(forces[i][k], sum[k], 1e-14 * (1 + magnitudes));
     strongest = std::max(strongest, magnitudes / std::pow(all[i].d, Dim - 1));
   }
-  ck_assert_double_gt(strongest, 2);  // there was something to add up
+  ck_assert_double_gt(strongest, 2);  // there were forces to add
 }
 
 template <int Dim>
@@ -130,8 +130,8 @@ START_TEST(numbers_of_the_lattice) {
 }
 END_TEST
 
-// Eight half a diagonal away and six a side away; with a longer radius the twelve along the
-// diagonals of the faces. The overlap ratio is the ideal one, and nobody is pushed anywhere.
+// A node has eight neighbours at half the diagonal and six at the side of a cell; a longer radius
+// adds the twelve along the face diagonals. The overlap ratio is the ideal one, and forces vanish.
 START_TEST(neighbours_in_the_lattice) {
   for (const double radius : {1.0, 1.5, 1.6}) {
     const Bubbles<3> b = perfect(radius);
@@ -174,7 +174,7 @@ START_TEST(smooth_push) {
 }
 END_TEST
 
-// What presses on an area is the same for fine and for coarse bubbles, and all are equally stiff.
+// The stress is equal for fine and coarse bubbles, and so is the stiffness.
 START_TEST(smooth_push_is_free_of_stress) {
   const SmoothPush law;
   const auto force = [&](double d) { return law.per_length<3>(0.9 * d, d) * 0.9 * d; };

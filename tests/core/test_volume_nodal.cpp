@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing from values at the nodes of tetrahedra: linear on each, from the one of least ids where
-// several hold a point, extended from the border; against whole numbers and loops over all.
+// A spacing from values at the nodes of tetrahedra: linear on each, from the one with the smallest
+// ids if several contain a point, extrapolated from the border. Results are compared with integer
+// arithmetic and loops over all.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,8 +35,8 @@ P point_of(const Place& x) {
   return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
 }
 
-// A grid of cubes with shaken inner nodes, each cube cut into six along its diagonal, ids shuffled;
-// a cube near the middle is a hole.
+// A grid of cubes with randomly moved inner nodes, each cube cut into six tetrahedra along its
+// diagonal, with shuffled ids. A cube near the middle is missing.
 struct ShakenGrid {
   std::vector<Place> places;
   Patch patch;
@@ -92,7 +93,7 @@ struct ShakenGrid {
     } while (std::next_permutation(order.begin(), order.end()));
   }
 
-  // What is a side of one tetrahedron only.
+  // Collects the faces that belong to one tetrahedron only.
   void find_border() {
     std::map<std::array<std::int32_t, 3>, int> sides;
     for (const auto& [a, b, c, d] : patch.simplices)
@@ -106,7 +107,7 @@ struct ShakenGrid {
   }
 };
 
-// Six times the volumes of what is left of a tetrahedron with x in place of each corner.
+// Returns six times the volumes of the tetrahedra in which x replaces each corner.
 std::array<Wide, 4> parts(const ShakenGrid& grid, const Tetrahedron& t, const Place& x) {
   std::array<Wide, 4> volumes;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -118,7 +119,7 @@ std::array<Wide, 4> parts(const ShakenGrid& grid, const Tetrahedron& t, const Pl
   return volumes;
 }
 
-// From the tetrahedron of least ids that holds x.
+// Returns the value from the tetrahedron with the smallest ids that contains x.
 Answer expected_inside(const ShakenGrid& grid, const Place& x) {
   Answer best;
   for (const Tetrahedron& t : grid.patch.simplices) {
@@ -136,7 +137,8 @@ Answer expected_inside(const ShakenGrid& grid, const Place& x) {
   return best;
 }
 
-// Nodes, middles of edges, and of triangles and tetrahedra to a whole number, and places anywhere.
+// Returns nodes, midpoints of edges, centres of triangles and tetrahedra rounded to integers, and
+// random points.
 std::vector<Place> places_in(const ShakenGrid& grid, Random& random) {
   std::vector<Place> places = grid.places;
   for (const auto& [a, b, c, d] : grid.patch.simplices) {
@@ -203,8 +205,8 @@ END_TEST
 
 namespace {
 
-// Of the triangles of the border that are nearest to x, the one of least ids; what is equally far
-// to sixteen digits counts as that.
+// Returns the value from the border triangle nearest to x. Distances equal to sixteen digits count
+// as ties, of which the triangle with the smallest ids is used.
 Answer expected_outside(const ShakenGrid& grid, const Place& x, int& equally_near) {
   std::vector<long double> gaps;
   for (std::size_t t = 0; t < grid.patch.border.size(); ++t)
@@ -224,7 +226,7 @@ Answer expected_outside(const ShakenGrid& grid, const Place& x, int& equally_nea
   return best;
 }
 
-// Value at the nearest point of the border, by trying many.
+// Returns the value at the nearest of many points of the border.
 double nearest_value(const ShakenGrid& grid, const P& x) {
   constexpr int kParts = 60;
   double min = std::numeric_limits<double>::infinity(), value = 0;
@@ -272,7 +274,7 @@ START_TEST(extends_from_the_nearest_point_of_the_border) {
 }
 END_TEST
 
-// On sides, on nodes, inside and outside: to the bit.
+// Results are equal to the bit on faces, at nodes, inside and outside.
 START_TEST(the_same_however_distributed) {
   Random random(4);
   const ShakenGrid grid(random, waves);
@@ -284,7 +286,7 @@ START_TEST(the_same_however_distributed) {
 }
 END_TEST
 
-// The value at a node is the one given there, whichever of its tetrahedra it comes from.
+// The value at a node is the given one, independent of the tetrahedron used.
 START_TEST(nodes_have_their_values) {
   Random random(5);
   const ShakenGrid grid(random, waves);

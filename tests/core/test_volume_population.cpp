@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Population control in a volume: on body-centred cubic lattices with holes and with nodes that are
-// one too many.
+// Population control in space, on body-centred cubic lattices with holes and surplus nodes.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,7 +13,7 @@ namespace {
 constexpr volume_box::Crystal kCrystal{8};
 constexpr double kSide = 8 * volume_box::kCell;
 
-// Of bubbles that are 1 / stretch of what the lattice has room for.
+// Returns a lattice whose bubbles have 1 / stretch of the size that fits.
 Set<3> lattice(double stretch = 1, const volume_box::Crystal& sites = kCrystal) {
   Set<3> set = volume_box::sites(sites);
   for (Bubble<3>& b : set) b.d = 1 / stretch;
@@ -33,8 +32,9 @@ Point<3> middle_of(const Set<3>& set) {
   return middle;
 }
 
-// Of bubbles that move and touch: near the fixed ones more of the 8 nearest than of the 6 next ones
-// are among them or the other way round, so that even the perfect lattice is not quite at 1.
+// Returns the mean distance of touching bubbles that move. Near the fixed ones the shares of the 8
+// nearest and the 6 next neighbours differ, so the value is not exactly 1 even for a perfect
+// lattice.
 double mean_distance(const Set<3>& set) {
   double sum = 0, pairs = 0;
   for (const Bubble<3>& a : set)
@@ -47,7 +47,8 @@ double mean_distance(const Set<3>& set) {
   return sum / pairs;
 }
 
-// Takes out the site nearest the middle and those within this many d of it.
+// Removes the node nearest to the centre and those within this many d of it. Returns their
+// positions.
 std::vector<Point<3>> dig(Set<3>& set, double within) {
   const Point<3> middle = set[nearest_to<3>(set, middle_of(set))].x;
   std::vector<Point<3>> gone;
@@ -65,7 +66,7 @@ double min_distance(const std::vector<Point<3>>& places, const Point<3>& x) {
   return min;
 }
 
-// Acts as chosen: the dead go, and the newborn get the ids that follow.
+// Deletes and inserts nodes as chosen; new nodes get the next ids.
 void carry_out(Set<3>& set, const Change<3>& change, std::int64_t& next_id) {
   std::erase_if(set, [&](const Bubble<3>& b) { return change.deleted.count(b.id) > 0; });
   for (const auto& [parent, place] : change.born) set.push_back({place, set[0].d, next_id++, true});
@@ -86,8 +87,8 @@ START_TEST(perfect_lattices_stay) {
 }
 END_TEST
 
-// The eight nearest around a vacancy bid for it. It takes a threshold near the ideal ratio to see
-// it: what remains to each is 13 of 14.
+// The eight nearest nodes around a vacancy compete for it. The threshold must be near the ideal
+// ratio, as each keeps 13 of 14.
 START_TEST(a_vacancy_is_filled_once) {
   Random random(96);
   PopulationRule rule = by_thresholds<3>();
@@ -114,9 +115,9 @@ START_TEST(a_vacancy_is_filled_once) {
 }
 END_TEST
 
-// Of 2331 sites 27 around the middle are empty. The others give way into the hole, until none has
-// so few neighbours that it would get company by its own ratio: it is the aim of a mean distance
-// that fills it, event after event, as far as its tolerance (0.3 % of the nodes that move) goes.
+// The 27 sites around the centre, of 2331, are empty. The other nodes move into the hole until no
+// overlap ratio is below the threshold. Only a target mean distance fills the hole, event after
+// event, up to its tolerance (0.3 % of the nodes that move).
 START_TEST(a_hole_is_filled) {
   constexpr volume_box::Crystal kTen{10};
   const Set<3> perfect = lattice(1, kTen);
@@ -142,13 +143,15 @@ START_TEST(a_hole_is_filled) {
   ck_assert_uint_le(set.size(), perfect.size());
   ck_assert_uint_ge(set.size(), perfect.size() - 4);
   const auto taken = std::count_if(perfect.begin(), perfect.end(), [&](const Bubble<3>& site) {
-    return pnpbs::distance<3>(set[nearest_to<3>(set, site.x)].x, site.x) < 0.4;  // beside a vacancy
+    // Nodes beside a vacancy are displaced.
+    return pnpbs::distance<3>(set[nearest_to<3>(set, site.x)].x, site.x) < 0.4;
   });
   ck_assert_uint_eq(static_cast<std::size_t>(taken), set.size());
 }
 END_TEST
 
-// Another node close to one, in a lattice that is a little dense: one of the two goes.
+// An additional node is close to another one in a slightly dense lattice. One of the two is
+// deleted.
 START_TEST(a_surplus_node_is_deleted) {
   Set<3> set = lattice(0.94);
   const Bubble<3> doubled = set[nearest_to<3>(set, middle_of(set))];
@@ -163,7 +166,8 @@ START_TEST(a_surplus_node_is_deleted) {
 }
 END_TEST
 
-// All bubbles are too lonely, or all are too crowded: the strongest act, three hops apart.
+// All overlap ratios are too small or too large: the nodes with the largest defects act, three hops
+// apart.
 START_TEST(actors_are_far_apart) {
   Random random(97);
   for (const double stretch : {1.25, 0.8}) {
@@ -179,8 +183,8 @@ START_TEST(actors_are_far_apart) {
 }
 END_TEST
 
-// Four per cent too loose, or too dense, in its distances: so many are below or above the threshold
-// as are missing or too many by the cube of that.
+// Distances are four per cent too large or too small. The number of nodes beyond the threshold
+// equals the number of missing or surplus nodes, which follows from the cube of the factor.
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(98);
   PopulationRule rule = default_rule<3>();

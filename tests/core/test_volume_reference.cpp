@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stars of 20 000 nodes in space against the Delaunay triangulation of another library (CGAL).
+// The stars of 20 000 nodes in space against the Delaunay triangulation of CGAL.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,7 +15,7 @@ using P = Point<3>;
 
 namespace {
 
-// Finer by a factor of three towards a corner; the mean of 1.5 nodes per d^3.
+// A spacing that is finer by a factor of three towards a corner; on average 1.5 nodes per d^3.
 double graded(const P& x) { return 0.0222 * (1 + pnpbs::distance<3>(x, {}) / std::sqrt(0.75)); }
 
 std::vector<Bubble<3>> random_nodes(std::uint64_t seed, int n) {
@@ -29,7 +29,7 @@ std::vector<Bubble<3>> random_nodes(std::uint64_t seed, int n) {
   return nodes;
 }
 
-// All tetrahedra of the other library that are elements, and none else.
+// Expects exactly those tetrahedra of CGAL that are elements.
 void expect_reference(double scale) {
   std::vector<Bubble<3>> nodes = random_nodes(31, 20000);
   for (Bubble<3>& b : nodes) b.d *= scale;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The check of the results finds what is wrong in space, too, and says it: right results are spoilt
-// by hand, each time in one way.
+// The result check detects errors in space and describes them. Correct results are corrupted by
+// hand, in one way each time.
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -18,7 +18,7 @@ using Placement3 = pnpbs::PlacementImpl<3>;
 
 namespace {
 
-// A cube with a small cavity.
+// Returns a cube with a small cavity.
 std::unique_ptr<Placement3> small_placement() {
   auto domain = std::make_shared<pnpbs::VolumeDomain>();
   domain->add_box({0, 0, 0}, {1, 1, 1}, 1);
@@ -31,14 +31,14 @@ std::unique_ptr<Placement3> small_placement() {
   return placement;
 }
 
-// To spoil it.
+// Returns the level for corruption.
 pnpbs::Level<3>& level_of(Placement3& placement) {
   return const_cast<pnpbs::Level<3>&>(placement.level());
 }
 
 pnpbs::Nodes<3>& nodes_of(Placement3& placement) { return level_of(placement).nodes; }
 
-// The node so carried that is nearest to a point.
+// Returns the node with this carrier that is nearest to a point.
 std::int64_t node_near(Placement3& placement, Carrier carrier, const Point3& x) {
   const pnpbs::Nodes<3>& nodes = nodes_of(placement);
   std::int64_t nearest = -1;
@@ -64,11 +64,11 @@ std::string id_text(Placement3& placement, std::int64_t i) {
   return std::to_string(nodes_of(placement).id(i));
 }
 
-// From the nodes and lists as they are, but with these facets and what is known.
+// Builds the stars again from the current nodes and lists, with these facets and this known region.
 void rebuild_stars(Placement3& placement, const pnpbs::FacetIndex<3>* facets,
                    const pnpbs::KnownRegion<3>& known) {
   pnpbs::Level<3>& level = level_of(placement);
-  const auto nowhere = [](std::int64_t) { return false; };  // is a list complete
+  const auto nowhere = [](std::int64_t) { return false; };  // no list is complete
   level.stars.build({level.nodes, level.tree->tree(), level.neighbourhood.buckets(), level.lists(),
                      known, facets, nowhere});
 }
@@ -138,7 +138,7 @@ START_TEST(finds_a_list_that_lacks_a_neighbour) {
     std::int32_t n = 0;
     p.level().lists().for_neighbours(i, [&](std::int64_t j) { last = j, ++n; });
     const_cast<std::int32_t&>(block.entries[(n - 1) * pnpbs::kLanes + i % pnpbs::kLanes]) =
-        static_cast<std::int32_t>(nodes_of(p).count);  // the padding
+        static_cast<std::int32_t>(nodes_of(p).count);  // the index of the padding
     return {"adjacency list", id_text(p, i), id_text(p, last)};
   });
 }
@@ -153,7 +153,7 @@ START_TEST(finds_a_tetrahedron_turned_over) {
 }
 END_TEST
 
-// Where a leaf is said to be unknown, nodes whose stars reach there have none.
+// Nodes whose stars reach an unknown leaf have no star.
 START_TEST(finds_stars_that_do_not_agree) {
   expect_complaint([](Placement3& p) -> std::vector<std::string> {
     const pnpbs::BackgroundTree<3>& tree = p.level().tree->tree();
@@ -166,7 +166,7 @@ START_TEST(finds_stars_that_do_not_agree) {
 }
 END_TEST
 
-// Circumspheres wider than a node's d allows are no elements.
+// Tetrahedra with circumspheres wider than a node's d allows are not elements.
 START_TEST(finds_gaps_inside) {
   expect_complaint([](Placement3& p) -> std::vector<std::string> {
     const std::int64_t i = inner_node(p);
@@ -179,7 +179,7 @@ START_TEST(finds_gaps_inside) {
 }
 END_TEST
 
-/* A node in the plane of three others that it makes a tetrahedron with. */
+/* A node in the plane of three others with which it forms a tetrahedron. */
 START_TEST(tells_of_tetrahedra_without_a_volume) {
   const std::unique_ptr<Placement3> p = small_placement();
   ck_assert_int_eq(pnpbs::conformity_of(p->results()).flat.count, 0);
@@ -208,8 +208,8 @@ START_TEST(finds_tetrahedra_outside) {
 }
 END_TEST
 
-// A coin alone. Around it chords take the place of circles, and cut off so much of its flat sides
-// as its rim, which is low, does not lose.
+// A coin without an inside. Chords replace its circles, and cut off more of its flat sides than of
+// its rim, which is low.
 START_TEST(allows_for_chords_of_edges_of_flat_sides) {
   constexpr double kHeight = 0.05;
   auto domain = std::make_shared<pnpbs::VolumeDomain>();
@@ -222,7 +222,8 @@ START_TEST(allows_for_chords_of_edges_of_flat_sides) {
   const pnpbs::ElementMeasure measure = pnpbs::measure_of_elements(placement.results());
   ck_assert_double_gt(measure.domain - measure.elements, 1e-4 * measure.domain);
   ck_assert(measure.agrees());
-  // The chords are that far from the circles in their middle, and no triangle more is missed.
+  // The tolerance, the area between chords and circles, exceeds the actual difference only by a
+  // small factor, so that a missing triangle is still detected.
   ck_assert_double_lt(measure.between, 8 * measure.difference());
 }
 END_TEST

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The star of a single node in space against all empty spheres, found by trying all tetrahedra.
+// The star of a single node in space against all empty spheres, found by testing all tetrahedra.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,9 +21,10 @@ using Set = std::vector<VolumeNode>;
 
 namespace {
 
-constexpr double kEverywhere = 1e100;  // a d for which the rule has nothing against anything
+constexpr double kEverywhere = 1e100;  // a d for which all tetrahedra satisfy the rule
 
-// More than twice the digits, so that what is flat but for rounding has a sphere, too.
+// More than twice the digits of double, so that tetrahedra that are flat up to rounding have a
+// sphere.
 #ifdef __SIZEOF_FLOAT128__
 __extension__ using Quad = __float128;
 #else
@@ -36,7 +37,7 @@ Vector cross(const Vector& p, const Vector& q) {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
 
-// The centre solves 2 c u_i = u_i^2 for the edges u_i from one corner.
+// The centre c solves 2 c u_i = u_i^2 for the edges u_i from one corner.
 bool keeps_the_rule(const Set& corners) {
   double d = corners[0].d;
   for (const VolumeNode& corner : corners) d = std::min(d, corner.d);
@@ -85,7 +86,7 @@ std::set<Ids> all_elements(const Set& set) {
   return elements;
 }
 
-// From the nodes nearest to node i, as many as said, and then from what may matter besides.
+// Builds the star of node i from its `first` nearest nodes, and then from those that may change it.
 VolumeStar star_in(const Set& set, std::size_t i, std::size_t first, Random& random) {
   Set others;
   for (std::size_t k = 0; k < set.size(); ++k)
@@ -126,7 +127,7 @@ VolumeStar star_in(const Set& set, std::size_t i, std::size_t first, Random& ran
   return star;
 }
 
-// By ids, in the order given.
+// Returns the ids of the tetrahedra, in the order of the star.
 std::vector<Ids> tetrahedra(const VolumeStar& star) {
   std::vector<Ids> all;
   for (const VolumeStar::Corners& triangle : star.triangles()) {
@@ -147,7 +148,7 @@ std::vector<std::int64_t> neighbours(const VolumeStar& star) {
   return ids;
 }
 
-// Each tetrahedron in the stars of all its corners, whatever they begin with.
+// Expects each tetrahedron in the stars of all its corners, for any number of first candidates.
 void expect_all_elements(const std::string& what, const Set& set, std::uint64_t seed) {
   Random random(seed);
   const std::set<Ids> expected = all_elements(set);
@@ -183,7 +184,7 @@ Set with_ids(const std::vector<P>& points, double d, std::uint64_t seed) {
   return set;
 }
 
-// Lattice points, two to a side, of which keep(i, j, k) says which there are.
+// Returns the lattice points with two per unit length for which keep(i, j, k) holds.
 template <class Keep>
 std::vector<P> lattice(int nx, int ny, int nz, const Keep& keep) {
   std::vector<P> points;
@@ -218,7 +219,7 @@ START_TEST(random_nodes) {
 }
 END_TEST
 
-// Many nodes on each sphere, in each plane and on each line.
+// Many nodes lie on each sphere, in each plane and on each line.
 START_TEST(lattices) {
   const auto cubic = [](int, int, int) { return true; };
   const auto face_centred = [](int i, int j, int k) { return (i + j + k) % 2 == 0; };
@@ -236,7 +237,7 @@ START_TEST(lattices) {
 }
 END_TEST
 
-// Two cells of the structure A15: nothing is on a sphere but at its border.
+// Two cells of the A15 structure: spheres have additional nodes only at the border.
 START_TEST(a15) {
   std::vector<P> points;
   for (int i = 0; i < 2; ++i) {
@@ -270,7 +271,7 @@ START_TEST(hardly_any_tetrahedra) {
 }
 END_TEST
 
-// Two sheets, nearer to and farther from each other than elements can be wide.
+// Two sheets at distances below and above the possible width of elements.
 START_TEST(sheets) {
   for (const double gap : {0.1, 1.0, 1.9, 2.1, 3.9, 4.1, 6.0}) {
     std::vector<P> points = lattice(4, 4, 2, [](int, int, int) { return true; });
@@ -285,7 +286,7 @@ START_TEST(sheets) {
 }
 END_TEST
 
-// Two cones that meet in a node: around it, the elements of one are apart from the other's.
+// Two cones that meet in a node: around it, the elements form two components.
 START_TEST(two_components) {
   Random random(8);
   std::vector<P> points{{0, 0, 0}};
@@ -315,8 +316,8 @@ START_TEST(two_components) {
 }
 END_TEST
 
-// What is proven without a look farther away: the star of a node in a lattice, by a reach of as
-// much as its spheres are wide.
+// The star of a lattice node is proven complete without further search if the known region reaches
+// the diameter of its spheres.
 START_TEST(proof) {
   std::vector<P> points =
       lattice(7, 7, 7, [](int i, int j, int k) { return i % 2 == j % 2 && j % 2 == k % 2; });
@@ -338,8 +339,8 @@ START_TEST(proof) {
 }
 END_TEST
 
-// Elements that other stars have make the same star of the rest, and where they are all around the
-// node, nothing else is needed.
+// Elements known from other stars lead to the same star. If they surround the node, nothing else is
+// needed.
 START_TEST(known_elements) {
   Random random(12);
   std::vector<P> points;
@@ -349,7 +350,8 @@ START_TEST(known_elements) {
     const Set set = with_ids(points, d, 13);
     for (std::size_t i = 0; i < set.size(); ++i) {
       const VolumeStar star = star_in(set, i, set.size(), random);
-      std::vector<VolumeStar::Corners> elements = star.triangles();  // places among the neighbours
+      // Indices into the neighbours.
+      std::vector<VolumeStar::Corners> elements = star.triangles();
       random.shuffle(elements);
       const auto candidate = [&](std::int32_t place) {
         return star.neighbours()[static_cast<std::size_t>(place)];
@@ -380,7 +382,7 @@ START_TEST(known_elements) {
       ++closed;
       alone.finish();
       quick_assert(tetrahedra(alone) == tetrahedra(star) && alone.closed());
-      VolumeStar some_outside;  // of the domain
+      VolumeStar some_outside;  // one element outside the domain
       some_outside.start(set[i]);
       for (const std::int32_t k : star.neighbours())
         some_outside.add(star.candidates()[static_cast<std::size_t>(k)]);
@@ -396,7 +398,7 @@ START_TEST(known_elements) {
 }
 END_TEST
 
-// The rule is symmetric, and right for what is flat but for rounding.
+// The rule is symmetric, and correct for tetrahedra that are flat up to rounding.
 START_TEST(rule) {
   const auto element = [](const Set& t) {
     return pnpbs::is_element(pnpbs::ordered_by_id({t[0], t[1], t[2], t[3]}));
@@ -413,7 +415,8 @@ START_TEST(rule) {
     elements += expected ? 1 : 0;
   }
   quick_assert(elements > 500 && elements < 3500);
-  // On a circle of radius 1, a little off its plane; the sphere's centre is where it is.
+  // Corners on a circle of radius 1, slightly off its plane. The centre of the sphere does not
+  // move.
   for (const double lift : {1e-9, 1e-13, 1e-15}) {
     const Set sliver{{{1, 0, lift}, 0.6, 4},
                      {{0, 1, -lift}, 0.6, 2},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stars of a volume's nodes: together one triangulation of the domain, whatever the lists hold
-// and whatever a rank knows.
+// The stars of nodes in space: together they form one triangulation of the domain, for any lists
+// and any known region.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -25,7 +25,7 @@ const pnpbs::KnownRegion<3> kEverywhere;
 
 double graded(const P& x) { return 0.06 + 0.12 * x[0]; }
 
-// Random, but not too near to each other for d.
+// Returns random nodes that keep a minimum distance for d.
 std::vector<Bubble<3>> graded_nodes(std::uint64_t seed, int trials) {
   Random random(seed);
   std::vector<Bubble<3>> all;
@@ -61,8 +61,8 @@ std::map<std::int64_t, Star> stars_by_ids(const Bubbles<3>& b, const VolumeStars
 
 }  // namespace
 
-// A lattice whose outer layers are kept and whose inside is shaken; its convex hull is no box, but
-// the stars inside are closed.
+// A lattice with fixed outer layers and random displacements inside. Its convex hull is not a box,
+// but the stars inside are closed.
 START_TEST(shaken_lattice) {
   const volume_box::Crystal crystal{8};
   std::vector<Bubble<3>> sites = volume_box::sites(crystal);
@@ -90,7 +90,7 @@ START_TEST(shaken_lattice) {
 }
 END_TEST
 
-// Nodes of a cubic lattice fill the box, with eight on each sphere, and all of its sides are flat.
+// Nodes of a cubic lattice fill the box, with eight on each sphere and flat sides.
 START_TEST(cubic_lattice_fills_the_box) {
   constexpr int kCells = 8;
   std::vector<Bubble<3>> nodes;
@@ -106,7 +106,7 @@ START_TEST(cubic_lattice_fills_the_box) {
     stars.build(input_of(b, kEverywhere));
     const Mesh mesh = mesh_of(b.nodes, stars);
     ck_assert_double_eq_tol(mesh.volume, 1, 1e-13);
-    // Two triangles to a square of the border.
+    // Two triangles per square of the border.
     std::int64_t border = 0;
     for (const auto& [face, count] : mesh.faces) border += count == 1 ? 1 : 0;
     ck_assert_int_eq(border, 6 * 2 * kCells * kCells);
@@ -114,7 +114,7 @@ START_TEST(cubic_lattice_fills_the_box) {
 }
 END_TEST
 
-// Lists that are too short for any proof, or of which it is not sure what they hold.
+// Lists that are too short for a proof, or that may be incomplete.
 START_TEST(lists_do_not_matter) {
   const std::vector<Bubble<3>> nodes = graded_nodes(21, 20000);
   ck_assert_int_gt(std::ssize(nodes), 500);
@@ -135,7 +135,8 @@ START_TEST(lists_do_not_matter) {
 }
 END_TEST
 
-// Some first, and then the others: all the same, and none before they are wanted.
+// Some stars are found first, then the others. The result is the same, and none is found before it
+// is requested.
 START_TEST(found_in_parts) {
   const Bubbles<3> b = listed(graded_nodes(21, 20000), 1.5);
   const pnpbs::VolumeStarInput input = input_of(b, kEverywhere);
@@ -160,7 +161,7 @@ START_TEST(found_in_parts) {
 }
 END_TEST
 
-// A rank knows the nodes in some leaves, asks for more, and ends with the same stars.
+// A rank knows the nodes of some leaves, requests more, and obtains the same stars.
 START_TEST(what_is_not_known_is_asked_for) {
   const std::vector<Bubble<3>> nodes = graded_nodes(22, 20000);
   const Bubbles<3> all = listed(nodes, 1.5);
@@ -207,7 +208,7 @@ START_TEST(what_is_not_known_is_asked_for) {
 }
 END_TEST
 
-// More neighbours than usual: on a sphere around a node.
+// Unusually many neighbours, on a sphere around a node.
 START_TEST(very_many_neighbours) {
   for (const int around : {900, 1600}) {
     Random random(23);
@@ -235,8 +236,8 @@ START_TEST(very_many_neighbours) {
 }
 END_TEST
 
-// The domain is concave, pierced and hollow. Nodes stand on its surface, and some, not quite in
-// order, inside: what belongs to the domain fills it and nothing else.
+// The domain is concave, pierced and hollow. Nodes lie on its surface, and with small displacements
+// inside. The elements fill exactly the domain.
 START_TEST(tetrahedra_of_a_domain) {
   for (const bool oblique : {false, true}) {
     surfaces::Surface surface = surfaces::pierced_cube();
@@ -244,7 +245,8 @@ START_TEST(tetrahedra_of_a_domain) {
     surface.unit = 0x1p-6;
     pnpbs::BoundaryMesh<3> boundary;
     surface.add_to(boundary, pnpbs::SurfaceRole::boundary);
-    // A cube's corners are six apart: nodes at every third place, and in the middle of four.
+    // The corners of a cube are six apart: nodes lie at every third point and in the middle of
+    // four.
     Random random(24);
     std::vector<Bubble<3>> nodes;
     const surfaces::Surface straight = surfaces::pierced_cube();
@@ -280,7 +282,7 @@ START_TEST(tetrahedra_of_a_domain) {
     stars.build(input);
     const Mesh mesh = mesh_of(b.nodes, stars);
     ck_assert_uint_lt(mesh.tetrahedra.size(), with_outside);
-    // 8^3 cubes less 2 * 3 * 8 and 2 * 2 * 3; shears keep volumes but for their determinant.
+    // 8^3 cubes minus 2 * 3 * 8 and 2 * 2 * 3. The shear multiplies the volume by its determinant.
     const double cube = std::pow(6 * surface.unit, 3) * (oblique ? 29 : 1);
     ck_assert_double_eq_tol(mesh.volume / cube, 512 - 48 - 12, 1e-9);
     for (std::int64_t i = 0; i < b.nodes.count; ++i)

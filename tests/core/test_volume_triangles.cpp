@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is asked of a single triangle: whether it meets a box, holds a point, is touched by a way,
-// and where it is nearest; in whole numbers, by cutting it to pieces, or by trying points of it.
+// Predicates of a single triangle: whether it meets a box, contains a point or touches a segment,
+// and its nearest point. References are integers, clipped polygons, and sampled points.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +20,7 @@ using B = pnpbs::Box<3>;
 
 namespace {
 
-// What is left of a convex polygon between two planes across axis k.
+// Clips a convex polygon to the slab between two planes orthogonal to axis k.
 std::vector<P> cut(const std::vector<P>& polygon, std::size_t k, double low, double high) {
   std::vector<P> rest = polygon;
   for (const double side : {1.0, -1.0}) {
@@ -66,7 +66,7 @@ Corners corners_of(const Surface& one) {
   return {one.at(one.corner(0, 0)), one.at(one.corner(0, 1)), one.at(one.corner(0, 2))};
 }
 
-// Every fifth has two corners in one place or in a line.
+// Returns a random triangle. Every fifth one is degenerate.
 Surface some_triangle(Random& random, std::int64_t range, int trial) {
   Surface one;
   one.nodes = {small_place(random, range), small_place(random, range), small_place(random, range)};
@@ -109,14 +109,14 @@ START_TEST(triangles_and_segments_that_meet_boxes) {
 }
 END_TEST
 
-// Boxes that are touched only, by lattice points of triangles and far from the origin.
+// Boxes that only touch the triangle, at lattice points of triangles and far from the origin.
 START_TEST(touched_boxes_are_met) {
   Random random(2);
   for (int trial = 0; trial < 20000; ++trial) {
     const Surface one = some_triangle(random, 12, trial);
     const double far = trial % 3 == 0 ? 0x1p40 : 0;
     const std::int64_t i = random.below(4), j = random.below(4 - i);
-    P x;  // i, j and 3 - i - j thirds of the corners
+    P x;  // the barycentric coordinates are thirds
     Corners corners = corners_of(one);
     for (std::size_t k = 0; k < 3; ++k) {
       for (P& corner : corners) corner[k] = 3 * corner[k] + far;
@@ -152,8 +152,8 @@ END_TEST
 
 namespace {
 
-// Is a point of the way from p to q on the triangle? A way in its plane is tried where it meets
-// edges and at its ends.
+// Returns whether a point of the segment from p to q lies on the triangle. Segments in its plane
+// are tested elsewhere.
 bool touches(const Surface& one, const Place& p, const Place& q) {
   const Place a = one.corner(0, 0), b = one.corner(0, 1), c = one.corner(0, 2);
   const Place normal = surfaces::cross(b - a, c - a);
@@ -185,7 +185,8 @@ START_TEST(ways_that_touch_triangles) {
       quick_assert(may_touch == expected);
       touching += expected;
     }
-    // In its plane: never no where one of many points of the way is on it.
+    // Segments in the plane of the triangle: the answer is never no if a sampled point is on the
+    // triangle.
     const Place from = 4 * a + (random.below(9) - 4) * u + (random.below(9) - 4) * v,
                 to = 4 * a + (random.below(9) - 4) * u + (random.below(9) - 4) * v;
     Surface larger = one;
@@ -206,7 +207,7 @@ START_TEST(ways_that_touch_triangles) {
 }
 END_TEST
 
-// Fixed nodes and curves inside are triangles of no area.
+// Fixed nodes and inner curves are degenerate triangles.
 START_TEST(ways_past_points_and_segments) {
   const P p{0, 0, 0}, q{4, 4, 4};
   const Corners on_way{P{1, 1, 1}, P{1, 1, 1}, P{1, 1, 1}};
@@ -228,7 +229,7 @@ START_TEST(nearest_points_of_single_triangles) {
     const double expected = static_cast<double>(std::sqrt(surfaces::squared_gap(one, 0, x)));
     const P nearest = pnpbs::nearest_on(corners_of(one), point_of(x));
     ck_assert_double_eq_tol(pnpbs::distance<3>(nearest, point_of(x)), expected, 1e-9);
-    // It is on the triangle, and no other point of it is nearer.
+    // The point lies on the triangle, and no other point of it is nearer.
     const auto& [a, b, c] = corners_of(one);
     for (int other = 0; other < 10; ++other) {
       const double u = random.between(0, 1), v = random.between(0, 1 - u);
@@ -243,7 +244,7 @@ START_TEST(nearest_points_of_single_triangles) {
 }
 END_TEST
 
-// What a block passes over does not meet the way; most of what is far off is passed over.
+// Facets skipped by a block do not touch the segment, and most distant facets are skipped.
 START_TEST(blocks_off_the_way) {
   Surface s = surfaces::sphere(4, 900);
   std::vector<Corners> facets;
@@ -257,7 +258,7 @@ START_TEST(blocks_off_the_way) {
     const P x = random.point<3>({{-900, -900, -900}, {900, 900, 900}});
     P y = x;
     for (double& along : y) along += random.between(-300, 300);
-    std::vector<std::int32_t> row;  // all, but for some gaps
+    std::vector<std::int32_t> row;  // all facets except for some gaps
     for (std::int32_t f = 0; f < std::ssize(facets); ++f)
       if (f % 700 != trial) row.push_back(f);
     for (std::size_t k = 0; k < row.size(); ++k) {

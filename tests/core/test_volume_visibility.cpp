@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a level in space knows of the boundary near its nodes, against all nodes and all faces:
-// whose lists lack a node that the boundary hides, and how far it is from a node to a face.
+// Visibility near the boundary of a level in space, against all nodes and all faces: nodes whose
+// lists lack a hidden node, and the distance from a node to a face.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,9 +16,9 @@ using Placement = pnpbs::PlacementImpl<3>;
 
 namespace {
 
-constexpr double kLow = 0.4, kHigh = 0.65;  // of the cavity
+constexpr double kLow = 0.4, kHigh = 0.65;  // extent of the cavity
 
-// A cube with a cavity, around whose edges nodes do not see each other.
+// Returns a cube with a cavity, whose edges hide nodes from each other.
 std::unique_ptr<Placement> cube_with_cavity() {
   auto domain = std::make_shared<pnpbs::VolumeDomain>();
   domain->add_box({0, 0, 0}, {1, 1, 1}, 1);
@@ -81,9 +81,9 @@ START_TEST(room_around_nodes) {
 }
 END_TEST
 
-// Also where they have come by several ways from where the lists were made.
+// Also for nodes that have moved several times since the lists were built.
 START_TEST(nodes_that_went_on) {
-  constexpr double kClearance = 0.6, kWay = 0.25;  // spacings
+  constexpr double kClearance = 0.6, kWay = 0.25;  // in spacings
   const std::unique_ptr<Placement> placement = cube_with_cavity();
   auto& level = const_cast<Level&>(placement->level());
   pnpbs::prepare_finish(level);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cost of writing grows with the nodes, not with their square: no loop over nodes launches a
-// kernel over all of them. Kernels are counted, so that the test does not depend on time.
+// The cost of writing grows linearly with the nodes: no loop over nodes launches a kernel over all
+// of them. The test counts kernels, so it does not depend on time.
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -58,7 +58,7 @@ std::unique_ptr<pnpbs::PlacementImpl<3>> cube(double d) {
   return placed<3>(std::move(domain), d);
 }
 
-// What comes whatever the number of nodes, and varies little with it.
+// Kernels that do not depend on the number of nodes, or vary little with it.
 constexpr std::int64_t kMaxMore = 8;
 
 bool has_hdf5() {
@@ -70,14 +70,14 @@ bool has_hdf5() {
   }
 }
 
-// Of the plane or of a body.
+// Returns whether the format applies to the plane or to bodies.
 bool can_write(const pnpbs::io::Format& format, int dimension) {
   using pnpbs::io::Of;
   const Of own = dimension == 3 ? Of::bodies : Of::triangles;
   return (!format.by_hdf5 || has_hdf5()) && (format.of == Of::anything || format.of == own);
 }
 
-// Those that files of particles need.
+// Returns the fields that files of particles require.
 pnpbs::io::OutputFields fields_of(pnpbs::Placement& placement) {
   pnpbs::io::OutputFields fields;
   const std::vector<double> ones(static_cast<std::size_t>(placement.results().count()), 1);
@@ -86,7 +86,7 @@ pnpbs::io::OutputFields fields_of(pnpbs::Placement& placement) {
   return fields;
 }
 
-// `more` is of several times the nodes that `few` is of.
+// `more` has several times the nodes of `few`.
 void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
   ck_assert_int_gt(more.results().count(), 3 * few.results().count());
   for (const pnpbs::io::Format& format : pnpbs::io::formats()) {
@@ -111,7 +111,7 @@ void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
 }
 
 START_TEST(writing_launches_no_kernel_per_node) {
-  const auto few = square(0.04), more = square(0.008);  // of more than one window
+  const auto few = square(0.04), more = square(0.008);  // more than one window
   expect_same_kernels(*few, *more);
   const auto coarse = cube(0.2), fine = cube(0.1);
   expect_same_kernels(*coarse, *fine);

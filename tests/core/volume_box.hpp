@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A box of body-centred cubic order whose outer layers do not move: the whole way of a volume's
-// nodes from a shaken lattice back to rest, without a domain.
+// A box with a body-centred cubic lattice whose outer layers do not move: the relaxation of
+// displaced nodes in space, without a domain.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@ namespace volume_box {
 
 inline constexpr double kCell = pnpbs::Lattice<3>::kCell;
 
-// So many cubic cells along each side, d = 1; all of its nodes lie inside.
+// A crystal with this number of cubic cells along each side, and d = 1. All nodes lie inside its
+// box.
 struct Crystal {
   int cells;
 
@@ -26,11 +27,11 @@ struct Crystal {
     const double side = cells * kCell, room = 0.5;
     return {{-room, -room, -room}, {side + room, side + room, side + room}};
   }
-  // The force must not reach a place that is missing beyond the outermost layer.
+  // The range of the force must not reach missing nodes beyond the outermost layer.
   bool moves(const Point<3>& x) const { return is_inner<3>(box(), x, 0.5 + 1.25); }
 };
 
-// Corners and centres of the cells: id n is at the same place whatever asks for it.
+// Returns corners and centres of the cells. The node with id n is always at the same point.
 inline std::vector<Bubble<3>> sites(const Crystal& crystal) {
   std::vector<Bubble<3>> all;
   for (int half : {0, 1})
@@ -44,7 +45,7 @@ inline std::vector<Bubble<3>> sites(const Crystal& crystal) {
   return all;
 }
 
-// A point of the unit ball that follows from the id alone.
+// Returns a point of the unit ball that depends on the id alone.
 inline Point<3> shift_of(std::int64_t id) {
   Point<3> shift;
   std::uint64_t bits = static_cast<std::uint64_t>(id);
@@ -57,7 +58,7 @@ inline Point<3> shift_of(std::int64_t id) {
   return shift;
 }
 
-// Shifts every bubble that moves by up to `most` d.
+// Displaces every bubble that moves by up to `max` d.
 inline void shake(std::vector<Bubble<3>>& bubbles, double max) {
   for (Bubble<3>& b : bubbles) {
     if (!b.moves) continue;
@@ -66,7 +67,7 @@ inline void shake(std::vector<Bubble<3>>& bubbles, double max) {
   }
 }
 
-// Buckets, lists and time steps by the law and the scheme that are the volume's defaults.
+// Buckets, lists and time steps with the default law and scheme for space.
 class Relaxation {
  public:
   explicit Relaxation(const Crystal& crystal) {
@@ -91,7 +92,8 @@ class Relaxation {
     for (int k = 0; k < n; ++k) step();
   }
 
-  // Lists hold all pairs in reach of the force until two nodes have come half the skin closer each.
+  // Lists contain all pairs within the range of the force until two nodes have approached each
+  // other by half the skin each.
   bool needs_rebuild() const {
     return !valid_ || max_displacement() > 0.5 * (kRadius - law_.range);
   }
@@ -111,7 +113,7 @@ class Relaxation {
  private:
   static constexpr double kRadius = 1.6;
 
-  // Since the lists were built, in d of the node.
+  // Returns the largest displacement since the lists were built, in d of the node.
   double max_displacement() const {
     const pnpbs::Nodes<3>& nodes = bubbles_.nodes;
     return pnpbs::max_of("max_displacement", nodes.count, 0, [&](std::int64_t i) {
@@ -127,7 +129,7 @@ class Relaxation {
   int rebuilds_ = 0;
 };
 
-// How far the bubbles that move are from their sites, in d.
+// Distance of the moving bubbles from their sites, in d.
 struct Deviation {
   double mean = 0, max = 0;
 };

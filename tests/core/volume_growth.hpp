@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A cube, or an L-shaped block, in which d grows steeply from one place, and the exact limit of its
+// A cube, or an L-shaped block, in which d grows steeply from one point, and the exact limit of its
 // growth.
 #pragma once
 
@@ -19,8 +19,8 @@ class Block {
  public:
   static constexpr double kGrowth = 0.2, kFinest = 0.03, kSlope = 0.7, kCoarsest = 0.3;
 
-  // Of the unit cube, or of what is left of it without the quarter where x and y are above 1/2. In
-  // whole numbers its sides are 768 and 384.
+  // A block is the unit cube, without the quarter in which x and y exceed 1/2 if it is L-shaped. In
+  // integers its sides are 768 and 384.
   Block(bool l_shaped, const pnpbs::Point<3>& finest) : l_shaped_(l_shaped), finest_(finest) {}
 
   pnpbs::Box<3> bounds() const { return {{0, 0, 0}, {1, 1, 1}}; }
@@ -31,7 +31,7 @@ class Block {
         surfaces::cubes(2, [this](std::int64_t i, std::int64_t j, std::int64_t) {
           return !l_shaped_ || i == 0 || j == 0;
         });
-    surface.unit = 1.0 / 16;  // cubes are six wide
+    surface.unit = 1.0 / 16;  // cubes have a width of six
     for (surfaces::Place& x : surface.nodes)
       for (std::int64_t& along : x) along = along / 6 * 8;
     struct Indexed {
@@ -62,7 +62,7 @@ class Block {
   }
 
  private:
-  // The shortest way within the block: straight, or over the edge that is left of the quarter.
+  // Returns the length of the shortest path within the block: straight, or around the inner edge.
   double way_from_finest(const pnpbs::Point<3>& x) const {
     if (!l_shaped_ || !passes_the_quarter(x)) return pnpbs::distance<3>(x, finest_);
     const auto to_edge = [](const pnpbs::Point<3>& p) {
@@ -70,8 +70,8 @@ class Block {
     };
     return std::hypot(to_edge(x) + to_edge(finest_), x[2] - finest_[2]);
   }
-  // With the finest place in one arm, another in the other, and the edge on the inner side of the
-  // way between them, seen from above.
+  // Returns whether the straight segment crosses the missing quarter: the finest point is in one
+  // arm, x in the other, and the edge lies on the inner side, seen from above.
   bool passes_the_quarter(const pnpbs::Point<3>& x) const {
     const double side =
         (x[0] - finest_[0]) * (0.5 - finest_[1]) - (x[1] - finest_[1]) * (0.5 - finest_[0]);

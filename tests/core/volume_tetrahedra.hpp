@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tetrahedra that the stars of a volume's nodes make together.
+// The tetrahedra of the stars in space.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ inline Star star_by_ids(const pnpbs::Nodes<3>& nodes, const pnpbs::VolumeStars& 
   return star;
 }
 
-// All tetrahedra, each as often as it is in stars, or in what follows their changes.
+// Returns all tetrahedra, each as often as it is in stars (or in updated stars).
 template <class Stars>
 std::multiset<Ids> in_stars(const pnpbs::Nodes<3>& nodes, const Stars& stars) {
   std::multiset<Ids> all;
@@ -62,7 +62,7 @@ inline Places places_by_id(const pnpbs::Nodes<3>& nodes) {
   return all;
 }
 
-// Six times the volume of node i and three others.
+// Returns six times the volume of the tetrahedron of node i and three others.
 inline double six_volumes(const pnpbs::Nodes<3>& nodes, std::int64_t i,
                           const pnpbs::VolumeStars::Corners& t) {
   const Point<3> o = nodes.position(i);
@@ -76,12 +76,12 @@ inline double six_volumes(const pnpbs::Nodes<3>& nodes, std::int64_t i,
 
 struct Mesh {
   std::set<Ids> tetrahedra;                          // by id
-  std::map<std::array<std::int64_t, 3>, int> faces;  // and how many tetrahedra have them
+  std::map<std::array<std::int64_t, 3>, int> faces;  // with the number of their tetrahedra
   double volume = 0;
 };
 
-// All of them, after what must hold anyhow: all corners' stars agree, tetrahedra are of positive
-// orientation, a face has at most two, and neighbours are corners.
+// Returns the mesh, and checks its invariants: the stars of all corners agree, tetrahedra have
+// positive orientation, a face has at most two, and neighbours are corners.
 inline Mesh mesh_of(const pnpbs::Nodes<3>& nodes, const pnpbs::VolumeStars& stars) {
   std::map<Ids, int> found;
   Mesh mesh;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole numbers by the methods of school, to check the library's exact arithmetic with: a sign and
-// decimal places of 2^32.
+// Integers of arbitrary length with schoolbook arithmetic, as a reference for the library's exact
+// arithmetic. They have a sign and digits of base 2^32.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class ExactInteger {
     return *this;
   }
 
-  // value / 2^unit, which must be whole.
+  // value / 2^unit, which must be an integer.
   ExactInteger(double value, int unit) {
     int exponent;
     const double fraction = std::frexp(std::fabs(value), &exponent);
@@ -107,7 +107,7 @@ class ExactInteger {
     return result;
   }
 
-  // What is left of the larger one without the smaller.
+  // Returns larger - smaller.
   static ExactInteger rest(const ExactInteger& larger, const ExactInteger& smaller) {
     ExactInteger result;
     std::uint64_t borrowed = 0;
@@ -122,6 +122,6 @@ class ExactInteger {
   }
 
   int sign_ = 0;
-  int size_ = 0;  // of the digits, lowest first, the last of which is not 0
+  int size_ = 0;  // number of digits, lowest first; the last one is not 0
   std::uint32_t digits_[Capacity];
 };

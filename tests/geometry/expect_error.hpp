@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that something is refused, and how.
+// Checks that an action fails with a certain error.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "check_runner.h"
 
-// `action` must throw an Error of this kind whose message holds all these parts.
+// Expects that `action` throws an Error of this kind whose message contains all these parts.
 inline void expect_error(pnpbs::ErrorKind kind, std::initializer_list<const char*> parts,
                          const std::function<void()>& action) {
   try {

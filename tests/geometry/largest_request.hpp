@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The largest piece of memory that was asked of operator new, which this replaces in the whole
-// program: for one of its source files.
+// The largest block of memory requested from operator new, which this header replaces in the whole
+// program. Must be included by one source file only.
 #pragma once
 
 #include <algorithm>

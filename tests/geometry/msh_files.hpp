@@ -17,7 +17,7 @@ namespace msh_files {
 struct Element {
   int type;
   std::int32_t group, entity;
-  std::vector<std::int32_t> nodes;  // from 1
+  std::vector<std::int32_t> nodes;  // numbers from 1
 };
 
 struct Mesh {
@@ -47,7 +47,7 @@ inline int dimension_of(int type) {
 
 enum class Kind { text, little_endian, big_endian };
 
-// Numbers one after the other, as text or not.
+// Writes numbers one after the other, as text or binary.
 class Writer {
  public:
   explicit Writer(Kind kind) : kind_(kind) {}
@@ -91,8 +91,8 @@ inline void write_beginning(const Mesh& mesh, const std::string& version, Kind k
              "$EndPhysicalNames\n");
 }
 
-// Entities of version 4.1: each (dimension, entity) of the elements, with its group; `bounded_by`
-// of volumes or surfaces their sides.
+// An entity of version 4.1 with its dimension, tag and group. `bounded_by` are the sides of a
+// volume or surface.
 struct Entity {
   int dimension;
   std::int32_t tag, group;
@@ -160,8 +160,8 @@ inline std::string version_22(const Mesh& mesh, Kind kind) {
     ++number;
     if (kind == Kind::text) out.number(number);
     out.number<std::int32_t>(element.type);
-    if (kind != Kind::text) out.number<std::int32_t>(1);  // elements of this kind
-    out.number<std::int32_t>(2);                          // tags
+    if (kind != Kind::text) out.number<std::int32_t>(1);  // number of elements of this type
+    out.number<std::int32_t>(2);                          // number of tags
     if (kind != Kind::text) out.number(number);
     out.number(element.group);
     out.number(element.entity);
@@ -173,7 +173,8 @@ inline std::string version_22(const Mesh& mesh, Kind kind) {
   return out.take();
 }
 
-// A cube of two triangles on each side, each side a group and an entity (11 to 16 and 1 to 6).
+// Returns a cube with two triangles on each side. Each side is a group (11 to 16) and an entity (1
+// to 6).
 inline Mesh cube() {
   Mesh mesh;
   for (int i = 0; i < 8; ++i)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged files of values at points by the hundred: each must answer with values that a spacing can
-// be made of, or with a message; never with a crash, a hang or memory for what is not there.
+// Damages hundreds of files with values at points. Reading each must return values from which a
+// spacing can be built, or fail with a message. It must not crash, hang or allocate memory for data
+// that the file does not have.
 //
-// The bytes under test lie in mutate_field.bytes in the working folder, for the case of a crash.
-// More by hand: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_field
+// The bytes under test are kept in mutate_field.bytes in the working folder in case of a crash.
+// More mutations by hand: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_field
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -103,7 +104,7 @@ std::string bytes_of(const std::vector<Number>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
 }
 
-// zlib's format, nothing packed in it.
+// Returns the bytes in zlib's format without compression.
 std::string stored(const std::string& bytes) {
   std::uint32_t a = 1, b = 0;
   for (const char c : bytes) {
@@ -120,7 +121,7 @@ std::string stored(const std::string& bytes) {
   return packed;
 }
 
-// The same grid with its arrays appended as raw bytes.
+// Returns the same grid with its arrays appended as raw bytes.
 std::string grid_appended(bool packed) {
   const std::vector<std::string> arrays{
       bytes_of(std::vector<double>{0.1, 0.2, 0.1, 0.3, 0.2}),
@@ -152,7 +153,7 @@ std::string grid_appended(bool packed) {
          "\n</AppendedData>\n</VTKFile>\n";
 }
 
-// What is wrong with values that were read.
+// Returns what is wrong with values that were read, or nullptr.
 template <int Dim>
 const char* fault_in(const pnpbs::FileField& file) {
   const pnpbs::GivenField<Dim> field = pnpbs::given_field<pnpbs::GivenField<Dim>>(file, "mutated");
@@ -170,7 +171,7 @@ struct Tally {
   std::uint64_t read = 0, refused = 0;
 };
 
-// False after telling what is wrong.
+// Reads the bytes. Prints what is wrong and returns false if the result is invalid.
 bool examine(const Sample& sample, const std::string& bytes, Tally& tally) {
   const char* fault = nullptr;
   std::string message;
@@ -213,7 +214,7 @@ bool examine_mutations(const Sample& sample, std::uint64_t mutations, std::uint6
   return mutations < 50 || (tally.read > mutations / 50 && tally.refused > mutations / 50);
 }
 
-// Packed by zlib: its own codes, with copies of what was before.
+// Checks data compressed by zlib with dynamic codes and back references.
 bool unpacks() {
   // python3 -c "import zlib; print(zlib.compress(bytes(i * i % 251 for i in range(60)) * 20, 9))"
   static const unsigned char packed[] = {
@@ -230,7 +231,7 @@ bool unpacks() {
   if (pnpbs::inflated(bytes, expected.size()) != expected) return false;
   if (pnpbs::inflated(bytes, expected.size() - 1) || pnpbs::inflated(bytes, expected.size() + 1))
     return false;
-  // Whatever is damaged is found, by the sum at the end if not before.
+  // Damage must be detected, at the latest by the checksum at the end.
   for (std::size_t i = 0; i < sizeof packed; ++i) {
     std::string damaged(bytes);
     damaged[i] = static_cast<char>(damaged[i] ^ 4);

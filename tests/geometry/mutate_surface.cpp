@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged surfaces by the thousand. Whatever a file holds, reading it must answer with triangles of
-// its vertices or with a message; never with a crash, a hang or memory for what is not there.
+// Damages thousands of surface files. Reading each must return triangles of its vertices, or fail
+// with a message. It must not crash, hang or allocate memory for data that the file does not have.
 //
-// The bytes under test lie in mutate_surface.bytes in the working folder, for the case of a crash.
-// More by hand, of each format or of files: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_surface
-// [file]...
+// The bytes under test are kept in mutate_surface.bytes in the working folder in case of a crash.
+// More mutations by hand, of each format or of files: PNPBS_MUTATIONS=40000 PNPBS_SEED=7
+// mutate_surface [file]...
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -32,11 +32,11 @@ using pnpbs::SurfaceTriangles;
 
 struct Sample {
   std::string name;
-  std::optional<SurfaceFormat> format;  // none: Gmsh's
+  std::optional<SurfaceFormat> format;  // none: Gmsh's format
   std::string bytes;
 };
 
-// Polygons that are not convex, names, markers, a hole.
+// A file with nonconvex polygons, names, markers and a hole.
 const char* const prism_off = R"(OFF
 12 8 0
 0 0 0
@@ -144,7 +144,7 @@ std::optional<SurfaceFormat> format_of(const std::string& path) {
   return pnpbs::surface_format(path);
 }
 
-// A tetrahedron in a cube, with a curve and a point; a square with a hole.
+// Adds a tetrahedron in a cube with a curve and a point, and a square with a hole.
 void add_meshes(std::vector<Sample>& samples) {
   using msh_files::Kind;
   msh_files::Mesh body = msh_files::cube();
@@ -192,7 +192,7 @@ std::vector<Sample> samples(int count, char** paths) {
   return result;
 }
 
-// What is wrong with a surface that was read.
+// Returns what is wrong with a surface that was read, or nullptr.
 const char* fault_of(const SurfaceTriangles& surface) {
   const auto count = static_cast<std::int32_t>(surface.vertices.size());
   if (surface.triangles.empty()) return "no triangles";
@@ -209,7 +209,7 @@ const char* fault_of(const SurfaceTriangles& surface) {
   return nullptr;
 }
 
-// What is wrong with a mesh that was read, or with the domain that it makes.
+// Returns what is wrong with a mesh that was read, or with the domain built from it, or nullptr.
 const char* fault_of(const pnpbs::MshMesh& mesh) {
   for (std::size_t shape = 0; shape < pnpbs::kMshShapes; ++shape) {
     const pnpbs::MshCells& cells = mesh.cells[shape];
@@ -238,7 +238,7 @@ struct Tally {
   double slowest = 0;
 };
 
-// False after telling what is wrong.
+// Reads the bytes. Prints what is wrong and returns false if the result is invalid.
 bool examine(const Sample& sample, const std::string& bytes, Tally& tally) {
   const auto begin = std::chrono::steady_clock::now();
   largest_request = 0;
@@ -281,7 +281,8 @@ bool examine_mutations(const Sample& sample, std::uint64_t mutations, std::uint6
   std::printf("%s: %llu read, %llu refused, at most %.3f s\n", sample.name.c_str(),
               static_cast<unsigned long long>(tally.read),
               static_cast<unsigned long long>(tally.refused), tally.slowest);
-  // The damage must leave something and break something, or the test tests nothing.
+  // Some mutations must leave files readable and some must break them. Otherwise the test has no
+  // effect.
   return mutations < 50 || (tally.read > mutations / 50 && tally.refused > mutations / 50);
 }
 

@@ -22,7 +22,7 @@ inline Loop rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0, x1, y0, x1, y1, x0, y1}};
 }
 
-// Points on a circle, counter-clockwise.
+// Returns points on a circle, counter-clockwise.
 inline Loop circle(double x, double y, double radius, int count) {
   Loop loop;
   for (int i = 0; i < count; ++i) {
@@ -49,7 +49,7 @@ inline void add_circle(pnpbs::PlaneDomain& domain, double x, double y, double ra
   domain.add_arc(role, {x, y}, radius, 0, 2 * pi, tag);
 }
 
-// A planar straight-line graph to be put together.
+// A planar straight-line graph that is built step by step.
 struct Graph {
   std::vector<double> xy;
   std::vector<std::int32_t> vertex_tags;
@@ -69,7 +69,7 @@ struct Graph {
     ends.push_back(b);
     segment_tags.push_back(tag);
   }
-  // A closed loop through new vertices.
+  // Adds a closed loop through new vertices.
   void loop(const Loop& points, std::int32_t tag = 1) {
     const auto first = static_cast<std::int64_t>(vertex_tags.size());
     for (std::int64_t i = 0; i < points.count(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the predicates in space have to say of five points, by determinants of their coordinates as
-// they stand (no differences) and in whole numbers.
+// Reference for the predicates of five points in space: determinants of the coordinates themselves
+// (not of differences) in exact integers.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +17,11 @@ using FivePoints = std::array<pnpbs::Point<3>, 5>;
 using FiveIds = std::array<std::int64_t, 5>;
 
 struct SpaceSigns {
-  int sphere;  // of a, b, c, d, e: 1 if e is inside and a, b, c, d are of orientation 1
-  std::array<int, 5> rest;  // the orientation of the four that are left without one
+  int sphere;               // of a, b, c, d, e: 1 if e is inside and a, b, c, d have orientation 1
+  std::array<int, 5> rest;  // orientation of the other four points without each
 };
 
-// All coordinates are whole multiples of 2^unit and below 2^top.
+// Exponents such that all coordinates are integer multiples of 2^unit and below 2^top.
 struct Units {
   int unit = 1100;
   int top = -1100;
@@ -52,8 +52,8 @@ class SpaceDeterminants {
     }
   }
 
-  // The rows (x, y, z, |x|^2, 1) of the points, by the column of |x|^2. With the sign of
-  // (0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1) and a point inside.
+  // Determinant of the rows (x, y, z, |x|^2, 1) of the points, expanded along the column of |x|^2.
+  // Its sign is that of (0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1) and a point inside.
   SpaceSigns signs() const {
     SpaceSigns result;
     Integer sum;
@@ -70,12 +70,12 @@ class SpaceDeterminants {
  private:
   using Integer = ExactInteger<Capacity>;
 
-  // The rows (x, y, z) of three points, by the column of x.
+  // Determinant of the rows (x, y, z) of three points, expanded along the column of x.
   Integer three(int i, int j, int k) const {
     return x_[i][0] * pair_[j][k] - x_[j][0] * pair_[i][k] + x_[k][0] * pair_[i][j];
   }
 
-  // The rows (1, x, y, z) of four points, by the column of 1.
+  // Determinant of the rows (1, x, y, z) of four points, expanded along the column of 1.
   Integer four_without(int i) const {
     std::array<int, 4> p;
     for (int k = 0; k < 4; ++k) p[k] = k < i ? k : k + 1;
@@ -87,7 +87,7 @@ class SpaceDeterminants {
   Integer pair_[5][5];
 };
 
-// In places enough for five factors and a few bits, whatever the numbers are.
+// Computes with enough digits for products of five factors and a few bits, for any coordinates.
 inline SpaceSigns space_signs(const FivePoints& points) {
   const Units units(points);
   if (5 * (units.top - units.unit) + 10 < 32 * 24) {
@@ -96,8 +96,8 @@ inline SpaceSigns space_signs(const FivePoints& points) {
   return std::make_unique<SpaceDeterminants<340>>(points, units.unit)->signs();
 }
 
-// The sign of the same with heights |x|^2 + s^(rank of the id) for a small s > 0, rank 1 for the
-// smallest id: that of the first coefficient of this polynomial in s that is not 0.
+// Returns the sign for heights |x|^2 + s^(rank of the id) with a small s > 0, where the smallest id
+// has rank 1. It is the sign of the first nonzero coefficient of this polynomial in s.
 inline int perturbed_sphere_sign(const FivePoints& points, const FiveIds& ids) {
   const SpaceSigns signs = space_signs(points);
   std::vector<int> coefficients{signs.sphere, 0, 0, 0, 0, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces that tests of what lives on them use, as meshes with tags.
+// Surfaces as meshes with tags, for tests of nodes and walks on surfaces.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ inline Shape shape_of(const surfaces::Surface& surface) {
   return shape;
 }
 
-// Of radius 1 (the coordinates are whole numbers of a fine unit).
+// Returns a ball of radius 1. Its coordinates are integers in a fine unit.
 inline Shape ball(int cuts) {
   constexpr std::int64_t kFine = 6 << 24;
   surfaces::Surface surface = surfaces::sphere(cuts, kFine);
@@ -70,7 +70,7 @@ inline Shape cube(std::int64_t n) {
   return shape_of(surface);
 }
 
-// A rectangle in the plane z = 0, n by m squares.
+// Returns a rectangle in the plane z = 0 with n by m squares.
 inline Shape sheet(int n, int m, double width, double height) {
   Shape shape;
   for (int j = 0; j <= m; ++j)
@@ -89,7 +89,7 @@ inline Shape sheet(int n, int m, double width, double height) {
   return shape;
 }
 
-// Of radius 1 about the z axis, n facets around and m along it.
+// Returns a cylinder of radius 1 about the z axis, with n facets around and m along it.
 inline Shape cylinder(int n, int m, double height) {
   Shape shape;
   for (int j = 0; j <= m; ++j)
@@ -119,7 +119,7 @@ inline Shape cylinder(int n, int m, double height) {
   return shape;
 }
 
-// Turned about an axis that is in no special direction.
+// Returns the shape rotated about an oblique axis.
 inline Shape turned(Shape shape, double angle) {
   const P axis = pnpbs::unit_vector({1, 0.3, -0.7});
   for (P& x : shape.nodes) {

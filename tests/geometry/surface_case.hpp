@@ -27,7 +27,7 @@ struct SurfaceCase {
     for (const auto& node : mesh.nodes) include(box, node.position);
     return box;
   }
-  // That far along the edges from the first corner of a facet to the others.
+  // Returns a point of a facet, by the fractions of its two edges from the first corner.
   P point(std::int32_t f, double v, double w) const {
     const auto [a, b, c] = surface.corners(f);
     return pnpbs::shifted(pnpbs::shifted(a, v, pnpbs::difference(b, a)), w,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces written in each format that is read.
+// Surfaces as files in each format that can be read.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace surface_files {
 using pnpbs::SurfaceFormat;
 using pnpbs::SurfaceTriangles;
 
-// A box of 1 by 2 by 0.5, two triangles on each side. Their corners come in the order of the
-// vertices, as those of an STL do.
+// Returns a box of 1 by 2 by 0.5 with two triangles on each side. Corners appear in the order of
+// the vertices, as in an STL file.
 inline SurfaceTriangles box() {
   SurfaceTriangles box;
   box.vertices = {{0, 0, 0},   {1, 2, 0},   {1, 0, 0},   {0, 2, 0},
@@ -128,7 +128,7 @@ std::string ply_binary(const SurfaceTriangles& surface, std::endian order) {
   return bytes;
 }
 
-// TetGen's. Without the vertices if they are in a .node file.
+// TetGen's formats. If the vertices are in a .node file, the surface file has none.
 inline std::string node(const SurfaceTriangles& surface) {
   return std::to_string(surface.vertices.size()) + " 3 0 0\n" + vertex_lines(surface, "", true);
 }
@@ -143,7 +143,7 @@ inline std::string poly(const SurfaceTriangles& surface, bool with_vertices = tr
          " 0\n" + face_lines(surface, "1\n3 ", 0) + "0\n";
 }
 
-// The surface in every format.
+// Returns the surface in every format.
 inline std::vector<std::pair<SurfaceFormat, std::string>> all(const SurfaceTriangles& surface) {
   return {{SurfaceFormat::stl, stl_text(surface)},
           {SurfaceFormat::stl, stl_binary(surface)},

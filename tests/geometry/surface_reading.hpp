@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of the readers of surfaces have in common.
+// Helpers for the tests of the surface readers.
 #pragma once
 
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes on a surface, on its features and thrown at random between them, and their stars.
+// Nodes on a surface, on its features and at random points between them, and their stars.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct PlacedNode {
 
 using StarTriangle = std::array<std::int32_t, 3>;
 
-// The same three nodes in the same sense of rotation, the least first.
+// Returns the same triangle with the same orientation and the smallest index first.
 inline StarTriangle sorted_triangle(StarTriangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
@@ -34,7 +34,7 @@ class StarredSurface {
   using On = pnpbs::SurfaceSupport::On;
 
  public:
-  // Nodes on features have the first numbers.
+  // Nodes on features have the first indices.
   StarredSurface(const SurfaceCase& c, double d)
       : c_(c), d_(d), laid_(place_feature_nodes(c.mesh, c.features, constant(d))) {
     for (const pnpbs::FeatureNode& node : laid_.nodes)
@@ -48,8 +48,8 @@ class StarredSurface {
 
   void add(const pnpbs::SurfacePoint& at) { nodes.push_back({at.position, {On::facet, at.facet}}); }
 
-  // Nodes no closer than 0.7 d to each other and half a d to features, until no place is found.
-  // The facets should be of about one size.
+  // Adds random nodes at least 0.7 d from each other and d/2 from features until no more fit. The
+  // facets should have about equal sizes.
   void throw_nodes(Random& random) {
     for (int misses = 0; misses < 2000; ++misses) {
       const auto f = static_cast<std::int32_t>(random.below(c_.facet_count()));
@@ -69,7 +69,7 @@ class StarredSurface {
     }
   }
 
-  // From all that is seen within `reach`; empty if it is not found.
+  // Returns the star built from all visible nodes within `reach`; empty if that is not sufficient.
   std::vector<pnpbs::SurfaceStarEntry> star_of(std::int32_t i, double reach) const {
     const PlacedNode& node = nodes[static_cast<std::size_t>(i)];
     std::vector<pnpbs::StarSide> sides;
@@ -92,7 +92,7 @@ class StarredSurface {
     return star;
   }
 
-  // How often each triangle is in a star; three times where all three agree.
+  // Counts the stars that contain each triangle. A consistent triangle is in three stars.
   std::multiset<StarTriangle> triangles(double reach) const {
     std::multiset<StarTriangle> all;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(nodes.size()); ++i) {
@@ -113,7 +113,7 @@ class StarredSurface {
   std::set<std::pair<std::int32_t, std::int32_t>> joined_;
 };
 
-// The share of triangles on which not all three nodes agree.
+// Returns the fraction of triangles that are not in the stars of all three nodes.
 inline double disagreement(const std::multiset<StarTriangle>& triangles) {
   double all = 0, apart = 0;
   for (auto t = triangles.begin(); t != triangles.end(); t = triangles.upper_bound(*t)) {

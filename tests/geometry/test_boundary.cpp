@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundary nodes: equal steps of the integral of ds/d, on the true curves, and edges that divide
+// Boundary nodes: equal steps of the integral of ds/d on the exact curves, and edges that divide
 // the plane as the curves do.
 #include <algorithm>
 #include <cmath>
@@ -62,8 +62,8 @@ double length(const Boundary& boundary, const BoundaryEdge& edge) {
   return pnpbs::distance<2>(boundary.nodes[edge.begin].position, boundary.nodes[edge.end].position);
 }
 
-// No two edges meet, and each face that the edges make is either inside on all of its sides or
-// outside on all; fixed nodes lie inside.
+// Expects that no two edges meet, that each face of the edges is inside or outside on all its
+// sides, and that fixed nodes lie inside.
 void expect_valid(const Boundary& boundary) {
   std::vector<P> points;
   std::vector<pnpbs::VertexPair> ends;
@@ -89,7 +89,7 @@ void expect_valid(const Boundary& boundary) {
   }
 }
 
-// Integral of ds/d over a straight edge, finely.
+// Returns the integral of ds/d over a straight edge, with a fine sum.
 double integral(const P& a, const P& b, const std::function<double(double, double)>& d) {
   constexpr int kParts = 1000;
   double sum = 0;
@@ -280,7 +280,8 @@ START_TEST(chords_that_would_cut_are_halved) {
 }
 END_TEST
 
-// A square whose upper side is a dense polyline with a bump, in which something small may lie.
+// Returns a square whose upper side is a dense polyline with a bump, which may contain small
+// features.
 static PlaneDomain bumpy_square() {
   PlaneDomain domain;
   add_chain(domain, {0, 1, 0, 0, 1, 0, 1, 1}, pnpbs::CurveRole::boundary);
@@ -315,8 +316,8 @@ START_TEST(fixed_nodes_stay_inside) {
 END_TEST
 
 START_TEST(curves_keep_their_order_about_a_corner) {
-  // Two arcs leave the origin in one direction and bend apart; their chords alone would do the
-  // same, but a third, straight curve between them is passed by one.
+  // Two arcs leave the origin in the same direction and bend apart, as do their chords. A third,
+  // straight curve lies between them, and a chord may pass it.
   PlaneDomain domain;
   add_loop(domain, rectangle(-3, -3, 3, 3));
   domain.add_arc(pnpbs::CurveRole::inner, {0, 1}, 1, -pi / 2, pi / 2, 2);
@@ -345,7 +346,7 @@ START_TEST(lakes_at_any_spacing) {
 END_TEST
 
 START_TEST(smooth_lakes_at_any_spacing) {
-  // Shores as smooth curves: their nodes need not be the vertices.
+  // The coasts are smooth curves whose nodes need not be the vertices.
   PlaneDomain lakes = lake("great_lakes_islands");
   lakes.check();
   PlaneDomain domain;
@@ -403,7 +404,7 @@ START_TEST(bad_spacing) {
                [&] { pnpbs::discretize_boundary(domain, constant(1e-12)); });
   expect_error(pnpbs::ErrorKind::spacing, {"would need about 400 nodes, more than 300"},
                [&] { pnpbs::discretize_boundary(domain, constant(1e-2), 300); });
-  // Every rank holds the boundary, however many nodes there may be.
+  // Every rank stores the boundary, so its number of nodes has a limit of its own.
   expect_error(
       pnpbs::ErrorKind::spacing,
       {"would need about 2.5e+09 nodes, more than the 2000000000 that every rank can hold"},
@@ -415,7 +416,8 @@ START_TEST(bad_spacing) {
 END_TEST
 
 START_TEST(callbacks_that_change_their_mind) {
-  // Finite when the curve was given, no longer when nodes are laid on it.
+  // The callback returns finite values when the curve is added, but not when nodes are placed on
+  // it.
   PlaneDomain domain;
   bool broken = false;
   domain.add_curve(

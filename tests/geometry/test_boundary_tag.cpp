@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which surface a triangle between nodes on features stands for.
+// Tests of the surface that a triangle between nodes on features is assigned to.
 #include "domain/volume/boundary_tag.hpp"
 #include "run_suite.hpp"
 #include "triangle_soup.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using Triangle = pnpbs::FacetCorners<3>;
 
-// A small triangle about x that faces along direction k, towards higher values if `up`.
+// Returns a small triangle at x whose normal is along axis k, upwards if `up`.
 Triangle facing(int k, bool up, const P& x, double size) {
   Triangle triangle{x, x, x};
   triangle[up ? 1 : 2][(k + 1) % 3] += size;
@@ -26,7 +26,7 @@ VolumeDomain box(const P& high) {
   return domain;
 }
 
-// The patch with that tag.
+// Returns the patch with this tag.
 std::int32_t patch_of(const VolumeDomain& domain, std::int32_t tag) {
   for (std::size_t f = 0; f < domain.mesh().facets.size(); ++f)
     if (domain.mesh().facets[f].tag == tag) return domain.features().patch[f];
@@ -39,7 +39,7 @@ START_TEST(each_side_of_a_box_has_its_tag) {
   const VolumeDomain domain = box({1, 1, 1});
   for (int k = 0; k < 3; ++k)
     for (const bool up : {false, true})
-      // From one corner of the side to the other, next to the edges as well.
+      // Points from one corner of the side to the other, including points next to its edges.
       for (const double at : {0.0, 0.3, 0.9}) {
         P x{at, at, at};
         x[k] = up ? 1 : 0;
@@ -48,8 +48,8 @@ START_TEST(each_side_of_a_box_has_its_tag) {
 }
 END_TEST
 
-// A triangle over an edge, as where d does not resolve it: what its nodes have in common counts,
-// not what is nearer; between several, the nearer one.
+// A triangle over an edge that d does not resolve: common patches of its nodes take precedence over
+// nearer ones. Among several common patches, the nearer one is used.
 START_TEST(common_patches_count) {
   const VolumeDomain domain = box({1, 1, 1});
   const Triangle oblique{P{1, 0.2, 1}, P{1, 0.6, 0.9}, P{0.95, 0.4, 1}};  // nearer to x = 1
@@ -59,14 +59,14 @@ START_TEST(common_patches_count) {
   ck_assert_int_eq(boundary_tag(domain, oblique, only_side), 2);
   ck_assert_int_eq(boundary_tag(domain, oblique, both), 2);
   ck_assert_int_eq(boundary_tag(domain, oblique, {}), 2);
-  const std::int32_t far[] = {patch_of(domain, 1)};  // on the other side of the box
+  const std::int32_t far[] = {patch_of(domain, 1)};  // on the opposite side of the box
   ck_assert_int_eq(boundary_tag(domain, oblique, far), 1);
 }
 END_TEST
 
 START_TEST(the_other_side_of_a_thin_plate_is_not_meant) {
   const VolumeDomain domain = box({1, 1, 0.01});
-  // As if chords of a curved surface went through the plate, nearly to its other side.
+  // Triangles as they arise if chords of a curved surface pass nearly through the plate.
   const Triangle above = facing(2, true, {0.4, 0.5, 0.001}, 0.1);
   const Triangle below = facing(2, false, {0.4, 0.5, 0.009}, 0.1);
   const std::int32_t both[] = {patch_of(domain, 5), patch_of(domain, 6)};
@@ -82,7 +82,7 @@ START_TEST(a_cavity_faces_its_inside) {
   domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
   domain.add_box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6}, {11, 12, 13, 14, 15, 16});
   domain.check();
-  // Outside of the domain lies above the cavity's floor, and below its ceiling.
+  // The region outside the domain lies above the cavity's floor and below its ceiling.
   ck_assert_int_eq(boundary_tag(domain, facing(2, true, {0.5, 0.5, 0.4}, 0.05), {}), 15);
   ck_assert_int_eq(boundary_tag(domain, facing(2, false, {0.5, 0.5, 0.6}, 0.05), {}), 16);
   ck_assert_int_eq(boundary_tag(domain, facing(2, true, {0.5, 0.5, 1}, 0.05), {}), 1);

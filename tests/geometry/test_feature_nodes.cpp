@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes on feature curves, against integrals of ds/d that are known in closed form.
+// Nodes on feature curves, against integrals of ds/d in closed form.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -26,7 +26,7 @@ std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 const P& mesh_node(const Mesh& mesh, std::int32_t node) { return mesh.nodes[index(node)].position; }
 
-// Corners where they are, every other node on its edge and once in its curve's row.
+// Expects nodes at the corners, and every other node on its edge and once in the list of its curve.
 void check_places(const Mesh& mesh, const Features& features, const FeatureNodes& laid) {
   ck_assert_uint_eq(laid.along.size(), features.curves.size());
   std::size_t between = features.corners.size();
@@ -104,7 +104,7 @@ START_TEST(test_varying_spacing) {
 }
 END_TEST
 
-// Closed curves have three nodes at least, whether they have a corner or not.
+// Closed curves have at least three nodes, with or without a corner.
 START_TEST(test_large_spacing) {
   const Mesh mesh = space_shapes::cylinder(24, 4, 2).mesh();
   const Features features = pnpbs::find_features(mesh, kAngle);
@@ -112,7 +112,7 @@ START_TEST(test_large_spacing) {
   check_places(mesh, features, laid);
   ck_assert_uint_eq(laid.nodes.size(), 6);
 
-  // A drop: an arc that comes back to its one corner.
+  // A drop: an arc that begins and ends at its only corner.
   space_shapes::Shape drop;
   const std::int32_t middle = drop.node({0, 0, 0}), tip = drop.node({2, 0, 0});
   constexpr int kArc = 20;

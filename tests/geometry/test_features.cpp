@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Features of surfaces: counts that are known of simple shapes, and a search through all pairs of
-// triangles.
+// Features of surfaces: known counts for simple shapes, and a search over all pairs of triangles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,7 +60,7 @@ std::set<Edge> feature_edges_by_search(const Mesh& mesh) {
   return edges;
 }
 
-// Of each facet, the least facet of its patch.
+// Returns for each facet the facet with the smallest index in its patch.
 std::vector<std::size_t> patches_by_search(const Mesh& mesh, const std::set<Edge>& features) {
   std::vector<std::size_t> least(mesh.facets.size());
   for (std::size_t f = 0; f < least.size(); ++f) least[f] = f;
@@ -165,7 +164,7 @@ START_TEST(test_ball_has_none) {
 }
 END_TEST
 
-// A border; and of one facet alone.
+// A sheet with a border, and a single facet.
 START_TEST(test_open_sheets) {
   const Features sheet = checked_features(space_shapes::sheet(5, 4, 1, 1).mesh());
   ck_assert_uint_eq(sheet.curves.size(), 4);
@@ -185,8 +184,8 @@ START_TEST(test_open_sheets) {
 }
 END_TEST
 
-// Two tags on a sphere: their line goes zigzag between the triangles, so that there are corners;
-// where it does not turn it has none.
+// Two tags on a sphere: their border zigzags along triangle edges and has corners. A straight
+// border has none.
 START_TEST(test_tags) {
   const Mesh oblique =
       space_shapes::ball(3).mesh([](const P& x) { return x[0] + 0.3 * x[1] > 0.2 ? 1 : 2; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies given by level sets: the triangles that are made of them against formulas, how often f is
-// asked, what is refused, and points put on the surface.
+// Bodies defined by level sets: their triangles against formulas, the number of evaluations of f,
+// invalid input, and the projection of points to the surface.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -43,7 +43,8 @@ double torus(const P& x) { return std::hypot(std::hypot(x[0], x[1]) - 1, x[2]) -
 double two_balls(const P& x) {
   return std::min(ball(0.5, {0.8, 0, 0})(x), ball(0.3, {-0.8, 0, 0})(x));
 }
-// Where the product of the distances to two points is less than 0.71^2: a body with a waist.
+// Negative where the product of the distances to two points is less than 0.71^2: a body with a
+// waist.
 double cassini(const P& x) {
   return radius(x, {0.7, 0, 0}) * radius(x, {-0.7, 0, 0}) - 0.71 * 0.71;
 }
@@ -56,16 +57,17 @@ double cube(const P& x) {
   return std::max({std::fabs(x[0]), std::fabs(x[1]), std::fabs(x[2])}) - 0.9;
 }
 double pierced_cube(const P& x) { return std::max(cube(x), 0.5 - std::hypot(x[0], x[1])); }
-// Two unit balls, a unit apart: with an edge of an angle of 60 degrees to either side.
+// The intersection of two unit balls at a distance of 1. Its surfaces meet at the edge at 60
+// degrees to either side.
 constexpr P kLeft{-0.5, 0, 0}, kRight{0.5, 0, 0};
 double lens(const P& x) { return std::max(radius(x, kLeft), radius(x, kRight)) - 1; }
 const double kLensVolume = 2 * pi * 0.25 * 2.5 / 3;
-// With an edge that is turned inwards.
+// The union of two balls, with a concave edge.
 double both_balls(const P& x) { return std::min(radius(x, kLeft), radius(x, kRight)) - 0.9; }
 
 constexpr Box<3> kBox{{-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}};
 
-// Whatever warnings there are.
+// Returns the body and allows any warnings.
 VolumeDomain any_body(const Formula& f, double resolution) {
   VolumeDomain domain;
   domain.add_level_set(in_batches(f), kBox, resolution, 3);
@@ -82,7 +84,8 @@ VolumeDomain body(const Formula& f, double resolution, const Box<3>& box = kBox)
   return domain;
 }
 
-// Vertices - edges + triangles, every edge being of two triangles that turn against each other.
+// Returns vertices - edges + triangles. Expects that every edge belongs to two triangles with
+// opposite directions.
 std::int64_t euler_characteristic(const VolumeDomain& domain) {
   std::set<std::pair<std::int32_t, std::int32_t>> sides;
   for (const auto& facet : domain.mesh().facets)
@@ -98,7 +101,7 @@ void expect_refused(ErrorKind kind, std::initializer_list<const char*> parts, co
   domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
   domain.check();
   expect_error(kind, parts, [&] { domain.add_level_set(in_batches(f), box, resolution, tag); });
-  ck_assert(domain.is_checked() && domain.volume() == 1);  // left as it was
+  ck_assert(domain.is_checked() && domain.volume() == 1);  // unchanged
 }
 
 }  // namespace
@@ -140,7 +143,7 @@ START_TEST(two_balls_apart) {
 }
 END_TEST
 
-// About the x axis at a distance from it of sqrt(sqrt(c^4 + 4 a^2 x^2) - x^2 - a^2).
+// The distance of the surface from the x axis is sqrt(sqrt(c^4 + 4 a^2 x^2) - x^2 - a^2).
 START_TEST(a_body_with_a_waist) {
   const double a = 0.7, c = 0.71, end = std::sqrt(a * a + c * c);
   constexpr int kSlices = 100000;
@@ -156,7 +159,7 @@ START_TEST(a_body_with_a_waist) {
 }
 END_TEST
 
-// Against how many of many points are inside.
+// Compares the volume with the fraction of grid points that are inside.
 START_TEST(a_gyroid_in_a_ball) {
   constexpr int kRow = 150;
   std::int64_t inside = 0;
@@ -173,7 +176,7 @@ START_TEST(a_gyroid_in_a_ball) {
 }
 END_TEST
 
-// Lattice points, edges and planes in the surface, or next to it.
+// The surface passes through or close to lattice points, edges and planes.
 START_TEST(surfaces_through_lattice_points) {
   for (const double h : {0.3, 0.2}) {
     const LevelSet somewhere("level set 0", in_batches(ball(1)), kBox, h);
@@ -203,7 +206,7 @@ START_TEST(surfaces_through_lattice_points) {
 }
 END_TEST
 
-// Sheets of a body as thin as the resolution are a surface all the same.
+// Shells as thin as the resolution still have a valid surface.
 START_TEST(thin_shells) {
   for (int k = 0; k < WHEN_SANITIZED(4, 12); ++k) {
     const P centre{0.013 * k, 0.007 * k, 0.003 * k};
@@ -262,8 +265,8 @@ START_TEST(an_edge_turned_inwards) {
 }
 END_TEST
 
-// Of planes nothing is lost: corners and edges are within 1e-5 of the resolution. What else there
-// is has its own edges.
+// Planar faces are exact: corners and edges are within 1e-5 of the resolution. A box
+// added around the body has its own exact edges.
 START_TEST(edges_and_corners_of_a_box) {
   VolumeDomain domain = body(cube, 0.11);
   ck_assert_int_eq(euler_characteristic(domain), 2);
@@ -304,7 +307,8 @@ START_TEST(a_hole_through_a_box) {
 }
 END_TEST
 
-// Whatever the lattice makes of them: triangles do not cross, and what is not found is told.
+// At any position in the lattice, triangles do not cross, and edges that are not found are
+// reported.
 START_TEST(edges_anywhere) {
   for (int k = 0; k < 6; ++k) {
     const P at{0.013 * k, 0.027 * k, -0.007 * k};
@@ -333,7 +337,7 @@ END_TEST
 START_TEST(boxes_of_any_sides) {
   const Box<3> flat{{-1.07, -2.3, -1.01}, {1.2, 1.4, 1.13}};
   ck_assert_double_eq_tol(body(ball(1), 0.1, flat).volume() / (4 * pi / 3), 1, 5e-3);
-  // So coarse that the octree has one cell.
+  // The resolution is so coarse that the octree has one cell.
   ck_assert_int_eq(euler_characteristic(body(ball(1), 1.4)), 2);
 }
 END_TEST
@@ -344,7 +348,8 @@ START_TEST(f_is_asked_near_the_surface) {
   VolumeDomain domain;
   domain.add_level_set(in_batches(ball(1), &asked), kBox, h, 1);
   ck_assert_int_lt(asked, static_cast<std::int64_t>(40 * 4 * pi / (h * h)));
-  // Far from the other, and 1/150 of the box across: f falls towards it.
+  // A second ball is far from the first and has 1/150 of the width of the box. f decreases towards
+  // it.
   const Formula far = [](const P& x) {
     return std::min(ball(0.5, {0.7, 0.7, 0.7})(x), ball(0.01, {-1.123, -1.234, -0.777})(x));
   };
@@ -362,7 +367,7 @@ START_TEST(any_slope_will_do) {
 }
 END_TEST
 
-// Against the gradient of the distance, at two steps.
+// Compares with the gradient of the distance, at two step sizes.
 START_TEST(slopes_to_second_order) {
   const LevelSet set("level set 0", in_batches(torus), kBox, 0.1);
   std::vector<P> x;
@@ -392,7 +397,7 @@ START_TEST(slopes_to_second_order) {
 }
 END_TEST
 
-// ---------------------------------------------------------------- what is refused
+// ---------------------------------------------------------------- invalid input
 START_TEST(bad_arguments) {
   const double nan = std::nan("");
   for (const double h : {0.0, -1.0, nan, HUGE_VAL, 3.1, 1e-7})
@@ -429,11 +434,11 @@ START_TEST(points_are_put_on_the_surface) {
   set.project(x, 0.1);
   for (std::size_t k = 0; k < 500; ++k) {
     ck_assert_double_le(std::fabs(torus(x[k])), 1e-14);
-    // Straight to it: nowhere is nearer.
+    // The projection is orthogonal: no other surface point is nearer.
     ck_assert_double_eq_tol(pnpbs::distance<3>(x[k], given[k]), std::fabs(torus(given[k])), 1e-6);
   }
   ck_assert(x[500] == given[500]);
-  // One by one as all together.
+  // Single points give the same results as all points together.
   for (std::size_t k = 0; k < x.size(); k += 50) {
     P alone = given[k];
     set.project({&alone, 1}, 0.1);

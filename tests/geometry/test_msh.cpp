@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gmsh's files: the same mesh in all its versions, what it makes of a domain, and what is refused.
+// Gmsh's files: the same mesh in all versions, the domains built from them, and invalid files.
 #include <cmath>
 #include <functional>
 #include <string>
@@ -35,7 +35,7 @@ PlaneDomain plane_of(const std::string& bytes, double corner_angle = 40) {
   return plane;
 }
 
-// Area of the triangles with this tag, of those on the boundary or of those inside.
+// Returns the area of the triangles with this tag, either those on the boundary or those inside.
 double area_of(const VolumeDomain& body, std::int32_t tag, bool inside) {
   double area = 0;
   for (const BoundaryTriangle& facet : body.mesh().facets) {
@@ -59,7 +59,7 @@ void expect_near(double value, double expected) {
   ck_assert_msg(std::fabs(value - expected) < 1e-12, "%.15g, not %.15g", value, expected);
 }
 
-// The mesh without its text up to here, so that a message names the line.
+// Returns the text with one part replaced. Fails if `what` does not occur.
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
   const std::size_t at = text.find(what);
   ck_assert_msg(at != std::string::npos, "no '%s'", what.c_str());
@@ -70,7 +70,7 @@ void expect_refused(const std::string& bytes, std::initializer_list<const char*>
   expect_error(ErrorKind::file, parts, [&] { body_of(bytes); });
 }
 
-// A square of side 2 size about the origin, counter-clockwise, with its lines.
+// Adds a square with sides of 2 size about the origin, counter-clockwise, with its lines.
 void add_square(Mesh& mesh, double size, std::int32_t group) {
   const auto first = static_cast<std::int32_t>(mesh.nodes.size()) + 1;
   for (std::int32_t i = 0; i < 4; ++i) {
@@ -79,7 +79,7 @@ void add_square(Mesh& mesh, double size, std::int32_t group) {
   }
 }
 
-// Two cubes of a hexahedron each, one on the other, of other groups.
+// Returns two cubes, one hexahedron each, on top of each other and in different groups.
 Mesh tower() {
   Mesh mesh;
   for (int z = 0; z < 3; ++z)
@@ -120,7 +120,7 @@ START_TEST(entities_are_tags_without_groups) {
   for (msh_files::Element& element : cube.elements) element.group = 0;
   for (std::int32_t tag = 1; tag < 7; ++tag)
     expect_near(area_of(body_of(version_22(cube, Kind::text)), tag, false), 1);
-  // With a group on one side, the others have the least number that is free.
+  // Sides without a group get the smallest free number.
   cube.elements[0].group = cube.elements[1].group = 8;
   const VolumeDomain body = body_of(version_22(cube, Kind::text));
   expect_near(area_of(body, 8, false), 1);
@@ -135,13 +135,13 @@ START_TEST(elements_of_volumes_tell_the_sides) {
     const VolumeDomain body = body_of(version_22(mesh, kind));
     expect_near(body.volume(), 2);
     expect_near(area_of(body, 9, false), 1);
-    expect_near(area_of(body, 3, false), 9);  // what the file leaves out
-    expect_near(area_of(body, 3, true), 1);   // and between the groups
+    expect_near(area_of(body, 3, false), 9);  // facets that the file does not contain
+    expect_near(area_of(body, 3, true), 1);   // the interface of the groups
     ck_assert_int_eq(body.warnings().size(), 0);
     ck_assert_int_eq(body.regions()->tag_at({0.4, 0.5, 0.3}), mesh.elements[0].group);
     ck_assert_int_eq(body.regions()->tag_at({0.4, 0.5, 1.3}), mesh.elements[1].group);
   }
-  // Of one group nothing divides the body, unless the file has it.
+  // A single group has no interface inside the body unless the file contains its facets.
   mesh.elements[1].group = 1;
   ck_assert(area_of(body_of(version_22(mesh, Kind::text)), 2, true) == 0);
   ck_assert_ptr_null(body_of(version_22(mesh, Kind::text)).regions());
@@ -151,7 +151,7 @@ START_TEST(elements_of_volumes_tell_the_sides) {
 END_TEST
 
 START_TEST(entities_tell_the_sides) {
-  // The cube again, inside another one that is a volume, too, or that is not.
+  // The cube contains another cube, which is a volume as well or is empty.
   Mesh mesh = msh_files::cube();
   const Mesh inner = msh_files::cube();
   for (const auto& x : inner.nodes)
@@ -172,27 +172,27 @@ START_TEST(entities_tell_the_sides) {
   const VolumeDomain whole = body_of(version_41(mesh, entities, Kind::little_endian));
   expect_near(whole.volume(), 1);
   expect_near(area_of(whole, 14, true), 0.25);
-  // Only one volume is in a group: the other is not of the body.
+  // Only one volume is in a group, so the other is not part of the body.
   entities[entities.size() - 2].group = 5;
   expect_near(body_of(version_41(mesh, entities, Kind::text)).volume(), 1 - 0.125);
-  // Nothing is told: what lies within each other bounds cavities.
+  // Nested surfaces bound cavities if the file has no entities.
   expect_near(body_of(version_22(mesh, Kind::text)).volume(), 1 - 0.125);
 }
 END_TEST
 
 START_TEST(sheets_and_partitions_are_inner_by_their_place) {
   Mesh mesh = msh_files::cube();
-  mesh.elements.push_back({2, 21, 21, {1, 4, 8}});  // of a partition from edge to edge
+  mesh.elements.push_back({2, 21, 21, {1, 4, 8}});  // a partition from edge to edge
   mesh.elements.push_back({2, 21, 21, {1, 8, 5}});
   mesh.nodes.push_back({0.7, 0.3, 0.2});
   mesh.nodes.push_back({0.8, 0.3, 0.2});
   mesh.nodes.push_back({0.7, 0.3, 0.4});
-  mesh.elements.push_back({2, 22, 22, {9, 10, 11}});  // on its own
+  mesh.elements.push_back({2, 22, 22, {9, 10, 11}});  // a separate sheet
   const VolumeDomain body = body_of(version_22(mesh, Kind::text));
   expect_near(body.volume(), 1);
   expect_near(area_of(body, 21, true), std::sqrt(2));
   expect_near(area_of(body, 22, true), 0.01);
-  // A cube that lacks a triangle is told to be open, and so is a sheet outside.
+  // A cube that lacks a triangle is reported as open, and so is a sheet outside.
   Mesh open = msh_files::cube();
   open.elements.pop_back();
   expect_error(ErrorKind::domain, {"not closed"}, [&] { body_of(version_22(open, Kind::text)); });
@@ -258,7 +258,7 @@ START_TEST(plane_by_its_elements) {
       if (curve.tag == 1) derived += pnpbs::distance<2>(curve.points.front(), curve.points.back());
     }
     ck_assert_int_eq(inner, 1);
-    expect_near(derived, 16);  // the outer square, which the file leaves out
+    expect_near(derived, 16);  // the outer square, which the file does not contain
   }
 }
 END_TEST
@@ -276,7 +276,7 @@ START_TEST(plane_of_lines_alone) {
   mesh.elements.push_back({15, 9, 9, {1}});
   const PlaneDomain plane = plane_of(version_22(mesh, Kind::text));
   expect_near(plane.area(), 36 - 16 + 4);
-  // The curves of version 4.1 say what they bound: here the last square divides a surface.
+  // Entities of version 4.1 define what curves bound. Here the last square divides a surface.
   std::vector<Entity> entities{{1, 5, 5, {}},     {1, 6, 6, {}},  {1, 7, 7, {}},    {1, 8, 8, {}},
                                {2, 1, 0, {5, 6}}, {2, 2, 0, {7}}, {2, 3, 0, {6, 7}}};
   std::ranges::sort(entities, {}, &Entity::dimension);
@@ -284,7 +284,7 @@ START_TEST(plane_of_lines_alone) {
 }
 END_TEST
 
-// Vertices of a mesh are the shape alone, but for corners.
+// Except for corners, vertices of a mesh define the shape only.
 START_TEST(plane_of_smooth_curves) {
   Mesh mesh;
   constexpr std::int32_t n = 40;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains: what they enclose, how curves are cut at corners, and each of the checks.
+// Domains: the enclosed region, the division of curves at corners, and each of the checks.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -79,7 +79,7 @@ const double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-// ---------------------------------------------------------------- what is inside
+// ---------------------------------------------------------------- inside and outside
 
 START_TEST(square) {
   PlaneDomain domain;
@@ -268,7 +268,7 @@ END_TEST
 // ---------------------------------------------------------------- corners and curves
 
 START_TEST(corner_angle) {
-  // A rounded square: four corners of 90 degrees between dense sides that bulge a little.
+  // A rounded square: four corners of 90 degrees between dense sides that bulge slightly.
   shapes::Loop loop;
   for (int side = 0; side < 4; ++side) {
     for (int i = 0; i < 20; ++i) {
@@ -306,7 +306,7 @@ START_TEST(closed_polyline_without_corners) {
 END_TEST
 
 START_TEST(corner_not_at_the_first_vertex) {
-  // A drop: round but for its tip, which is vertex 30.
+  // A drop: round except for its tip, which is vertex 30.
   shapes::Loop loop;
   for (int i = 0; i < 100; ++i) {
     const double angle = 2 * pi * (i - 30) / 100;
@@ -368,7 +368,7 @@ START_TEST(t_junctions) {
 END_TEST
 
 START_TEST(t_junction_within_tolerance) {
-  // One third of the way along a slope, which no double hits exactly.
+  // The vertex is at one third of a slope, which no double represents exactly.
   Graph graph;
   graph.loop({{0, 0, 3, 1, 0, 4}});
   const std::int64_t on = graph.vertex(1 + 1e-13, 1 / 3.0), inside = graph.vertex(0.5, 1);
@@ -421,7 +421,7 @@ START_TEST(ring_of_clockwise_and_counter_clockwise_arcs) {
 END_TEST
 
 START_TEST(narrow_ring_is_refined) {
-  // The ring is narrower than the first samples' chords are off the circle.
+  // The ring is narrower than the distance of the first samples' chords from the circle.
   PlaneDomain domain;
   add_circle(domain, 0, 0, 1);
   domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1 - 1e-5, 0.01, 0.01 + 2 * pi, 2);
@@ -486,7 +486,7 @@ START_TEST(uneven_parameter) {
 END_TEST
 
 START_TEST(segment_ends_on_a_circle) {
-  // The inner segment's ends lie on the true circle, not on the chords of its samples.
+  // The ends of the inner segment lie on the exact circle, not on the chords of its samples.
   PlaneDomain domain;
   add_circle(domain, 0, 0, 1);
   add_chain(domain, {std::cos(1.0), std::sin(1.0), std::cos(4.0), std::sin(4.0)});
@@ -533,7 +533,7 @@ START_TEST(fixed_nodes) {
   ck_assert_int_eq(domain.fixed_nodes()[0].tag, 11);
   ck_assert_int_eq(domain.fixed_nodes()[1].tag, 14);
   ck_assert_int_eq(domain.fixed_node_faces()[0], domain.curves()[0].left_face);
-  ck_assert_int_eq(corners(domain), 5);  // one more, on the lower side
+  ck_assert_int_eq(corners(domain), 5);  // an additional one on the lower side
   ck_assert_int_eq(curves(domain), 5);
   ck_assert_int_eq(domain.corners()[2].tag, 12);
   ck_assert_int_eq(domain.corners()[4].tag, 13);
@@ -575,7 +575,7 @@ START_TEST(lone_vertices_of_a_graph) {
 }
 END_TEST
 
-// ---------------------------------------------------------------- what is refused
+// ---------------------------------------------------------------- invalid input
 
 START_TEST(self_intersection) {
   PlaneDomain domain;
@@ -594,7 +594,7 @@ START_TEST(crossing_curves) {
   add_circle(circles, 0, 0, 1);
   add_circle(circles, 1, 0, 1);
   expect_domain_error(circles, {"curve 0 and curve 1 ", "(0.5"});
-  PlaneDomain by_chance;  // samples of both at the same place
+  PlaneDomain by_chance;  // the samples of both coincide
   const auto zigzag = [](double sign) {
     return [sign](std::int64_t n, const double* t, pnpbs::Point<2>* xy) {
       for (std::int64_t i = 0; i < n; ++i) xy[i] = {t[i], sign * t[i]};
@@ -649,7 +649,7 @@ START_TEST(overlapping_segments) {
   PlaneDomain repeated;
   twice.add_to(repeated);
   expect_domain_error(repeated, {"segment 1 and segment 4 overlap"});
-  // A spike: there and back.
+  // A spike that returns along itself.
   PlaneDomain spike;
   const double xy[] = {0, 0, 4, 0, 4, 4, 2, 4, 2, 6, 2, 5, 0, 4};
   spike.add_polyline(pnpbs::CurveRole::boundary, true, 7, xy, nullptr, 0);
@@ -681,7 +681,7 @@ START_TEST(unclosed_boundary) {
   add_chain(domain, {0, 1, 0, 0.01}, pnpbs::CurveRole::boundary);
   expect_domain_error(domain, {"not closed"});
   add_chain(domain, {0, 0.01, 0, 0},
-            pnpbs::CurveRole::boundary);  // after a failed check it can be mended
+            pnpbs::CurveRole::boundary);  // the domain can be completed after a failed check
   expect_area(domain, 1);
   PlaneDomain inner;
   add_loop(inner, rectangle(0, 0, 1, 1), 0, pnpbs::CurveRole::inner);
@@ -784,7 +784,7 @@ START_TEST(a_failed_check_keeps_the_last_result) {
   add_loop(domain, rectangle(0, 0, 1, 1));
   domain.check();
   const BoundaryCurve* before = domain.curves().data();
-  domain.check();  // nothing to do
+  domain.check();  // does nothing
   ck_assert_ptr_eq(domain.curves().data(), before);
   add_loop(domain, rectangle(0.5, 0.5, 2, 2));
   expect_domain_error(domain, {"cross"});
@@ -821,7 +821,7 @@ START_TEST(bad_polylines) {
   expect_argument_error({"corner_angle is 181"}, add(4, xy, 181));
   expect_argument_error({"corner_angle is nan"}, add(4, xy, nan_value));
   add(4, xy)();
-  expect_area(domain, 1);  // none of the others left a trace
+  expect_area(domain, 1);  // the rejected curves left no trace
   ck_assert_str_eq(domain.curves()[0].name.c_str(), "curve 0, segment 0");
 }
 END_TEST

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sweep against a look at all pairs, and faces against Euler's formula.
+// The plane sweep against a search over all pairs, and faces against Euler's formula.
 #include <algorithm>
 #include <random>
 #include <vector>
@@ -35,7 +35,7 @@ bool lies_inside(const Net& net, std::int32_t vertex, const VertexPair& edge) {
          on_segment(net.vertices[vertex], net.vertices[edge[0]], net.vertices[edge[1]]);
 }
 
-// Do two edges meet other than in a common end?
+// Returns whether two edges meet other than in a common end.
 bool meet(const Net& net, const VertexPair& a, const VertexPair& b) {
   if (is_end(a[0], b) && is_end(a[1], b)) return true;
   const auto& p = net.vertices;
@@ -72,7 +72,7 @@ Net random_net(std::mt19937& random, int vertices, int edges, int range) {
   return net;
 }
 
-// Leaves out edges that conflict with earlier ones.
+// Removes edges that conflict with earlier ones.
 Net without_conflicts(const Net& all) {
   Net net{all.vertices, {}};
   for (const VertexPair& edge : all.edges) {
@@ -157,7 +157,7 @@ START_TEST(left_edge_equals_all_pairs) {
           expected = static_cast<std::int32_t>(e);
         }
       }
-      // Edges that begin or end level with p are not looked at here.
+      // The reference ignores edges with an end level with p, so such points are skipped.
       bool level = false;
       for (const auto& [a, b] : net.edges) {
         if (is_end(static_cast<std::int32_t>(v), {a, b})) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangle's .poly format: what it allows, and files that are no such thing.
+// Triangle's .poly format: valid variants, and invalid files.
 #include <clocale>
 #include <cstdio>
 #include <fstream>
@@ -78,7 +78,7 @@ START_TEST(numbered_from_zero_with_all_sections) {
   ck_assert_int_eq(domain.corners()[1].tag, 9);
   ck_assert_int_eq(domain.corners()[2].tag, 5);
   ck_assert_int_eq(domain.curves()[3].tag, -6);
-  ck_assert_int_eq(domain.curves()[4].tag, 1);  // 0 is no marker
+  ck_assert_int_eq(domain.curves()[4].tag, 1);  // 0 means no marker
   ck_assert_str_eq(domain.corners()[0].name.c_str(), "vertex 0");
   ck_assert_ptr_nonnull(domain.regions());
   ck_assert_int_eq(domain.regions()->tag_at({3, 0.5}), 17);
@@ -94,7 +94,7 @@ START_TEST(missing_counts_are_zero) {
 END_TEST
 
 START_TEST(any_locale) {
-  // Where a comma is the decimal sign, points still are in files.
+  // Files have decimal points also in locales with decimal commas.
   if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) std::setlocale(LC_ALL, "C");
   ck_assert_double_eq(read(replaced(square, "3 2 2", "3 2.5 2.5")).area(), 5);
   std::setlocale(LC_ALL, "C");
@@ -143,7 +143,7 @@ START_TEST(truncated_files) {
   const std::string whole = square;
   expect_file_error({"x.poly:10: the file ends, expected the number of holes"},
                     whole.substr(0, whole.size() - 2));
-  // Whatever is cut off, it is an error or still a graph.
+  // Any truncation is either an error or still a valid graph.
   for (std::size_t length = 0; length < whole.size(); ++length) {
     PlaneDomain domain;
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Polygons in triangles: all of the polygon, nothing twice, no needles that need not be.
+// Triangulations of polygons: they cover the polygon once and avoid needles.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -35,7 +35,7 @@ double shoelace(const Polygon& polygon) {
   return sum;
 }
 
-// Each side of the polygon once, each edge inside from both sides, and the areas add up.
+// Expects each side of the polygon once, each inner edge in two triangles, and areas that add up.
 Triangles expect_filled(const Polygon& polygon) {
   const Triangles triangles = pnpbs::polygon_triangles(polygon);
   const auto count = static_cast<std::int32_t>(polygon.size());
@@ -74,7 +74,7 @@ double least_angle(const Polygon& polygon, const Triangles& triangles) {
   return least;
 }
 
-// Radii at random make corners of every kind.
+// Returns a star-shaped polygon with random radii, which has corners of every kind.
 Polygon star(int count, std::uint32_t seed, double low) {
   std::mt19937 random(seed);
   Polygon polygon;
@@ -107,7 +107,7 @@ std::string problem_of(SurfaceTriangles surface, bool backwards = false) {
 
 START_TEST(convex_polygons) {
   expect_filled({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-  // The shorter diagonal, wherever the polygon begins.
+  // The shorter diagonal is used, wherever the polygon begins.
   Polygon kite{{0, 0}, {4, -1}, {8, 0}, {4, 1}};
   for (int turn = 0; turn < 4; ++turn) {
     ck_assert_double_gt(least_angle(kite, expect_filled(kite)), 20);
@@ -121,7 +121,7 @@ START_TEST(polygons_with_corners_that_point_inwards) {
   expect_filled({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});  // an L
   for (std::uint32_t seed = 0; seed < 200; ++seed)
     expect_filled(star(4 + static_cast<int>(seed), seed, 0.05));
-  // A comb: its teeth hide each other.
+  // A comb, whose teeth hide each other.
   Polygon comb;
   for (int i = 0; i < 100; ++i) {
     comb.push_back({static_cast<double>(i), 0});
@@ -144,8 +144,8 @@ START_TEST(corners_on_straight_sides) {
   expect_filled({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}});
   expect_filled({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {0, 3}});
   expect_filled({{0, 0}, {3, 0}, {0, 3}, {0, 2}, {0, 1}});
-  // Nearly straight, as rounded coordinates are: bulging by so little, a corner must not become a
-  // needle of its own.
+  // Nearly straight corners as they result from rounded coordinates: a corner with such a small
+  // bulge must not become a needle of its own.
   for (const double bulge : {1e-16, 1e-12, -1e-12}) {
     const Polygon polygon{{0, 0}, {0.5, -bulge}, {1, 0}, {0.5, 0.8660254037844386}};
     for (std::size_t turn = 0; turn < 4; ++turn) {
@@ -157,7 +157,7 @@ START_TEST(corners_on_straight_sides) {
 }
 END_TEST
 
-// No corner that sees an edge lies inside the circle of the triangle behind it.
+// No visible corner lies inside the circumcircle of the triangle behind an edge.
 START_TEST(edges_are_delaunay) {
   const Polygon polygon = star(60, 5, 0.2);
   const Triangles triangles = expect_filled(polygon);
@@ -197,7 +197,8 @@ START_TEST(polygons_in_space) {
       if (backwards) std::reverse(corners.begin(), corners.end());
       ck_assert(pnpbs::add_polygon(surface, corners, 7).empty());
       ck_assert_uint_eq(surface.triangles.size(), 3);
-      // Along the axis that was x, y or z: all triangles face one way, and fill the hook.
+      // All triangles have the same orientation along the axis that was x, y or z, and cover the
+      // hook.
       const std::size_t first = (3 - shift) % 3, second = (4 - shift) % 3;
       double sum = 0;
       for (const auto& t : surface.triangles) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The signs of determinants: against integer arithmetic, at the ends of the number range, and
-// whether broken ties make one triangulation.
+// Signs of determinants: against integer arithmetic, at the limits of the range of doubles, and
+// consistency of ties broken by ids.
 #include <check.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ Wide turn_of(const Lattice& a, const Lattice& b, const Lattice& c, const Lattice
   return Wide(b.x - a.x) * (d.y - c.y) - Wide(b.y - a.y) * (d.x - c.x);
 }
 
-// Every second pair of ways is parallel, or would be but for a unit.
+// Every second pair of directions is parallel, or almost parallel by one unit.
 void compare_turn(std::int64_t range, int exponent, int count) {
   std::mt19937_64 random(3);
   std::uniform_int_distribution<std::int64_t> factor(-2, 2), unit(-1, 1);
@@ -134,7 +134,7 @@ bool is_delaunay(const Set& set, std::size_t i, std::size_t j, std::size_t k) {
   return true;
 }
 
-// Twice the area and the number of the triangles whose circles are empty.
+// Returns twice the area and the number of the triangles whose circumcircles are empty.
 std::pair<double, int> empty_circles(const Set& set) {
   double area = 0;
   int count = 0;
@@ -204,13 +204,13 @@ START_TEST(in_circle_equals_integer_arithmetic) {
 END_TEST
 
 START_TEST(differences_that_round_stay_exact) {
-  // With 2^-60 in it, 1 - 2^-60 is no double.
+  // Together with 2^-60, 1 - 2^-60 is not a double.
   const double tiny = std::ldexp(1.0, -60);
   const P c{1, tiny};
   ck_assert_int_eq(orientation({0, 0}, {1, 0}, {tiny, tiny}), 1);
   ck_assert_int_eq(orientation({tiny, tiny}, {1, 1}, {3, 3}), 0);
   ck_assert_int_eq(orientation({tiny, 2 * tiny}, {1, 1}, {3, 3}), 1);
-  // The unit circle about (0, 1): its lowest point moved by tiny along x and along y.
+  // The unit circle about (0, 1), with its lowest point moved by tiny along x and along y.
   ck_assert_int_eq(in_circle({1, 1}, {0, 2}, {-1, 1}, {0, 0}), 0);
   ck_assert_int_eq(in_circle({1, 1}, {0, 2}, {-1, 1}, {tiny, 0}), -1);
   ck_assert_int_eq(in_circle({1, 1}, {0, 2}, {-1, 1}, {0, tiny}), 1);
@@ -280,7 +280,7 @@ START_TEST(square_gets_one_diagonal) {
     ck_assert_int_eq(ac, ac_from_d);
     ck_assert_int_eq(bd, bd_from_c);
     ck_assert_int_eq(ac, -bd);
-    // The smallest id is lifted most, hence outside: the diagonal joins its neighbours.
+    // The smallest id is lifted most and is therefore outside: the diagonal joins its neighbours.
     const auto smallest = std::min_element(id.begin(), id.end()) - id.begin();
     ck_assert_int_eq(bd, smallest % 2 == 0 ? -1 : 1);
   } while (std::next_permutation(id.begin(), id.end()));

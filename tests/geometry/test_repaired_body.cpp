@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies from triangles that enclose them badly: the winding number against the sum of all solid
-// angles, what is inside, volumes and distances against those of the body meant.
+// Bodies from triangles that do not properly enclose them: the winding number against the sum of
+// all solid angles, and the inside, volumes and distances against those of the intended body.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +38,7 @@ Triangles triangles_of(const Soup& soup) {
   return triangles;
 }
 
-// From (0, 0, 0) to (1, 1, 1), each side of 2 n^2 triangles.
+// Returns the unit cube with 2 n^2 triangles on each side.
 Soup cube(int n) {
   Soup soup;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -63,7 +63,7 @@ Soup cube(int n) {
   return soup;
 }
 
-// Two narrow pyramids, with their tips in the middle of the unit cube.
+// Returns two narrow pyramids with their tips at the centre of the unit cube.
 Soup needles() {
   Soup soup;
   const std::int64_t tip = soup.vertex(0.5, 0.5, 0.5);
@@ -117,7 +117,7 @@ START_TEST(windings_of_a_cube_are_whole) {
     const bool inside = std::all_of(x.begin(), x.end(), [](double c) { return c > 0 && c < 1; });
     ck_assert_double_eq_tol(sum_of_windings(triangles, x), inside ? 1 : 0, 1e-9);
   }
-  // A sixth of all around, seen from the middle of the cube that it is a side of.
+  // The side of a cube covers a sixth of the solid angle, as seen from the centre.
   const Triangles side = triangles_of(without(cube(1), 2, 10));
   ck_assert_double_eq_tol(sum_of_windings(side, {0.5, 0.5, 0.5}), 1.0 / 6, 1e-12);
 }
@@ -141,11 +141,11 @@ struct Case {
   const char* name;
   Soup soup;
   double volume;
-  double off = 0.01;   // of the volume
-  bool turns = false;  // its triangles are turned, or fewer, before they count
+  double off = 0.01;   // relative error of the volume
+  bool turns = false;  // triangles are turned or dropped before winding numbers are computed
 };
 
-// Each vertex of each triangle elsewhere, by as much at most.
+// Displaces each vertex of each triangle by at most `by` in each direction.
 Soup shaken(Soup soup, double by) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> along(-by, by);
@@ -188,7 +188,7 @@ std::vector<Case> cases() {
 VolumeDomain repaired(const Soup& soup, double resolution) {
   VolumeDomain domain;
   soup.add_to(domain);
-  domain.set_repair(resolution, true);  // those that are sound, too
+  domain.set_repair(resolution, true);  // repairs valid surfaces as well
   domain.check();
   return domain;
 }
@@ -201,7 +201,7 @@ START_TEST(bodies_are_what_triangles_enclose) {
 }
 END_TEST
 
-// Where sides of triangles tell what is inside they tell what winding numbers do.
+// The sides of triangles agree with the winding numbers where they determine what is inside.
 START_TEST(signs_are_those_of_the_windings) {
   const Case the = cases()[static_cast<std::size_t>(_i)];
   pnpbs::SurfaceSource source;
@@ -267,11 +267,11 @@ START_TEST(distances_are_told) {
 }
 END_TEST
 
-// Where a hole is closed the triangles given are far, and nothing is wrong with that.
+// The given triangles are far from the surface over a closed hole, which is not an error.
 START_TEST(distances_over_holes_are_told_apart) {
   const RepairedBody lidless = body_of(without(cube(4), 0, 32), 0.05);
   ck_assert_double_lt(lidless.distances.to_given, 1e-3);
-  ck_assert_double_eq_tol(lidless.distances.over_holes, 0.5, 0.05);  // to the middle of the lid
+  ck_assert_double_eq_tol(lidless.distances.over_holes, 0.5, 0.05);  // to the centre of the lid
   ck_assert_double_eq_tol(lidless.distances.mean_to_given, 1. / 6 / 6, 0.005);
   ck_assert_double_lt(lidless.distances.to_new, 0.05);
   ck_assert_double_eq(lidless.distances.lost, 0);
@@ -279,7 +279,7 @@ START_TEST(distances_over_holes_are_told_apart) {
 }
 END_TEST
 
-// By points all over large triangles, not by their middles alone.
+// Distances are measured at points all over large triangles, not only at their centres.
 START_TEST(distances_are_those_of_large_triangles) {
   const Soup sheet = without(cube(1), 2, 10).shifted(0.5, 0.3, 0.7);  // sticks out
   const RepairedBody body = body_of(both(cube(1), sheet), 0.05);
@@ -295,7 +295,7 @@ START_TEST(what_cannot_be_is_refused) {
                [&] { repaired(without(cube(1), 2, 10), 0); });
   expect_error(ErrorKind::domain, {"repair: the resolution is 3", "longest side"},
                [&] { repaired(cube(1), 3); });
-  // Without a repair the message names it.
+  // The message names the function that repairs if no repair is set.
   VolumeDomain open;
   without(cube(2), 3, 1).add_to(open);
   expect_error(ErrorKind::domain, {"not closed", "pnpbs_domain_set_repair"}, [&] { open.check(); });
@@ -308,8 +308,8 @@ START_TEST(what_cannot_be_is_refused) {
 }
 END_TEST
 
-// A wavy sheet from (2, 0) to (3, 1), which encloses nothing, though beside its waves it winds a
-// bit more than half a time around.
+// Returns a wavy sheet from (2, 0) to (3, 1), which encloses nothing, although its winding number
+// slightly exceeds one half beside the waves.
 Soup sheet() {
   constexpr int kCount = 24;
   Soup soup;
@@ -362,7 +362,7 @@ bool is_repaired(const VolumeDomain& domain) {
   return repaired;
 }
 
-// Whatever the checks accept or mend themselves is as it would be without a repair.
+// Surfaces that the checks accept or correct equal those without a repair.
 START_TEST(sound_bodies_stay) {
   Soup whole = cube(4), turned = whole;
   for (std::size_t t = 0; t < whole.tags.size(); ++t)
@@ -395,7 +395,7 @@ START_TEST(bodies_that_are_not_sound_are_repaired) {
 }
 END_TEST
 
-// Of surfaces alone what they would enclose counts.
+// Surfaces without an inside are repaired if the body that they would enclose is.
 START_TEST(surfaces_alone_are_repaired_where_a_body_would_be) {
   for (const bool open : {false, true}) {
     VolumeDomain domain;
@@ -409,7 +409,7 @@ START_TEST(surfaces_alone_are_repaired_where_a_body_would_be) {
 }
 END_TEST
 
-// A domain that is made of a repaired body tells of the repair.
+// A domain built from a repaired body reports that repair.
 START_TEST(repairs_of_other_bodies_are_taken) {
   const VolumeDomain body = repaired_if_broken(without(cube(4), 40, 1));
   VolumeDomain made;
@@ -423,7 +423,7 @@ START_TEST(repairs_of_other_bodies_are_taken) {
 }
 END_TEST
 
-// What is not to be repaired stays as it is.
+// Surfaces with other roles are not repaired.
 START_TEST(other_surfaces_stay) {
   VolumeDomain domain;
   without(cube(4), 3, 1).add_to(domain);

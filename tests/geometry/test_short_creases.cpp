@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sharp edges are roughness: graphs of creases that are known by name, and ridges on sheets
-// against a search for sharp edges.
+// Tests of which sharp edges count as roughness: graphs of creases, and ridges on sheets against a
+// search for sharp edges.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +20,8 @@ using space_shapes::P;
 
 namespace {
 
-// Edges between nodes on a circle of radius 1, so close to each other that all creases are short
-// against the mesh; two nodes far away make its extent.
+// Edges between nodes on a circle of radius 1. All creases are short compared with the mesh; two
+// distant nodes define its extent.
 struct Creases {
   std::vector<FeatureEdgeCandidate> edges;
 
@@ -45,7 +45,7 @@ struct Creases {
   }
 };
 
-// A sheet of n by 8 squares of side 1 with a ridge along its middle line, whose height over the
+// Returns a sheet of n by 8 unit squares with a ridge along its middle line. Its height over the
 // lines beside it is w(x).
 template <class Height>
 Mesh ridge(int n, const Height& w) {
@@ -98,7 +98,7 @@ START_TEST(test_rings) {
 }
 END_TEST
 
-// Spurs leave a long crease as it is; of a tree with no long way in it all goes.
+// Spurs do not shorten a long crease. A tree without a long path is dropped completely.
 START_TEST(test_branches) {
   Creases comb;
   comb.path({0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
@@ -116,12 +116,12 @@ START_TEST(test_branches) {
 }
 END_TEST
 
-// Where a tag or a border makes the edge, nothing is dropped, nor between such edges.
+// Edges due to a tag or a border are never dropped, nor are creases between such edges.
 START_TEST(test_other_features) {
   Creases border;
   border.path({0, 1, 2, 3, 4, 0}, false);
   border.path({10, 11}, false);
-  border.path({11, 12});  // goes on and ends freely
+  border.path({11, 12});  // continues and ends freely
   border.path({0, 20, 2});
   std::vector<char> dropped = border.dropped();
   const std::vector<char> spur{0, 0, 0, 0, 0, 0, 1, 0, 0};
@@ -129,7 +129,7 @@ START_TEST(test_other_features) {
 }
 END_TEST
 
-// A ridge that fades out: long, so it stays, up to where it is no longer sharp; and a bump.
+// A long ridge that fades out is kept as far as it is sharp; a bump is dropped.
 START_TEST(test_ridges) {
   const auto fades = [](double x) { return 0.8 * std::max(0.0, 1 - x / 60); };
   const Mesh dart = ridge(60, fades);
@@ -150,7 +150,7 @@ START_TEST(test_ridges) {
   ck_assert_int_lt(few, 6);
   const pnpbs::Features rough = pnpbs::find_features(bumpy, 40);
   ck_assert_int_eq(static_cast<std::int64_t>(rough.short_creases.size()), few);
-  // The sheet's border is what is left; all other sides are joined.
+  // Only the border of the sheet is left; all other facet sides are joined.
   const std::size_t border = 2 * (60 + 8);
   std::size_t edges = 0;
   for (const pnpbs::FeatureCurve& curve : rough.curves) edges += curve.edge_count();
@@ -160,7 +160,7 @@ START_TEST(test_ridges) {
     for (const std::int32_t node : {a, b})
       ck_assert(bumpy.nodes[static_cast<std::size_t>(node)].position[1] == 4);
 
-  // On a coarse mesh the same bump is a good part of all.
+  // The same bump on a coarse mesh is a large part of the whole.
   const Mesh coarse = ridge(12, [](double x) { return 0.5 * (1 - std::fabs(x - 6) / 8); });
   ck_assert_int_gt(edges_turned_by_more(coarse, 40), 1);
   ck_assert_uint_eq(pnpbs::find_features(coarse, 40).short_creases.size(), 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundaries finer than d: what is left out, how far what stays is from what was given, and that
-// nothing comes to another side. Distances and sides are asked of the given points directly.
+// Simplification of boundaries finer than d: the omitted vertices, the distance of the result from
+// the input, and the sides of all points, which are computed directly from the input.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -34,7 +34,7 @@ LeftOut simplify(PlaneDomain& domain, double d, double tolerance, double smalles
   return domain.simplify(constant(d), {tolerance, smallest});
 }
 
-// A coast about a point: circles of ever more waves, and noise.
+// Returns a coast about a point: a circle with increasingly short waves and noise.
 Points coast(const Point<2>& centre, double radius, int n, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<double> phases;
@@ -85,7 +85,7 @@ START_TEST(a_coast_stays_within_the_tolerance) {
       PlaneDomain domain;
       add_closed(domain, given);
       const LeftOut left_out = simplify(domain, d, 0.25);
-      domain.check();  // nothing crosses
+      domain.check();  // no crossings
       ck_assert_int_eq(left_out.curves, 0);
       ck_assert_uint_eq(segments_of(domain) + static_cast<std::size_t>(left_out.vertices), 4000);
       ck_assert_uint_lt(segments_of(domain), static_cast<std::size_t>(16 / d));
@@ -96,8 +96,8 @@ START_TEST(a_coast_stays_within_the_tolerance) {
 }
 END_TEST
 
-// What nodes can follow stays as it is: a dent beside pieces of d, and everything if nothing may
-// move.
+// Details that nodes can follow are kept: a dent beside pieces of length d. With a tolerance of 0
+// everything is kept.
 START_TEST(pieces_as_long_as_d_stay) {
   PlaneDomain domain;
   add_closed(domain, {{0, 0}, {0.5, 0.01}, {1, 0}, {1, 1}, {0, 1}});
@@ -111,7 +111,7 @@ START_TEST(pieces_as_long_as_d_stay) {
 }
 END_TEST
 
-// Straight runs become one segment; of vertices given in any order and direction.
+// Straight parts become one segment, for vertices in any order and direction.
 START_TEST(graphs_in_any_order) {
   std::mt19937 random(7);
   Points points;
@@ -139,7 +139,7 @@ START_TEST(graphs_in_any_order) {
 }
 END_TEST
 
-// Walls a twentieth of d apart: neither they nor what stands between them change sides.
+// Walls with gaps of d/20: neither they nor points between them change sides.
 START_TEST(nothing_comes_to_another_side) {
   const double gap = 0.05;
   Points comb;
@@ -156,7 +156,7 @@ START_TEST(nothing_comes_to_another_side) {
   for (int k = 0; k < 12; ++k) nodes.push_back({2 * gap * k + 0.5 * gap, 0.9});
   domain.add_fixed_nodes(static_cast<std::int64_t>(nodes.size()), nodes[0].data(), nullptr);
   ck_assert_int_gt(simplify(domain, 1, 0.5).vertices, 300);
-  domain.check();  // crossings, and fixed nodes outside
+  domain.check();  // checks crossings and fixed nodes
   ck_assert_uint_eq(domain.fixed_nodes().size(), nodes.size());
   for (const Point<2>& x : comb) ck_assert_double_le(distance_to(domain, x), 0.5);
 }
@@ -186,8 +186,8 @@ START_TEST(what_others_meet_stays) {
 }
 END_TEST
 
-// A lake with islands of many sizes, one with a lake of its own, one with a fixed node at its
-// shore.
+// A lake with islands of many sizes, one with a lake of its own and one with a fixed node at its
+// coast.
 START_TEST(islands_too_small_for_nodes) {
   Graph graph;
   const auto add = [&](const Points& points) {
@@ -206,14 +206,14 @@ START_TEST(islands_too_small_for_nodes) {
     holes.push_back({islands[k][0] + 0.4 * radii[k], islands[k][1]});
     if (k == 3) holes.back() = {4.2, 4};
   }
-  add(coast({4, 4}, 0.05, 30, 3));  // a lake on the fourth
+  add(coast({4, 4}, 0.05, 30, 3));  // a lake on the fourth island
   PlaneDomain domain;
   const auto segments = static_cast<std::int64_t>(graph.ends.size() / 2);
   domain.add_pslg(static_cast<std::int64_t>(graph.xy.size() / 2), graph.xy.data(), nullptr,
                   segments, graph.ends.data(), nullptr, 6, holes[0].data());
   const Point<2> shore = coast(islands[4], radii[4], 60, 4)[0];
   domain.add_fixed_nodes(1, shore.data(), nullptr);
-  const LeftOut left_out = simplify(domain, 0.1, 0.25, 2);  // less than 0.2 across
+  const LeftOut left_out = simplify(domain, 0.1, 0.25, 2);  // curves with an extent below 0.2
   ck_assert_int_eq(left_out.curves, 3);
   domain.check();
   ck_assert(has_vertex(domain, shore));
@@ -224,7 +224,7 @@ START_TEST(islands_too_small_for_nodes) {
     return warning.code == pnpbs::WarningCode::simplified && warning.count > 0 &&
            warning.message.text().find("3 closed curves") != std::string::npos;
   }));
-  // The whole lake is small, but something must be filled.
+  // The whole lake is small, but the domain must not become empty.
   ck_assert_int_eq(simplify(domain, 1000, 0.25, 2).curves, 3);
   domain.check();
 }
@@ -248,7 +248,7 @@ END_TEST
 
 // ---------------------------------------------------------------- corners of graphs
 
-// A square with rounded corners but for one, as a graph whose segments come in any order.
+// A graph of a square with three rounded corners, with segments in any order.
 START_TEST(corners_of_a_graph) {
   Points points{{1, 0}};
   for (int i = 0; i < 90; ++i) {
@@ -283,7 +283,8 @@ START_TEST(corners_of_a_graph) {
 }
 END_TEST
 
-// Without any corner a closed curve begins somewhere; tags make corners, of vertices as well.
+// A closed curve without corners begins at an arbitrary vertex. Tags of segments and vertices make
+// corners.
 START_TEST(round_graphs) {
   Points points;
   std::vector<std::int64_t> ends;
@@ -309,7 +310,7 @@ START_TEST(round_graphs) {
   ck_assert_uint_eq(curves_with(20), 2);
   ck_assert_uint_eq(curves_with(3), 200);  // each turns by 3.6 degrees
   vertex_tags[130] = 9;
-  vertex_tags[140] = 7;  // the segments'
+  vertex_tags[140] = 7;  // the tag of the segments
   ck_assert_uint_eq(curves_with(20), 2);
   vertex_tags[170] = 9;
   tags[20] = 8;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The signs of determinants in space, against whole numbers: of points anywhere, near a plane or a
-// sphere, exactly on them, and at the ends of the number range.
+// Signs of determinants in space against exact integers: for random points, near a plane or a
+// sphere, exactly on them, and at the limits of the range of doubles.
 #include <check.h>
 
 #include <algorithm>
@@ -41,13 +41,13 @@ auto any_of(Random& random, const Items& items) {
   return items[random.below(static_cast<std::int64_t>(std::size(items)))];
 }
 
-// How often the four and the five were exactly in a plane and on a sphere.
+// Numbers of exact ties: four points in a plane, five on a sphere.
 struct Zeros {
   int plane = 0, sphere = 0;
 };
 
-// Five points `count` times, as `make` makes them of random numbers. The exact arithmetic is asked
-// as well where the filter decides.
+// Compares `count` sets of five points from `make`. Tests the exact arithmetic also where the
+// filter decides.
 template <class Make>
 Zeros compare(int count, const Make& make) {
   Random random(1);
@@ -69,8 +69,8 @@ Zeros compare(int count, const Make& make) {
   return zeros;
 }
 
-// Whole-number points as `make` makes them, one coordinate in every tenth changed by 1, scaled by
-// one of the powers of two.
+// Compares integer points from `make`, scaled by one of the powers of two. In every tenth set, one
+// coordinate is changed by 1.
 template <class Make>
 Zeros compare_scaled(int count, const std::vector<int>& exponents, const Make& make) {
   return compare(count, [&](Random& random) {
@@ -83,7 +83,7 @@ Zeros compare_scaled(int count, const std::vector<int>& exponents, const Make& m
   });
 }
 
-// x^2 + y^2 + z^2 = square
+// Returns the integer points with x^2 + y^2 + z^2 = square.
 std::vector<Whole> lattice_sphere(std::int64_t square) {
   std::vector<Whole> found;
   const auto max = static_cast<std::int64_t>(std::sqrt(static_cast<double>(square)));
@@ -179,7 +179,7 @@ START_TEST(near_a_plane) {
 }
 END_TEST
 
-// At the ends of the range of products of 2 to 5 differences, too.
+// Exponents include the limits of the range for products of 2 to 5 differences.
 START_TEST(small_lattice) {
   const std::vector<int> exponents{0,    -30,  100,  900,  -1000, -1074, 1020, -535, -536,
                                    -537, -538, -357, -358, -359,  -360,  -361, -213, -214,
@@ -261,8 +261,8 @@ START_TEST(exactly_on_a_sphere) {
 }
 END_TEST
 
-// Differences of 18 to 130 bits, in determinants as large as there are with them: the corners of a
-// cube (in every other case those of a regular tetrahedron) about a point next to its middle.
+// Differences of 18 to 130 bits in determinants of maximum size: the corners of a cube (in every
+// other case of a regular tetrahedron) about a point next to its centre.
 START_TEST(as_many_bits_as_fit) {
   compare(20000, [](Random& random) {
     const int bits = 18 + static_cast<int>(random.below(113));
@@ -283,7 +283,7 @@ START_TEST(as_many_bits_as_fit) {
 }
 END_TEST
 
-// Products of two small coordinates lose bits that a large third one brings up again.
+// Products of two small coordinates lose bits, which a large third coordinate makes significant.
 START_TEST(axes_of_different_units) {
   const Zeros zeros = compare(5000, [](Random& random) {
     const auto exponent = [&random](int low, int high) {
@@ -304,7 +304,7 @@ START_TEST(axes_of_different_units) {
 }
 END_TEST
 
-// The corners of boxes lie on a sphere, in whatever ratios their edges are.
+// The corners of boxes lie on a sphere for any ratio of their edges.
 START_TEST(boxes_of_any_edges) {
   const Zeros zeros = compare(3000, [](Random& random) {
     const double width = any_double(random), depth = any_double(random);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ties on a sphere, broken by ids: as heights raised by powers of a small number would, the same
-// in whatever order the points come, and so that they make one triangulation.
+// Ties on a sphere, broken by ids: equivalent to heights raised by powers of a small number,
+// independent of the order of the points, and consistent with one triangulation.
 #include <check.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ Set grid(int side) {
   return set;
 }
 
-// On the sphere of radius 3.
+// Returns the points on the sphere of radius 3.
 Set thirty_on_a_sphere() {
   Set set;
   for (const P& x : grid(7).points) {
@@ -89,7 +89,7 @@ bool is_delaunay(const Set& set, const Corners& t) {
   return true;
 }
 
-// The tetrahedra of positive orientation whose spheres are empty.
+// Returns the tetrahedra of positive orientation whose spheres are empty.
 std::vector<Corners> empty_spheres(const Set& set) {
   std::vector<Corners> found;
   const auto& p = set.points;
@@ -129,8 +129,8 @@ bool on_the_hull(const Set& set, int a, int b, int c) {
   return !(front && back);
 }
 
-// Does each face that is not on the hull have one tetrahedron on either side, and the others one?
-// Then all of the hull is covered as often as any place in it.
+// Expects that each face has one tetrahedron on either side, or one if it is on the hull. Then all
+// parts of the hull are covered equally often.
 void check_faces(const Set& set, const std::vector<Corners>& tetrahedra) {
   std::map<std::array<int, 3>, std::vector<int>> sides;
   for (const Corners& t : tetrahedra) {
@@ -197,7 +197,7 @@ START_TEST(cube_is_filled_once) {
     const std::vector<Corners> tetrahedra = empty_spheres(set);
     ck_assert_double_eq(six_volumes(set, tetrahedra), 6);
     check_faces(set, tetrahedra);
-    // The smallest id is lifted most: a corner that is cut off.
+    // The smallest id is lifted most: its corner is cut off.
     const auto smallest = std::min_element(set.ids.begin(), set.ids.end()) - set.ids.begin();
     ck_assert_int_eq(std::count_if(tetrahedra.begin(), tetrahedra.end(),
                                    [&](const Corners& t) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a surface knows of its places: sides, who sees whom, and how far features are.
+// Queries of a surface about its points: sides, visibility, and distances to features.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,7 +47,8 @@ bool is_on_patch(const SurfaceCase& c, std::int32_t patch, const P& x) {
   return false;
 }
 
-// Around the node, from the side's begin to its end lies the patch, and beyond it does not.
+// Expects that around the node, the patch lies between the begin and the end of the side and not
+// beyond.
 void check_sides(const SurfaceCase& c, const FeatureNodes& laid) {
   for (std::size_t n = 0; n < laid.nodes.size(); ++n) {
     const P x = laid.nodes[n].position;
@@ -110,7 +111,7 @@ START_TEST(test_flat_patches_have_one_normal) {
 }
 END_TEST
 
-// The unit cube, and places on it with the numbers of the sides that they are on.
+// The unit cube, and points on it with the sides that contain them.
 struct PlacesOnCube {
   SurfaceCase c{space_shapes::cube(2).mesh()};
   std::vector<std::pair<SurfaceSupport, std::set<int>>> places;
@@ -142,7 +143,7 @@ START_TEST(test_sees_on_a_cube) {
 }
 END_TEST
 
-// At a corner each two of four nodes can be on one side, and no side has all of them.
+// At a corner, any two of four nodes can share a side although no side contains all of them.
 START_TEST(test_shares_a_patch_on_a_cube) {
   const PlacesOnCube cube;
   const Surface& surface = cube.c.surface;
@@ -170,7 +171,7 @@ START_TEST(test_shares_a_patch_on_a_cube) {
 }
 END_TEST
 
-// An ellipsoid, its two halves close to each other: what is seen is on the same half.
+// An ellipsoid with two halves close to each other: visible points are on the same half.
 START_TEST(test_sees_around_a_thin_body) {
   space_shapes::Shape shape = space_shapes::ball(4);
   for (P& x : shape.nodes) x[2] *= 0.3;

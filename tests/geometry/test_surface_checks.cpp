@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each check of triangulated surfaces with its message, and what is mended.
+// Each check of triangulated surfaces with its message, and the defects that are repaired.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,8 @@ using namespace soups;
 
 namespace {
 
-// Triangles by the places of their corners, each from its least one on, in a fixed order.
+// Returns triangles by the positions of their corners, starting from the smallest one, in sorted
+// order.
 std::vector<std::array<P, 3>> places_of(const VolumeDomain& domain) {
   std::vector<std::array<P, 3>> places;
   for (const pnpbs::BoundaryTriangle& facet : domain.mesh().facets) {
@@ -27,7 +28,7 @@ std::vector<std::array<P, 3>> places_of(const VolumeDomain& domain) {
   return places;
 }
 
-// Every edge once in each direction.
+// Returns whether every edge occurs once in each direction.
 bool is_closed(const pnpbs::BoundaryMesh<3>& mesh) {
   std::map<std::array<std::int32_t, 2>, int> edges;
   for (const pnpbs::BoundaryTriangle& facet : mesh.facets)
@@ -106,7 +107,7 @@ START_TEST(torn_surfaces_are_welded_in_silence_and_near_vertices_with_a_warning)
   ck_assert(is_closed(b.mesh()));
 
   Soup near = whole.torn();
-  near.xyz.back() += 1e-12;  // of the last vertex
+  near.xyz.back() += 1e-12;  // the last vertex
   VolumeDomain c;
   check_soup(near, c);
   ck_assert(warns(c, "1 vertex lies within"));
@@ -117,7 +118,7 @@ END_TEST
 
 // ---------------------------------------------------------------- thin triangles, duplicates
 START_TEST(triangles_without_area_go_and_leave_the_surface_closed) {
-  // One edge has a vertex in its middle on one side only; a triangle without area closes the gap.
+  // One edge has a vertex at its midpoint on one side only; a triangle without area closes the gap.
   Soup soup = unit_tetrahedron();
   soup.corners = {0, 2, 1, 0, 4, 3, 4, 1, 3, 1, 2, 3, 2, 0, 3, 0, 1, 4, 3, 3, 2};
   soup.tags.assign(7, 1);
@@ -130,7 +131,7 @@ START_TEST(triangles_without_area_go_and_leave_the_surface_closed) {
   ck_assert_uint_eq(domain.mesh().facets.size(), 6);
   expect_near(domain.volume(), 1.0 / 6, 1e-15);
 
-  // Several on one line, some of them nested, and not quite on it.
+  // Several vertices on one line, with nested thin triangles, some slightly off the line.
   Soup strip = unit_tetrahedron();
   for (int i = 1; i < 8; ++i) strip.vertex(i / 8.0, i % 2 == 0 ? 1e-11 : 0, 0);  // 4 .. 10
   strip.corners = {0, 2, 1, 1, 2, 3, 2, 0, 3};
@@ -153,7 +154,7 @@ END_TEST
 START_TEST(edges_split_on_one_side_stay_closed_by_triangles_without_area) {
   Random random(12);
   for (int round = 0; round < 20; ++round) {
-    // Exactly but for the last digits of double or of single precision.
+    // The vertices are exact up to the last digits of double or single precision.
     const double off = round < 10 ? 1e-10 : 1e-5;
     Soup soup = soup_of(surfaces::sphere(1, 600));
     VolumeDomain reference;
@@ -185,8 +186,8 @@ START_TEST(edges_split_on_one_side_stay_closed_by_triangles_without_area) {
 END_TEST
 
 START_TEST(flat_triangles_folded_over_by_rounding_are_mended) {
-  // In the bottom, a flat triangle at the edge from 1 to 2 is turned over by a vertex that
-  // lies a little beyond that edge.
+  // A flat triangle in the bottom, at the edge from 1 to 2, is turned over by a vertex slightly
+  // beyond that edge.
   for (const double off : {-1e-7, 1e-7}) {
     Soup soup = unit_tetrahedron();
     soup.vertex(0.5 + off, 0.5 + off, 0);
@@ -272,7 +273,7 @@ START_TEST(bodies_that_touch_in_a_vertex_are_told_and_taken) {
                   "surface 0 and triangle 4 of surface 0 do"));
   expect_near(domain.volume(), 1.0 / 3, 1e-15);
   ck_assert_uint_eq(domain.mesh().nodes.size(), 7);
-  // One within the other, in whose corner it is.
+  // One tetrahedron lies within the other and touches its corner.
   VolumeDomain nested;
   unit_tetrahedron().add_to(nested);
   tetrahedron({0, 0, 0}, {0.25, 0.125, 0.125}, {0.125, 0.25, 0.125}, {0.125, 0.125, 0.25})
@@ -291,7 +292,7 @@ START_TEST(triangles_turned_at_random_are_mended_to_the_same_mesh) {
   Random random(5);
   for (int round = 0; round < 10; ++round) {
     Soup soup = whole;
-    // With three of four turned, all are turned first and then called inside out.
+    // Three of four triangles turned leave all of them inside out, and they are then turned again.
     const int of_four = round % 2 == 0 ? 1 : 3;
     std::int64_t turns = 0;
     for (std::int64_t t = 0; t < soup.triangles(); ++t)
@@ -383,7 +384,7 @@ START_TEST(neighbours_folded_over_are_told) {
 END_TEST
 
 START_TEST(figures_of_eight_are_told) {
-  // A pyramid whose top is pushed down through its base.
+  // A pyramid whose apex is pushed down through its base.
   Soup soup;
   for (const P& x : {P{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, 0.125}})
     soup.vertex(x[0], x[1], x[2]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First nodes on surfaces: as many as d asks for, by integrals of our own, on the facets, off the
-// features, and where a patch is flat in a hexagonal lattice.
+// Initial nodes on surfaces: their number against integrals of d, positions on facets and off the
+// features, and a hexagonal lattice on flat patches.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -32,7 +32,7 @@ std::vector<SurfacePoint> fill(const SurfaceCase& c, const Spacing& d,
                       {one_cell, [](std::int32_t) { return true; }});
 }
 
-// The integral of 2 / sqrt(3) / d^2 over all facets, by many points of each.
+// Returns the integral of 2 / sqrt(3) / d^2 over all facets, with many points of each.
 double wanted_nodes(const SurfaceCase& c, const Spacing& d) {
   constexpr int kParts = 12;
   double sum = 0;
@@ -58,7 +58,7 @@ void check_places(const SurfaceCase& c, const std::vector<SurfacePoint>& nodes, 
   }
 }
 
-// The shortest distance to another node of the patch.
+// Returns the distance of each node to the nearest other node of its patch.
 std::vector<double> nearest(const SurfaceCase& c, const std::vector<SurfacePoint>& nodes) {
   std::vector<double> gaps(nodes.size(), 1e9);
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -77,7 +77,7 @@ START_TEST(test_density_on_a_ball) {
       check_places(*c, nodes, d);
       const double wanted = wanted_nodes(*c, d);
       ck_assert_double_eq_tol(static_cast<double>(nodes.size()) / wanted, 1, 0.005);
-      // So many in every part as well.
+      // The number must match in every part as well.
       for (std::size_t k = 0; k < 3; ++k) {
         const auto above = std::count_if(
             nodes.begin(), nodes.end(), [k](const SurfacePoint& at) { return at.position[k] > 0; });
@@ -89,7 +89,7 @@ START_TEST(test_density_on_a_ball) {
 }
 END_TEST
 
-// However large d is.
+// Holds for any large d.
 START_TEST(test_closed_patch_has_nodes) {
   const SurfaceCase c(space_shapes::ball(3).mesh());
   ck_assert_uint_eq(fill(c, [](const P&) { return 9; }).size(), 4);
@@ -102,7 +102,7 @@ START_TEST(test_lattice_on_a_cube) {
   const SurfaceCase c(space_shapes::turned(space_shapes::cube(2), 0.3).mesh());
   const std::vector<SurfacePoint> nodes = fill(c, d);
   check_places(c, nodes, d);
-  // Along the edges, which have nodes of their own, half a d is left free.
+  // A strip of d/2 along the edges, which have nodes of their own, stays free.
   const double side = 1 - kSpacing,
                wanted = 6 * 2 / std::sqrt(3.0) * side * side / (kSpacing * kSpacing);
   ck_assert_double_eq_tol(static_cast<double>(nodes.size()) / wanted, 1, 0.02);
@@ -113,7 +113,7 @@ START_TEST(test_lattice_on_a_cube) {
 }
 END_TEST
 
-// Rows follow the longest edge whatever the facets are like.
+// Rows follow the longest edge for any facets.
 START_TEST(test_lattice_follows_the_longest_edge) {
   const Spacing d = [](const P&) { return 0.1; };
   const SurfaceCase c(space_shapes::sheet(7, 3, 0.9, 3).mesh());
@@ -129,13 +129,13 @@ START_TEST(test_lattice_follows_the_longest_edge) {
 }
 END_TEST
 
-// A flat patch on which d varies, and a body with flat and curved ones.
+// A flat patch with variable d, and a body with flat and curved patches.
 START_TEST(test_mixed_patches) {
   const Spacing graded = [](const P& x) { return 0.01 + 0.02 * x[0]; };
   const SurfaceCase sheet(space_shapes::sheet(40, 40, 1, 1).mesh());
   const std::vector<SurfacePoint> varying = fill(sheet, graded);
   check_places(sheet, varying, graded);
-  // Less the strips half a d wide along the border.
+  // The strips of d/2 along the border are subtracted.
   const double strips = wanted_nodes(sheet, [&](const P& x) {
     const double off = std::min({x[0], x[1], 1 - x[0], 1 - x[1]});
     return off < 0.5 * graded(x) ? graded(x) : 1e6;
@@ -147,7 +147,7 @@ START_TEST(test_mixed_patches) {
   const SurfaceCase body(space_shapes::cylinder(48, 8, 2).mesh());
   const std::vector<SurfacePoint> nodes = fill(body, d);
   check_places(body, nodes, d);
-  // Of a piece at the rim either all counts or nothing: that makes half a strip at most.
+  // A piece at the rim counts fully or not at all, which amounts to half a strip at most.
   const double rims = 4 * space_shapes::pi * 0.06 * 2 / std::sqrt(3.0) / (0.06 * 0.06);
   ck_assert_double_eq_tol(static_cast<double>(nodes.size()) / (wanted_nodes(body, d) - rims), 1,
                           0.03);
@@ -187,7 +187,7 @@ START_TEST(test_too_many) {
 }
 END_TEST
 
-// A needle is cut into far more pieces than the nodes that fit into it.
+// A needle is cut into far more pieces than it has nodes.
 START_TEST(test_needle_takes_memory) {
   space_shapes::Shape needle;
   needle.nodes = {{0, 0, 0}, {100, 0, 0}, {0, 1e-3, 0}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces in every format, and what STL, OFF and OBJ allow, and files that are no such thing.
+// Surfaces in every format; valid variants of STL, OFF and OBJ; and invalid files.
 #include <clocale>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// Six times what the surface encloses.
+// Returns six times the enclosed volume.
 double volume6(const SurfaceTriangles& s) {
   double sum = 0;
   for (const auto& triangle : s.triangles) {
@@ -68,7 +68,7 @@ START_TEST(files) {
 }
 END_TEST
 
-// The counts are known from elsewhere (grep -c, NumPy).
+// The counts were determined by other tools (grep -c, NumPy).
 START_TEST(real_files) {
   const std::string data = PNPBS_SOURCE_DIR "/examples/data/";
   const SurfaceTriangles eros = pnpbs::read_surface(data + "eros.off");
@@ -86,7 +86,7 @@ START_TEST(real_files) {
 END_TEST
 
 START_TEST(any_locale) {
-  // Where a comma is the decimal sign, points still are in files.
+  // Files have decimal points also in locales with decimal commas.
   if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) std::setlocale(LC_ALL, "C");
   expect_the_same(read(SurfaceFormat::off, surface_files::off(box)), box);
   std::setlocale(LC_ALL, "C");
@@ -133,7 +133,7 @@ START_TEST(stl_equal_corners_are_one_vertex) {
 END_TEST
 
 START_TEST(stl_many_vertices) {
-  // A strip of triangles: each vertex but the first and last comes three times.
+  // A strip of triangles in which each vertex except the first and last ones occurs three times.
   SurfaceTriangles strip;
   const int count = 50000;
   for (int i = 0; i < count; ++i)
@@ -224,7 +224,7 @@ START_TEST(off_errors) {
 END_TEST
 
 START_TEST(triangles_that_are_nothing_are_read) {
-  // As they are in an STL: who checks the surface takes them out.
+  // Degenerate triangles are read as in STL files; the check of the surface removes them.
   const std::string text = surface_files::off(box);
   const SurfaceTriangles off = read(SurfaceFormat::off, replaced(text, "3 0 1 2", "3 0 1 0"));
   ck_assert(off.triangles[0] == (std::array{0, 1, 0}));
@@ -246,7 +246,7 @@ START_TEST(obj_forms_of_corners) {
         "f 1/1/1 2/2/2 3/3/3\r\nf 1/1/1 3/3/3 4/4/4\r\n", "f -4 -3 -2\nf -4/-1 -2//-1 -1/-1/-1\n",
         "s off\nl 1 2\nmtllib none.mtl\nf 1 2 \\\n 3\nf 1\\\n3 4 # the end\n"})
     expect_the_same(read(SurfaceFormat::obj, vertices + faces), square);
-  // Backwards from where the face stands.
+  // Negative numbers count backwards from the line of the face.
   const SurfaceTriangles early =
       read(SurfaceFormat::obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -4 -3 -1\n");
   ck_assert(early.triangles == (Triangles{{0, 1, 2}, {0, 1, 3}}));

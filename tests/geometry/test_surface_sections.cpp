@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formats of surfaces that have sections, PLY and TetGen's: what they allow, and files that are
-// no such thing.
+// Surface formats with sections, PLY and TetGen's: valid variants, and invalid files.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -11,7 +10,7 @@
 
 // ------------------------------------------------------------------------ PLY ---------------
 
-// Everything that a header may have and nobody asks for.
+// All optional elements and properties of a header, which the reader ignores.
 START_TEST(ply_other_elements_and_properties) {
   const std::string head =
       "comment\nobj_info 3 4\nelement nothing 4000000000\nelement material 2\n"
@@ -102,7 +101,7 @@ START_TEST(ply_errors) {
   expect({"found more than the header declares"}, bytes + "\n");
   expect({"the file ends after 8 of 2147483647 vertex"},
          replaced(bytes, "vertex 8", "vertex 2147483647").substr(0, body + 9 + 96));
-  // A polygon of 2^32 corners, backed by a hundred.
+  // A polygon of 2^32 corners in a file with a hundred bytes left.
   expect({"the file ends, expected a vertex number"},
          replaced(bytes, "uchar int", "uint uchar").substr(0, body + 1 + 96) +
              std::string(4, '\xff') + std::string(100, '\0'));

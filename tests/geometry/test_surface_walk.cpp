@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ways on surfaces: straight in the plane and on what can be unrolled, great circles on a ball.
+// Walks on surfaces: straight in the plane and on developable surfaces, great circles on a ball.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,14 +27,14 @@ std::int32_t any_facet(const SurfaceCase& c, Random& random) {
   return static_cast<std::int32_t>(random.below(c.facet_count()));
 }
 
-// Where a point of one surface is on another of the same triangles.
+// Maps a point of one surface to another one with the same triangles.
 P carried_over(const SurfaceCase& from, const SurfacePoint& at, const SurfaceCase& to) {
   const auto [v, w] =
       pnpbs::nearest_triangle_point(from.surface.corners(at.facet), at.position).along;
   return to.point(at.facet, v, w);
 }
 
-// A strip around three quarters of a prism, and the same unrolled.
+// A strip around three quarters of a prism, and the same strip unrolled.
 constexpr int kSides = 40;
 constexpr double kSide = 0.25, kHeight = 4;
 Shape unrolled() { return space_shapes::sheet(kSides, 16, kSides * kSide, kHeight); }
@@ -56,7 +56,7 @@ START_TEST(test_straight_on_a_flat_sheet) {
     const SurfacePoint from = flat.centre(f);
     const P move{random.between(-3, 3), random.between(-1, 1), random.between(-1, 1)};
     const SurfacePoint end = walk(flat.surface, from, move);
-    // Up to where the straight way leaves the sheet.
+    // The walk ends where the straight line leaves the sheet.
     double part = 1;
     const double size[2] = {kSides * kSide, kHeight};
     for (const std::size_t k : {0, 1}) {
@@ -94,7 +94,8 @@ START_TEST(test_unrolls_a_prism) {
 }
 END_TEST
 
-// The largest distance between ends of ways on a ball and of great circles, in units of the edges.
+// Returns the largest distance between the ends of walks on a ball and of great circles, over the
+// edge length.
 double great_circle_error(int cuts) {
   const SurfaceCase ball(space_shapes::ball(cuts).mesh());
   const auto [a, b, c] = ball.surface.corners(0);
@@ -130,7 +131,7 @@ START_TEST(test_stops_at_features) {
   for (std::int32_t f = 0; f < cube.facet_count(); ++f) {
     const SurfacePoint from = cube.centre(f);
     const P& normal = cube.surface.normal(f);
-    // Along an axis in the face, far beyond its edge, and oblique to it.
+    // A move along an axis in the face, far beyond its edge, with a component along the normal.
     const std::size_t k = normal[0] == 0 ? 0 : 1;
     P move{};
     move[k] = 7;
@@ -143,7 +144,7 @@ START_TEST(test_stops_at_features) {
 }
 END_TEST
 
-// Through nodes of the mesh and along its edges.
+// Walks through nodes of the mesh and along its edges.
 START_TEST(test_ways_through_nodes) {
   const SurfaceCase flat(space_shapes::sheet(8, 8, 8, 8).mesh());
   for (std::int32_t f = 0; f < flat.facet_count(); ++f)
@@ -152,7 +153,7 @@ START_TEST(test_ways_through_nodes) {
         for (const double y : {-1.0, 0.0, 1.0, 2.0}) {
           const P to{from[0] + x, from[1] + y, 0};
           if (std::min(to[0], to[1]) < 0 || std::max(to[0], to[1]) > 8) continue;
-          // On the border a way may stop where it touches it.
+          // A walk may stop where it touches the border.
           if (std::min(from[0], from[1]) == 0 || std::max(from[0], from[1]) == 8) continue;
           const SurfacePoint end = walk(flat.surface, {f, from}, {x, y, 0});
           quick_assert(pnpbs::distance<3>(end.position, to) < 1e-14);
@@ -160,7 +161,7 @@ START_TEST(test_ways_through_nodes) {
 }
 END_TEST
 
-// From outside the ball, which is convex, all ways downhill lead to the one nearest point.
+// The ball is convex: from outside, each descent leads to the unique nearest point.
 START_TEST(test_pull_back) {
   const SurfaceCase ball(space_shapes::ball(3).mesh());
   Random random(4);
@@ -179,7 +180,7 @@ START_TEST(test_pull_back) {
 }
 END_TEST
 
-// It stays in the sheet where it began, though another is nearer.
+// The point stays in the sheet where it began, although another sheet is nearer.
 START_TEST(test_pull_back_stays_in_its_sheet) {
   Shape two = space_shapes::sheet(6, 6, 1, 1);
   const Shape one = two;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stars within surfaces, against the plane's Delaunay triangulation of flat patches, by all
-// circles, and against the convex hull of nodes on a ball, by all planes.
+// Stars within surfaces: against the Delaunay triangulation of flat patches, by all circles, and
+// against the convex hull of nodes on a ball, by all planes.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,7 +24,7 @@ namespace {
 
 using Triangles = std::set<StarTriangle>;
 
-// Those that all three nodes have.
+// Returns the triangles that are in the stars of all three nodes.
 Triangles collective_try(const std::multiset<StarTriangle>& all) {
   Triangles triangles;
   for (const StarTriangle& t : all)
@@ -32,8 +32,8 @@ Triangles collective_try(const std::multiset<StarTriangle>& all) {
   return triangles;
 }
 
-// All triangles no wider than `reach` for which no node is on the wrong side: wrong(i, j, k,
-// other).
+// Returns all triangles with edges below `reach` for which no node is on the wrong side, as given
+// by wrong(i, j, k, other).
 template <class Wrong>
 Triangles triangles_by_search(const std::vector<P>& x, double reach, const Wrong& wrong) {
   const auto n = static_cast<std::int32_t>(x.size());
@@ -56,7 +56,7 @@ Triangles triangles_by_search(const std::vector<P>& x, double reach, const Wrong
 
 bool in_angle_piece(const P& x) { return x[0] < 2 || x[1] < 2; }
 
-// The sheet of 4 by 4, without its upper right quarter.
+// Returns the sheet of 4 by 4 without its upper right quarter.
 Shape angle_piece() {
   Shape shape = space_shapes::sheet(8, 8, 4, 4);
   Shape piece{shape.nodes, {}};
@@ -65,7 +65,7 @@ Shape angle_piece() {
   return piece;
 }
 
-// The piece as it lies in the plane has the plane's triangulation; turned in space it has the same.
+// A planar patch has the Delaunay triangulation of the plane, also after a rotation in space.
 START_TEST(test_flat_patch) {
   constexpr double kSpacing = 0.4;
   const SurfaceCase flat(angle_piece().mesh());
@@ -104,7 +104,7 @@ START_TEST(test_flat_patch) {
 }
 END_TEST
 
-// Squares, whose four corners lie on a circle: all nodes break the ties alike.
+// The four corners of squares lie on circles: all nodes break the ties alike.
 START_TEST(test_ties_in_a_flat_patch) {
   const SurfaceCase c(space_shapes::turned(space_shapes::sheet(10, 10, 1, 1), 0.5).mesh());
   StarredSurface starred(c, 0.1);
@@ -143,8 +143,7 @@ START_TEST(test_ball) {
 }
 END_TEST
 
-// The triangles of all patches are together a triangulation of a closed body: n nodes, 2 n - 4
-// triangles.
+// The triangles of all patches together triangulate a closed body: n nodes and 2 n - 4 triangles.
 START_TEST(test_closed_bodies) {
   const Shape shapes[] = {space_shapes::turned(space_shapes::cube(6), 0.4),
                           space_shapes::cylinder(60, 20, 2)};
@@ -161,7 +160,7 @@ START_TEST(test_closed_bodies) {
 }
 END_TEST
 
-// Where no circle keeps the plane's neighbours alike, most stars do agree.
+// Most stars agree on a general surface, although neighbours may disagree.
 START_TEST(test_ellipsoid) {
   Shape shape = space_shapes::ball(5);
   for (P& x : shape.nodes) x[2] *= 0.5;
@@ -176,7 +175,7 @@ START_TEST(test_ellipsoid) {
 }
 END_TEST
 
-// A list that ends too near proves nothing.
+// A list with too small a reach proves nothing.
 START_TEST(test_needs_its_reach) {
   const SurfaceCase c(space_shapes::ball(5).mesh());
   StarredSurface starred(c, 0.3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where triangles and segments meet, and in which region a point is, against whole numbers.
+// Contacts of triangles and segments, and the region of a point, against exact integers.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -37,7 +37,7 @@ std::vector<Place> edges(const Corners& c) {
   return {c[1] - c[0], c[2] - c[1], c[0] - c[2]};
 }
 
-// Is there a gap along the axis?
+// Returns whether the projections on the axis are disjoint.
 bool apart(const Place& axis, const Corners& a, const Corners& b) {
   const auto range = [&](const Corners& corners) {
     auto low = dot(axis, corners[0]), high = low;
@@ -50,7 +50,7 @@ bool apart(const Place& axis, const Corners& a, const Corners& b) {
   return high_a < low_b || high_b < low_a;
 }
 
-// By the axes along which two flat convex bodies can be apart: the normals of each, those of an
+// Tests all possible separating axes of two flat convex bodies: the normals of each, those of an
 // edge of each, and those of edges within each plane.
 bool meet(const Corners& a, const Corners& b) {
   std::vector<Place> axes;
@@ -73,7 +73,7 @@ bool cone_meets(const Place& tip, const Corners& triangle, const Corners& opposi
   return meet(cone, opposite);
 }
 
-// Have they more in common than their first `common` corners?
+// Returns whether the triangles have more in common than their first `common` corners.
 bool meet_beyond(const Corners& a, const Corners& b, int common) {
   if (common == 0) return meet(a, b);
   if (common == 1)  // at the common corner they are cones
@@ -100,14 +100,14 @@ START_TEST(triangles_meet_as_whole_numbers_say) {
       for (Corners* corners : {&a, &b})
         for (Place& x : *corners) x[2] = 2 * x[0] - x[1];
     if (!has_area(a) || !has_area(b)) continue;
-    bool repeated = false;  // the same place under two numbers says nothing
+    bool repeated = false;  // a repeated point under two numbers is ambiguous
     for (std::size_t i = static_cast<std::size_t>(common); i < 3; ++i)
       for (const Place& x : a) repeated = repeated || is_zero(x - b[i]);
     if (common > 0 && repeated) continue;
     const bool expected = meet_beyond(a, b, common);
     std::array<std::int32_t, 3> numbers_a{0, 1, 2}, numbers_b{3, 4, 5};
     for (int k = 0; k < common; ++k) numbers_b[static_cast<std::size_t>(k)] = k;
-    // In any order of corners.
+    // Corners in any order.
     const auto turn = static_cast<std::ptrdiff_t>(random.below(3));
     std::rotate(numbers_b.begin(), numbers_b.begin() + turn, numbers_b.end());
     std::rotate(b.begin(), b.begin() + turn, b.end());
@@ -148,7 +148,8 @@ START_TEST(segments_meet_triangles_as_whole_numbers_say) {
       const P place = pnpbs::meeting_point(p, q, points(triangle));
       quick_assert(pnpbs::distance<3>(pnpbs::nearest_on(points(triangle), place), place) < 1e-12);
     }
-    // From its corner: in one plane with it, and between its edges.
+    // A segment from a corner of the triangle: it runs into it if it is in its plane and between
+    // its edges.
     if (is_zero(segment[1] - triangle[0])) continue;
     const Place u = triangle[1] - triangle[0], v = triangle[2] - triangle[0],
                 w = segment[1] - triangle[0], normal = cross(u, v);
@@ -200,7 +201,7 @@ START_TEST(points_are_inside_as_whole_numbers_say) {
     source.tags.assign(source.triangles.size(), 1);
     pnpbs::Triangulation all = pnpbs::join_surfaces({source});
     for (auto& triangle : all.triangles)
-      if (random.below(2) == 0) triangle.turn_around();  // does not matter
+      if (random.below(2) == 0) triangle.turn_around();  // orientation does not matter
     const pnpbs::SurfaceEdges edges(all);
     const pnpbs::BoxTree<3> tree = pnpbs::tree_of(all);
     const pnpbs::SurfaceRegions regions(all, edges, tree);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A volume's domain as the user describes it: volumes and areas against formulas, cavities, holes,
-// inner surfaces and curves, fixed nodes, and what is refused.
+// The description of a volume's domain: volumes and areas against formulas, cavities, holes, inner
+// surfaces and curves, fixed nodes, and invalid input.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -25,7 +25,7 @@ void expect_argument_error(std::initializer_list<const char*> parts,
   domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
   domain.check();
   expect_error(pnpbs::ErrorKind::argument, parts, [&] { add(domain); });
-  ck_assert(domain.is_checked() && domain.volume() == 1);  // left as it was
+  ck_assert(domain.is_checked() && domain.volume() == 1);  // unchanged
 }
 
 VolumeDomain unit_box() {
@@ -138,7 +138,7 @@ START_TEST(every_second_surface_from_outside_bounds_a_cavity) {
     ck_assert(facet.back_inside && !facet.front_inside);
     const auto [a, b, c] = pnpbs::corners_of(domain.mesh(), facet);
     if (facet.tag == 4) continue;
-    // Of the cavity the normals point towards the middle.
+    // Normals of the cavity point towards its centre.
     const double towards = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
                            a[2] * (b[0] * c[1] - b[1] * c[0]);
     ck_assert_int_eq(towards < 0, facet.tag == 2);
@@ -165,7 +165,7 @@ START_TEST(a_cavity_may_be_given_either_way_round) {
 END_TEST
 
 // ---------------------------------------------------------------- TetGen's files
-// Cubes of sides 8, 2 and 1 within each other, with the tags 1, 2 and 3.
+// Returns nested cubes of sides 8, 2 and 1 with the tags 1, 2 and 3.
 pnpbs::SurfaceTriangles cubes_within_each_other() {
   pnpbs::SurfaceTriangles all;
   all.divides = true;
@@ -197,7 +197,7 @@ START_TEST(facets_that_divide_bound_regions) {
   ck_assert_int_eq(domain.regions()->tag_at({-2, 0, 0}), 10);
   ck_assert_int_eq(domain.regions()->tag_at({0, -0.75, 0.1}), 20);
   ck_assert_int_eq(domain.regions()->tag_at({0.1, 0.2, 0.3}), 0);
-  domain.add_box({-8, -8, -8}, {8, 8, 8}, 4);  // then the file's body is a cavity of it
+  domain.add_box({-8, -8, -8}, {8, 8, 8}, 4);  // now the file's body is a cavity
   domain.check();
   ck_assert_double_eq(domain.volume(), 4096 - 512);
 }
@@ -213,7 +213,7 @@ START_TEST(hole_points_make_cavities_of_facets_that_divide) {
   ck_assert_double_eq(domain.volume(), 512 - 8 + 1);
   ck_assert_double_eq(domain.area(), 6 * 64 + 6 * 4 + 6);
   ck_assert_uint_eq(inner_facets(domain), 0);
-  // A role that is given to a tag holds: then the point is outside as it is.
+  // An explicit role of a tag takes precedence. The hole point is then outside the domain.
   domain.set_role(2, SurfaceRole::boundary);
   domain.check();
   ck_assert_double_eq(domain.volume(), 512 - 8);
@@ -284,7 +284,7 @@ START_TEST(holes_take_out_what_lies_between_surfaces) {
 END_TEST
 
 START_TEST(an_inner_sheet_divides_a_body_where_it_is_joined_to_it) {
-  // The upper half of a box of two storeys, whose sides have edges where the floor joins.
+  // The upper half of a box with two storeys, whose sides have edges along the floor between them.
   Soup box;
   for (const double z : {0.0, 1.0, 3.0})
     for (const P& x : {P{0, 0}, {1, 0}, {1, 1}, {0, 1}}) box.vertex(x[0], x[1], z);
@@ -396,7 +396,7 @@ START_TEST(fixed_nodes_are_inside_or_at_vertices) {
   ck_assert_uint_eq(domain.fixed_nodes().size(), 3);
   ck_assert_uint_eq(domain.mesh().nodes.size(), 8 + 2 + 1);
   const auto& facets = domain.mesh().facets;
-  for (std::size_t i = 0; i < 3; ++i) {  // theirs are the last
+  for (std::size_t i = 0; i < 3; ++i) {  // they have the last facets
     const pnpbs::FixedNode<3>& node = domain.fixed_nodes()[i];
     const auto& [a, b, c] = facets[facets.size() - 3 + i].nodes;
     const auto& there = domain.mesh().nodes[static_cast<std::size_t>(a)];
@@ -416,7 +416,7 @@ START_TEST(fixed_nodes_are_inside_or_at_vertices) {
 }
 END_TEST
 
-// ---------------------------------------------------------------- what is refused
+// ---------------------------------------------------------------- invalid input
 START_TEST(wrong_arguments_are_named_with_their_value) {
   const std::vector<double> xyz{0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::int64_t corners[] = {0, 1, 2};

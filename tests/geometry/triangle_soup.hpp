@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangulated surfaces to be put together and given to a volume's domain.
+// Triangulated surfaces that are built step by step and added to a volume's domain.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct Soup {
     }
     return other;
   }
-  // Each triangle with its own three vertices, as STL files have them.
+  // Returns a copy in which each triangle has three vertices of its own, as in STL files.
   Soup torn() const {
     Soup other;
     for (std::int64_t t = 0; t < triangles(); ++t) {
@@ -95,7 +95,7 @@ inline Soup tetrahedron(const P& a, const P& b, const P& c, const P& d) {
 
 inline Soup unit_tetrahedron() { return tetrahedron({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}); }
 
-// One quadrilateral, cut in two.
+// Returns one quadrilateral, cut in two.
 inline Soup sheet(const P& a, const P& b, const P& c, const P& d) {
   Soup soup;
   for (const P& x : {a, b, c, d}) soup.vertex(x[0], x[1], x[2]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A whole adapting sequence: callback, values at nodes, grid, values at nodes again, each with a
- * run. The nodes are those of one process, to the bit. */
+ * Tests a complete adaptive sequence: a callback, values at nodes, a grid, and values at nodes
+ * again, with a run after each. The nodes equal those of one process, to the bit. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,8 @@ static int32_t first_spacing(int64_t n, int32_t dim, const double* x, double* d,
   return 0;
 }
 
-/* What an error estimate would ask for: finer at a front, never coarser than so. */
+/* Returns the spacing that an error estimate would request: finer at a front, bounded below and
+ * above. */
 static double wanted(const double* x, double d, double front) {
   const double t = fabs(x[0] + 0.3 * x[1] - front) / 0.15;
   return fmin(fmax(d * (t < 1 ? 0.5 + 0.5 * t : 1.2), 0.02), 0.08);
@@ -42,7 +43,7 @@ static void note_hash(pnpbs_placement placement, char* hashes) {
   strcat(strcat(hashes, hash), " ");
 }
 
-/* The hashes after each run, one after the other. */
+/* Writes the hashes after each run, one after the other. */
 static void sequence(const char* growth_limit, char* hashes) {
   const double box[] = {0, 0, 1.5, 0, 1.5, 1, 0, 1}, centre[] = {0.7, 0.5};
   const int64_t grid_size[] = {3, 2};
@@ -78,7 +79,7 @@ static void sequence(const char* growth_limit, char* hashes) {
   pnpbs_domain_destroy(&domain);
 }
 
-/* On all ranks, and on one alone: what comes out must be the same. */
+/* Compares the sequence on all ranks with that on one rank. */
 static void compare(const char* growth_limit) {
   char together[200], alone[200];
   pnpbs_context all = context;
@@ -117,7 +118,7 @@ static void expect_bad_value(pnpbs_placement placement, int on_rank, double valu
   expect(strncmp(message, begin, strlen(begin)) == 0, begin);
   expect(strstr(message, id) != NULL, id);
   expect(strstr(message, text) != NULL, text);
-  if (rank == on_rank) --n; /* a value missing, on one rank */
+  if (rank == on_rank) --n; /* omit a value on one rank */
   d[n > 0 ? n / 2 : 0] = 0.05;
   expect(pnpbs_placement_set_spacing_at_nodes(placement, n, d) == PNPBS_ERROR_ARGUMENT,
          "a missing value");

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The adapting sequence over the ranks of MPI_COMM_WORLD: spacings replaced on a live placement,
- * nodes set from outside, growth limit, runs again. Prints one line per stage, the same for any
- * number of ranks. usage: adapt_on_ranks [key=value]... */
+ * Runs an adaptive sequence over the ranks of MPI_COMM_WORLD: replaced spacings on a live
+ * placement, nodes given by the caller, a growth limit, and further runs. Prints one line per
+ * stage, which does not depend on the number of ranks.
+ * usage: adapt_on_ranks [key=value]... */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -13,7 +14,7 @@
 static pnpbs_context context;
 static pnpbs_placement placement;
 static int rank, size;
-static int64_t inserted, deleted; /* until the stage before */
+static int64_t inserted, deleted; /* up to the previous stage */
 
 static void require(int condition, const char* what) {
   if (condition) return;
@@ -29,7 +30,7 @@ static int64_t integer(const char* key) {
   return value;
 }
 
-/* How much population control must have had to do in a stage. */
+/* Prints the stage, and requires at least this number of insertions and deletions. */
 static void report(const char* stage, int64_t least_inserted, int64_t least_deleted) {
   const char* hash;
   const int64_t born = integer("inserted") - inserted, died = integer("deleted") - deleted;
@@ -62,7 +63,7 @@ static int32_t spot_spacing(int64_t n, int32_t dim, const double* x, double* d, 
   return 0;
 }
 
-/* A ridge of fine spacing across the grid. */
+/* Sets a grid with a ridge of fine spacing. */
 static void set_grid(void) {
   enum { nx = 31, ny = 21 };
   const int64_t grid[] = {nx, ny};
@@ -77,8 +78,9 @@ static void set_grid(void) {
 
 /* ---------------------------------------------------------------- nodes from outside ---- */
 
-/* Points all over the bounding box, some of them outside the domain: every rank gives every
- * size-th of them, wherever they lie; the last rank none if there are several. */
+/* Gives points all over the bounding box as nodes, some of them outside the domain. Every rank
+ * gives every size-th point regardless of its location; with several ranks the last one gives none.
+ */
 static void give_scattered(int64_t n) {
   double* xy = malloc((size_t)n * 2 * sizeof *xy);
   int64_t* ids = malloc((size_t)n * sizeof *ids);
@@ -103,7 +105,7 @@ static void give_scattered(int64_t n) {
   free(ids);
 }
 
-/* The inner nodes there are, with their ids, each rank's given by the next one. */
+/* Gives the current inner nodes with their ids; each rank gives those of the previous rank. */
 static void give_to_next_rank(void) {
   const int next = (rank + 1) % size, previous = (rank + size - 1) % size;
   int64_t nodes, inner = 0, arriving, i;

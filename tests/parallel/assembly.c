@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What assembling needs over ranks, in the plane, in space and on surfaces alone: the elements that
- * touch a rank's nodes are those of one process, in the same order, so rows have the same bits;
- * sums at ghosts come to their owners, exact and rounded once, whatever the order of ranks. */
+ * Tests what assembling a matrix over ranks requires, in the plane, in space and on surfaces. The
+ * elements that touch a rank's nodes are those of one process, in the same order, so rows have the
+ * same bits. Sums at ghosts are added to their owners exactly and rounded once, for any order of
+ * ranks. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -16,7 +17,7 @@ static int message_has(const char* text) { return strstr(pnpbs_last_error(contex
 
 static void* array(int64_t n, size_t of) { return calloc((size_t)n + 1, of); }
 
-/* What a rank has: its nodes, then its ghosts; the elements that touch its nodes. */
+/* The mesh of a rank: its nodes, then its ghosts, and the elements that touch its nodes. */
 struct mesh {
   int32_t dim, corners;
   int64_t owned, all, *ids, count, *elements;
@@ -75,7 +76,7 @@ static pnpbs_status get_own(pnpbs_placement placement, const struct mesh* m, int
              : pnpbs_placement_get_boundary_triangles(placement, capacity, count, own, NULL);
 }
 
-/* Twice the area, or six times the volume; on surfaces 1. */
+/* Returns twice the area, or six times the volume; on surfaces 1. */
 static double measure(const struct mesh* m, const int64_t* corners) {
   double side[3][3] = {{0}};
   int k, c;
@@ -96,7 +97,7 @@ static int by_ids(const struct mesh* m, const int64_t* a, const int64_t* b) {
   return 0;
 }
 
-/* The same for any order of corners that keeps the orientation. */
+/* Hashes an element. The result is the same for any order of corners with the same orientation. */
 static uint64_t mixed(uint64_t x) {
   x = (x ^ (x >> 31)) * UINT64_C(0x9e3779b97f4a7c15);
   x = (x ^ (x >> 29)) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -150,7 +151,7 @@ static void check_elements(pnpbs_placement placement, const struct mesh* m) {
   free(own);
 }
 
-/* Rows by elements in the order in which they come: a hash of all rows of all ranks. */
+/* Accumulates rows by elements in their order, and returns a hash of the rows of all ranks. */
 static uint64_t hash_of_rows(const struct mesh* m, int over_ranks) {
   double* row = array(m->owned, sizeof(double));
   uint64_t hash = 0, bits;
@@ -189,8 +190,8 @@ static void check_rows(const struct mesh* m, int where) {
 
 /* ---------------------------------------------------------------- sums ------------------- */
 
-/* Each rank counts its own elements at nodes and ghosts. The counts that arrive are those of all
- * elements around a node. */
+/* Each rank counts its own elements at nodes and ghosts. The sums must count all elements around
+ * each node. */
 static void check_counts(pnpbs_placement placement, const struct mesh* m, int components) {
   const int64_t n = m->all * components;
   double *sums = array(n, sizeof(double)), *before = array(n, sizeof(double));
@@ -215,7 +216,7 @@ static void check_counts(pnpbs_placement placement, const struct mesh* m, int co
   free(sums), free(before), free(around);
 }
 
-/* Great terms that come to nothing, and a small one: any sum that rounds on the way is wrong. */
+/* Large terms that cancel, and a small one: a sum that rounds intermediate results is wrong. */
 static double term(int of) {
   static const double terms[] = {0x1p100, 1, -0x1p100, 0x1p60, -0x1p60};
   return terms[of % 5];
@@ -265,7 +266,7 @@ static void check_wrong_sums(pnpbs_placement placement, const struct mesh* m) {
                    PNPBS_ERROR_ARGUMENT &&
                message_has("all ranks must give the same"),
            "other components on one rank");
-  /* An update that is under way does not meet it. */
+  /* The sum does not interfere with an update in progress. */
   expect(pnpbs_placement_begin_update_ghosts(placement, m->all, 2, values) == PNPBS_OK, "begin");
   check_counts(placement, m, 1);
   expect(pnpbs_placement_end_update_ghosts(placement, m->all, 2, values) == PNPBS_OK, "end");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Spacing from a background mesh and from scattered points, over ranks: nodes are where one process
- * has them, d is what was given, and ranks that do not give the same are told. */
+ * Tests a spacing from a background mesh and from scattered points over ranks: nodes equal those of
+ * one process, d equals the given values, and different input on ranks is an error. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,14 +10,15 @@
 
 enum { N = 5, MAX_POINTS = N * N * N, MAX_ELEMENTS = 6 * (N - 1) * (N - 1) * (N - 1) };
 
-/* ---------------------------------------------------------------- what is given ---------- */
+/* ---------------------------------------------------------------- input ------------------ */
 
 struct field {
   int64_t n, elements, corners[4 * MAX_ELEMENTS];
   double x[3 * MAX_POINTS], d[MAX_POINTS];
 };
 
-/* A lattice a little larger than the unit cube or square, cut along the cells' diagonals. */
+/* Fills a lattice slightly larger than the unit cube or square, cut along the diagonals of its
+ * cells. */
 static void fill(struct field* f, int dim) {
   static const int ways[6][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   const int layers = dim == 3 ? N : 1, step[3] = {1, N, N * N};
@@ -68,7 +69,7 @@ static void place(const struct field* f, int dim, int as_mesh, char hash[80]) {
   struct field copy = *f;
   const char* text = "";
   expect(give(placement, &copy, as_mesh) == PNPBS_OK, "spacing");
-  memset(&copy, 0, sizeof copy); /* it was copied */
+  memset(&copy, 0, sizeof copy); /* the library has copied it */
   expect(pnpbs_placement_run(placement) >= 0, "run");
   expect(pnpbs_placement_get_string(placement, "hash", &text) == PNPBS_OK, "hash");
   snprintf(hash, 80, "%s", text);
@@ -90,7 +91,7 @@ static void check_same_nodes(int dim, int as_mesh) {
   context = all;
 }
 
-/* The warning about a mesh that does not reach all of the domain; "" if there is none. */
+/* Finds the warning about a mesh that does not cover the domain; "" if there is none. */
 static void find_warning(pnpbs_placement placement, char warning[600]) {
   const char* text = "";
   int32_t count = 0, k;
@@ -102,7 +103,7 @@ static void find_warning(pnpbs_placement placement, char warning[600]) {
   }
 }
 
-/* Of a field that is so much smaller. */
+/* Finds this warning for a field scaled by `factor`. */
 static void warning_of(int dim, int as_mesh, double factor, char warning[600]) {
   static struct field f;
   pnpbs_placement placement = placement_in_cube(dim);
@@ -115,7 +116,7 @@ static void warning_of(int dim, int as_mesh, double factor, char warning[600]) {
   pnpbs_placement_destroy(&placement);
 }
 
-/* Half a cube, told with the same words by any number of ranks; no cube that is cut a little. */
+/* Half a cube gives the same warning on any number of ranks; a slightly smaller cube gives none. */
 static void check_meshes_of_a_part(int dim) {
   char together[600], alone[600], none[600];
   long all = 0, beyond = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The nodes of a rank in a box that is partitioned over the ranks, with their ghosts and adjacency
-// lists: what a level does to keep these right, and no more.
+// lists. A reduced version of what a level does to maintain them.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 #include "octree_on_ranks.hpp"
 #include "partition/node_exchange.hpp"
 
-// Nothing hides bubbles from each other.
+// A visibility rule in which all bubbles see each other.
 struct OpenSight {
   bool may_occlude(std::int64_t) const { return false; }
   bool visible(std::int64_t, std::int64_t) const { return true; }
@@ -27,7 +27,7 @@ class BoxNodes {
  public:
   using PackedNode = pnpbs::PackedNode<3>;
 
-  // Leaves are at most as wide as that; lists hold pairs within the radius.
+  // Leaves are at most `leaf_width` wide; lists contain pairs within the radius.
   BoxNodes(std::shared_ptr<const pnpbs::Communicator> comm, const octree::Function& spacing,
            const octree::Function& leaf_width, double radius)
       : comm_(std::move(comm)),
@@ -45,14 +45,15 @@ class BoxNodes {
   const pnpbs::Distribution<3>& distribution() const { return distribution_; }
   const pnpbs::AdjacencyList<3>& lists() const { return lists_; }
 
-  // Brings nodes, from whatever rank they are on, to their owners. Collective.
+  // Sends nodes, from any rank, to their owners. Collective.
   void add(const std::vector<PackedNode>& given) {
     const auto owner = [this](const PackedNode& node) { return distribution_.owner_at(node.x); };
     for (const PackedNode& node : pnpbs::redistribute(*comm_, given, owner))
       pnpbs::append(nodes_, node, true);
   }
 
-  // Nodes go to the ranks that own their places by now, and ghosts are chosen anew. Collective.
+  // Migrates nodes to the ranks that own their current positions, and selects the ghosts again.
+  // Collective.
   void exchange(int hops) {
     if (comm_->size() == 1) return;
     const pnpbs::Halo& halo = this->halo(hops);
@@ -70,15 +71,15 @@ class BoxNodes {
     lists_valid_ = false;
   }
 
-  // The same ghosts get the positions and velocities of their owners.
+  // Updates the positions and velocities of the current ghosts from their owners.
   void update_ghosts() {
     if (comm_->size() > 1) plan_.update(nodes_);
   }
 
   const pnpbs::Halo& halo(int hops) { return distribution_.halo(hops, 1 / pnpbs::kRoomForGrowth); }
 
-  // May a pair have come within the range of the force that is not in the lists? Each of the two
-  // nodes may have gone half of the way.
+  // Returns whether a pair that is not in the lists may have come within the range of the force.
+  // Each of the two nodes may have moved half of the distance.
   bool lists_may_miss_a_pair(double range) const {
     if (!lists_valid_) return true;
     const double square =
@@ -96,7 +97,7 @@ class BoxNodes {
     pnpbs::reserve_field<3>(next_, "BoxNodes::next", nodes_.capacity());
     for (int k = 0; k < 3; ++k) {
       for (std::int64_t i = 0; i < nodes_.count; ++i) listed_[k](i) = nodes_.x[k](i);
-      // Behind the last node is the far-away one that fills up the lists.
+      // The far-away node that pads lists is behind the last one.
       nodes_.x[k](nodes_.count) = pnpbs::kFarAway;
       next_[k](nodes_.count) = pnpbs::kFarAway;
     }

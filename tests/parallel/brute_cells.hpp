@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Voronoi cells that are cut by brute force out of the unit square or cube.
+// Voronoi cells cut by brute force from the unit square or cube.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ inline double area(const Polygon& polygon) {
   return length(sum) / 2;
 }
 
-// A square in the plane at which a half space ends, far larger than all cells.
+// Returns a square in the boundary plane of a half space, far larger than all cells.
 inline Polygon large_square(const HalfSpace& at) {
   const Point middle = at.limit / dot(at.normal, at.normal) * at.normal;
   const Point aside =
@@ -61,8 +61,8 @@ inline Polygon large_square(const HalfSpace& at) {
   return {middle + u + v, middle + u - v, middle - u - v, middle - u + v};
 }
 
-// The volume of the cell, and the area of its face to each of `others`. In the plane both are
-// those of a slab of thickness 1.
+// Returns the volume of the cell, and the area of its face to each of `others`. In the plane both
+// are those of a slab of thickness 1.
 inline double brute_cell(const Point& x, const std::vector<Point>& others,
                          std::vector<double>& areas) {
   std::vector<HalfSpace> spaces;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Placements interrupted at several points, written by some ranks and read by others: what comes
- * then has the bits of a run that was not interrupted. Run on groups of five ranks, or of one. */
+ * Interrupts placements at several stages, writes checkpoints on some ranks and reads them on
+ * others. The continuation has the bits of a run without interruption. Run on groups of five ranks
+ * or of one. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <dirent.h>
 #include <math.h>
@@ -47,7 +48,7 @@ struct graded {
   double d, at;
 };
 
-/* Finer at a plane. */
+/* A spacing that is finer at a plane. */
 static int32_t spacing_at(int64_t n, int32_t dim, const double* x, double* d, void* user) {
   const struct graded* s = user;
   int64_t i;
@@ -65,7 +66,7 @@ static pnpbs_placement new_placement(const struct checkpoint_case* it, struct gr
                              : pnpbs_domain_create(context, it->dim, &domain)) == PNPBS_OK,
                   "domain");
   if (on_sphere) {
-    /* no curve bounds it */
+    /* a whole sphere has no curves */
   } else if (it->body) {
     expect_of_stage(it->body(domain, "") == PNPBS_OK, "body");
   } else {
@@ -93,8 +94,8 @@ struct watch {
   int turns, written;
 };
 
-/* Writes at the second event and stops: what comes after is of no account. In other turns it is
- * refused. */
+/* Writes at the second event and stops the run. Events that do not allow a checkpoint are skipped.
+ */
 static int32_t write_and_stop(double fraction, int64_t step, int64_t nodes, double speed,
                               void* user) {
   struct watch* it = user;
@@ -121,7 +122,7 @@ static void set_at_nodes(pnpbs_placement placement, int dim, double scale) {
   free(x), free(d);
 }
 
-/* The stage after `done`. */
+/* Performs the stage after `done`. */
 static void advance(pnpbs_placement placement, const struct checkpoint_case* it, int done,
                     struct graded* second) {
   pnpbs_status status = PNPBS_OK;
@@ -212,7 +213,7 @@ static void run_all(const struct checkpoint_case* it, int ranks, char notes[STAG
   end(&some);
 }
 
-/* Up to a stage, and written there. */
+/* Performs the stages up to `at`, and writes a checkpoint there. */
 static void write_at(const struct checkpoint_case* it, int ranks, int at) {
   struct graded first = {it->d, 0.3}, second;
   struct first_ranks some;
@@ -238,7 +239,7 @@ static void write_at(const struct checkpoint_case* it, int ranks, int at) {
   end(&some);
 }
 
-/* Read there, and all that comes then. */
+/* Reads the checkpoint of stage `at`, performs the remaining stages and compares them. */
 static void read_and_go_on(const struct checkpoint_case* it, int ranks, int at,
                            char notes[STAGES][200]) {
   struct graded first = {it->d, 0.3}, second = {0.9 * it->d, 0.9};

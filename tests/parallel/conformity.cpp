@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles that the ranks hand out are one conforming triangulation of the domain, the one
-// that another library (CGAL) makes of all nodes; each comes once, from the rank that its least
-// corner belongs to. Nothing but the public interface is asked. Usage:
+// Tests that the triangles returned on all ranks form one conforming triangulation of the domain,
+// equal to that of CGAL for all nodes. Each triangle is returned once, by the rank that owns its
+// corner with the smallest id. The test uses the public interface only. Usage:
 //   conformity [ROUND]... [CASE]...
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -25,11 +25,11 @@ using gathered::require;
 using gathered::Triangulation;
 using Plane = std::function<double(double, double)>;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangle = std::array<std::int64_t, 3>;  // places of nodes, in increasing order
+using Triangle = std::array<std::int64_t, 3>;  // indices of nodes, in increasing order
 
 constexpr std::int32_t kInnerTag = 7777;
 
-// ------------------------------------------------------------------ what must hold -------------
+// ------------------------------------------------------------------ checks ---------------------
 
 void expect(bool condition, const std::string& what, const std::string& wrong) {
   if (condition) return;
@@ -85,8 +85,8 @@ class Judge {
     return true;
   }
 
-  // Counter-clockwise, no edge twice in one direction, and an edge with a triangle on one side
-  // alone is a boundary edge.
+  // Checks that triangles are counter-clockwise, that no edge occurs twice in one direction, and
+  // that an edge with a single triangle is a boundary edge.
   bool edges_fit() {
     std::set<std::array<std::int64_t, 2>> directed, boundary;
     for (const gathered::Edge& e : all_.boundary_edges) {
@@ -107,7 +107,7 @@ class Judge {
     return true;
   }
 
-  // Every triangle is in the stars of all its corners, and in the triangles handed out once.
+  // Checks that every triangle is in the stars of all its corners, and is returned once.
   bool stars_agree() {
     std::map<Triangle, int> in_stars;
     for (const Ids3& t : all_.star_triangles) ++in_stars[places(t)];
@@ -132,8 +132,8 @@ class Judge {
     return pnpbs_bench::reference_triangles(set);
   }
 
-  // Of the triangles beside t among `others`: does a corner lie exactly on the circle of t, and
-  // none inside?
+  // Returns whether a corner of an adjacent triangle in `others` lies exactly on the circle of t
+  // and none lies inside.
   bool tied(const Triangle& t, const std::vector<Triangle>& others) const {
     const auto in_t = [&](std::int64_t d) { return std::count(t.begin(), t.end(), d) > 0; };
     bool on_circle = false;
@@ -150,7 +150,8 @@ class Judge {
     return on_circle;
   }
 
-  // The same triangles; where four or more nodes lie exactly on a circle, as many, on that circle.
+  // Expects the same triangles. Where four or more nodes lie exactly on a circle, expects the same
+  // number on that circle.
   void compare_with_reference() {
     const std::vector<Triangle> theirs = reference();
     fail_unless(!theirs.empty(), "no triangles");
@@ -170,7 +171,7 @@ class Judge {
 
   const Triangulation& all_;
   std::string what_;
-  std::map<std::int64_t, std::int64_t> place_;  // of each id
+  std::map<std::int64_t, std::int64_t> place_;  // index of the node with each id
   std::vector<Triangle> ours_;
 };
 
@@ -189,7 +190,7 @@ void add_square(pnpbs_domain domain) {
   require(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, corners, nullptr, 0), "square");
 }
 
-// A slit that ends inside, and two holes: all smaller than d or about as small.
+// Adds a slit that ends inside and two holes, smaller than d or of about its size.
 void add_square_with_slit_and_holes(pnpbs_domain domain) {
   add_square(domain);
   const double slit[] = {0.2, 0.51, 0.7, 0.55, 0.72, 0.8};
@@ -216,7 +217,7 @@ class Job {
     require(pnpbs_placement_create(context, domain, &p_), "placement");
     pnpbs_domain_destroy(&domain);
     set_spacing(std::move(d));
-    set("growth_limit", "0");  // jumps are the hard cases
+    set("growth_limit", "0");  // jumps are the difficult cases
   }
   Job(const Job&) = delete;
   ~Job() { pnpbs_placement_destroy(&p_); }
@@ -229,7 +230,7 @@ class Job {
     require(pnpbs_placement_set(p_, key, value), key);
   }
 
-  // Every rank gives some of the nodes, whoever's they will be.
+  // Every rank gives some of the nodes, independent of their future owners.
   void set_nodes(const std::vector<std::array<double, 2>>& nodes) {
     std::vector<double> xy;
     std::vector<std::int64_t> ids;
@@ -271,12 +272,12 @@ Plane constant(double d) {
   return [d](double, double) { return d; };
 }
 
-// Ten times finer at a point of the unit square than far from it.
+// A spacing that is ten times finer at a point of the unit square than far from it.
 Plane graded(double d) {
   return [d](double x, double y) { return d * (1 + 13 * std::hypot(x - 0.5, y - 0.45)); };
 }
 
-// Coarse on the left, finer by a factor on the right.
+// A spacing that is coarse on the left and finer by a factor on the right.
 Plane jump(double d, double factor) {
   return [d, factor](double x, double) { return x < 0.52 ? factor * d : d; };
 }
@@ -315,7 +316,7 @@ void slit_and_holes() {
   fill_and_run("slit and holes, graded", add_square_with_slit_and_holes, graded(0.01));
 }
 
-// All circles hold four nodes or more, and ids do not follow the rows.
+// All circles hold four or more nodes, and ids do not follow the rows.
 void exact_grid() {
   Job job("exact grid", add_square, constant(1.0 / 32));
   std::vector<std::array<double, 2>> grid;
@@ -337,13 +338,13 @@ void adapting() {
   }
 }
 
-// More ranks than leaves: some own nothing.
+// There are more ranks than leaves, so some own nothing.
 void empty_ranks() {
   fill_and_run("few leaves", add_square, constant(0.5));
   fill_and_run("some leaves", add_square, constant(0.2));
 }
 
-// The coarse nodes next to the jump have triangles that reach far into another rank's fine part.
+// Triangles of the coarse nodes next to the jump reach far into the fine part of another rank.
 void jumps() {
   for (const double factor : {6.0, 12.0})
     fill_and_run("jump by " + std::to_string(factor), add_square, jump(0.012, factor));
@@ -351,7 +352,7 @@ void jumps() {
   job.judge_filled();
 }
 
-// Far too few nodes for d, or far too many, anywhere.
+// Far too few or too many nodes for d, at random points.
 void scattered_nodes() {
   for (const std::size_t n : {0, 1, 3, 20, 200}) {
     Job job(std::to_string(n) + " scattered nodes", add_square, constant(0.02));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes that are distributed over ranks, against what one rank has of the same placement: each
-// element belongs to one rank, ghost layers reach as far as a search over all elements says, facets
-// and the ranks that share a node are those that such a search finds. Nothing but the public
-// interface is asked. Usage: distributed_mesh
+// Tests meshes distributed over ranks against the same placement on one rank. Each element belongs
+// to one rank. Ghost layers, facets and the ranks that share a node equal those found by a search
+// over all elements. The test uses the public interface only. Usage: distributed_mesh
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -42,7 +41,7 @@ pnpbs_status two_boxes(pnpbs_domain domain, const char*) {
 const Case kRegionCases[] = {{"regions of a plane", 2, plane_with_regions, 0.05},
                              {"two boxes", 3, two_boxes, 0.2}};
 
-// ------------------------------------------------------------------ by one rank ----------------
+// ------------------------------------------------------------------ reference ------------------
 
 struct Reference {
   struct Facet {
@@ -51,7 +50,7 @@ struct Reference {
   };
   std::int32_t dim = 0, corners = 0;
   std::map<std::int64_t, std::pair<std::vector<double>, std::int32_t>> nodes;  // by id: x, tag
-  std::map<Ids, std::int32_t> elements;                                        // tags
+  std::map<Ids, std::int32_t> elements;                                        // and their tags
   std::map<Ids, Facet> facets;
 };
 
@@ -83,7 +82,7 @@ pnpbs_status tetrahedra(pnpbs_placement p, std::int64_t capacity, std::int64_t* 
   return pnpbs_placement_get_tetrahedra(p, capacity, n, rows);
 }
 
-// Calls visit(ids of a side, which one it is opposite to) for the sides of an element.
+// Calls visit(ids of a side, id of the opposite corner) for the sides of an element.
 template <class Visit>
 void for_sides(const Ids& element, const Visit& visit) {
   for (std::size_t k = 0; k < element.size(); ++k) {
@@ -128,7 +127,7 @@ Reference reference_of(const Case& it) {
   } else {
     for_rows(p, ids, 3, pnpbs_placement_get_boundary_triangles, add_element);
   }
-  // The wall and the edges of open surfaces are not handed out otherwise.
+  // The placement does not return the facets of the wall and the edges of open surfaces.
   const auto in_wall = [&](std::int64_t id) {
     const std::vector<double>& x = all.nodes[id].first;
     return x[0] == 1 && std::min(x[1], x[2]) > 0.199 && std::max(x[1], x[2]) < 0.801;
@@ -150,7 +149,7 @@ Reference reference_of(const Case& it) {
 
 // ------------------------------------------------------------------ over all ranks -------------
 
-// Who owns each node and element, and its number, as all ranks say.
+// The owner and number of each node and element, gathered from all ranks.
 struct Owned {
   std::int64_t number;
   std::int32_t rank;
@@ -219,7 +218,7 @@ double measure(const Reference& all, const Ids& corners) {
          side[0][2] * (side[1][0] * side[2][1] - side[1][1] * side[2][0]);
 }
 
-// Elements of this rank, then of its ghost layers, by a search over all elements.
+// Returns the elements of this rank and of its ghost layers, by a search over all elements.
 std::set<Ids> expected_elements(const Reference& all, const Owners& owners, int layers) {
   std::set<Ids> here;
   std::set<std::int64_t> front;
@@ -312,7 +311,8 @@ void check_facets(const Part& p, const Reference& all, const Owners& owners) {
   expect(owned == static_cast<std::int64_t>(all.facets.size()), "each facet has one owner");
 }
 
-// From outside, triangles of the boundary turn counter-clockwise: away from the fourth corner.
+// Triangles of the boundary are counter-clockwise as seen from outside, away from the fourth
+// corner.
 void check_orientation_of_facets(const Part& p, const Reference& all) {
   for (std::int64_t f = 0; f < p.facets && p.corners == 4; ++f) {
     const auto k = static_cast<std::size_t>(f);
@@ -365,7 +365,7 @@ void check_case(const Case& it) {
                 all.elements.size(), all.facets.size(), failures > before ? ": WRONG" : "");
 }
 
-// What fails on one rank fails on all.
+// An error on one rank is an error on all.
 void check_errors() {
   pnpbs_placement placement;
   pnpbs_domain domain = unit_domain(2);

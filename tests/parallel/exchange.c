@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The exchange pattern carries values at nodes to their ghosts, with plain MPI as a solver uses it;
- * numbers are contiguous per rank; asking for ghosts changes no local index. */
+ * Tests that the exchange pattern transfers values from nodes to their ghosts with plain MPI, as a
+ * solver uses it; that numbers are contiguous per rank; and that a request for ghosts does not
+ * change local indices. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,7 +48,7 @@ static void free_pattern(struct pattern* p) {
   free(p->send_nodes), free(p->receive_nodes);
 }
 
-/* Values of `width` doubles at all nodes and ghosts: those of the ghosts from their owners. */
+/* Exchanges `width` doubles per node: ghosts receive the values of their owners. */
 static void exchange(const struct pattern* p, double* values, int width) {
   double* out = array(p->sends * width, sizeof(double));
   double* in = array(p->receives * width, sizeof(double));
@@ -68,7 +69,7 @@ static void exchange(const struct pattern* p, double* values, int width) {
   free(out), free(in), free(requests);
 }
 
-/* Who names us must be named by us, or the solver's messages would wait for ever. */
+/* Neighbours must name each other; otherwise the solver's messages would wait forever. */
 static void expect_symmetric(const struct pattern* p) {
   int *named = array(size, sizeof(int)), *names_us = array(size, sizeof(int)), r;
   for (r = 0; r < p->neighbours; ++r) named[p->ranks[r]] = 1;
@@ -89,7 +90,7 @@ static void check(pnpbs_placement placement) {
   expect(pnpbs_placement_get_nodes(placement, nodes, NULL, ids, NULL, NULL) == PNPBS_OK, "nodes");
   expect(pnpbs_placement_ghost_count(placement, &ghosts) == PNPBS_OK, "ghost count");
 
-  /* Local indices are what they were. */
+  /* Local indices have not changed. */
   pnpbs_placement_count(placement, &again);
   expect(again == nodes, "asking for ghosts moved nodes to other ranks");
   if (again != nodes) return;
@@ -115,7 +116,7 @@ static void check(pnpbs_placement placement) {
   expect_symmetric(&p);
   expect(p.receives == ghosts, "every ghost is received once");
 
-  /* Position, id, number and rank of each node go to its ghosts. */
+  /* Each ghost receives the position, id, number and rank of its node. */
   values = array(5 * (nodes + ghosts), sizeof(double));
   for (i = 0; i < nodes; ++i) {
     values[5 * i] = xy[2 * i];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#define _GNU_SOURCE /* RTLD_NEXT, the calls for large files */
+#define _GNU_SOURCE /* RTLD_NEXT, and the calls for large files */
 #include "fault_calls.h"
 
 #include <dlfcn.h>
@@ -14,9 +14,9 @@
 
 #define FILES 4096
 
-static long until = -1; /* the files are one thread's */
+static long until = -1; /* files are accessed by one thread */
 static const char* failed;
-static char aside[FILES]; /* is the file that this descriptor stands for written aside? */
+static char aside[FILES]; /* whether the file of this descriptor is a temporary one */
 
 void fault_arm(long n) {
   failed = NULL;
@@ -25,13 +25,14 @@ void fault_arm(long n) {
 
 const char* fault_happened(void) { return failed; }
 
-/* Open MPI has files of its own of such names, ending in .sm, and dies of a fault in them. */
+/* Returns whether the path is a temporary file of the library. Files of Open MPI end in .sm and
+ * have similar names; faults in these would crash it. */
 static int is_aside(const char* path) {
   return path && strstr(path, ".pnpbs-") != NULL && !strstr(path, ".sm");
 }
 static int is_open_aside(int file) { return file >= 0 && file < FILES && aside[file]; }
 
-/* Of a call that concerns us: shall it fail? */
+/* Returns whether a call on a temporary file is to fail. */
 static int fails(const char* call) {
   const char* log = getenv("PNPBS_FAULT_LOG");
   if (until < 0 || until-- > 0) return 0;
@@ -50,7 +51,7 @@ __attribute__((constructor)) static void arm_by_environment(void) {
   fault_arm(atol(at));
 }
 
-/* The system's own. */
+/* The function of the system. */
 #define REAL(result, name, ...)       \
   static result (*real)(__VA_ARGS__); \
   if (!real) *(void**)&real = dlsym(RTLD_NEXT, name)

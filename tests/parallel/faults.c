@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What goes wrong on one rank is every rank's error: nobody hangs, the message names the rank, and
- * the placement goes on once the fault is mended, with the nodes that one process places. */
+ * Tests that an error on one rank is an error on every rank: no rank hangs, the message names the
+ * rank, and the placement continues after the fault is removed, with the nodes of one process. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 static int bad_rank;
 static char right_hash[40]; /* of the square with spacing() and no fault */
 
-/* All ranks must have got the same status, and the message must have this part. */
+/* Expects the same status on all ranks, and this part in the message. */
 static void expect_error(pnpbs_status status, pnpbs_status wanted, const char* part) {
   int least, most, mine = (int)status;
   MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
@@ -22,7 +22,7 @@ static void expect_error(pnpbs_status status, pnpbs_status wanted, const char* p
   expect(strstr(pnpbs_last_error(context), part) != NULL, part);
 }
 
-/* And it must say which rank it was. */
+/* Expects in addition that the message names the rank. */
 static void expect_bad_rank(pnpbs_status status, pnpbs_status wanted, const char* part) {
   char begin[20] = "";
   if (size > 1) snprintf(begin, sizeof begin, "rank %d: ", bad_rank);
@@ -30,7 +30,7 @@ static void expect_bad_rank(pnpbs_status status, pnpbs_status wanted, const char
   expect(strncmp(pnpbs_last_error(context), begin, strlen(begin)) == 0, begin);
 }
 
-/* Every rank knows the first point that the message names, where it stands in it. */
+/* Expects that every rank has the first point of the message, at its position in the text. */
 static void expect_point(void) {
   double point[3] = {0, 0, 0}, x = 0, y = 0;
   int64_t begin = 0, end = 0;
@@ -45,7 +45,7 @@ static void expect_point(void) {
 
 struct fault {
   int rank, after_calls, calls;
-  double value; /* what the bad rank gives; 0: it returns an error instead */
+  double value; /* value that the bad rank returns; 0: an error instead */
 };
 
 static int32_t spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
@@ -84,7 +84,7 @@ static void expect_right_nodes(pnpbs_placement placement, const char* what) {
   expect(strcmp(hash, right_hash) == 0, what);
 }
 
-/* What one process places. */
+/* Computes the hash of the nodes that one process places. */
 static void find_right_hash(void) {
   pnpbs_context all = context;
   pnpbs_placement placement;
@@ -100,7 +100,7 @@ static void find_right_hash(void) {
   context = all;
 }
 
-/* A callback that fails in one of its calls, whichever; until no call is left to fail in. */
+/* Lets a callback fail in its n-th call, for increasing n until all calls succeed. */
 static void failing_callbacks(double value, pnpbs_status wanted, const char* part) {
   int after, ended = 0;
   for (after = 0; !ended && after < 200; after += 1 + after / 4) {
@@ -174,7 +174,7 @@ static void stops(void) {
   pnpbs_placement_destroy(&placement);
 }
 
-/* --- ranks that do not say the same -------------------------------------------------------- */
+/* --- ranks that pass different arguments ----------------------------------------------------- */
 
 static void different_input(void) {
   const double one[] = {1}, bad[] = {NAN}, origin[] = {0, 0}, step[] = {1, 1},
@@ -183,7 +183,7 @@ static void different_input(void) {
   const int is_bad = rank == bad_rank;
   pnpbs_placement placement = square_placement(1);
 
-  /* No spacing on one rank is no spacing. */
+  /* An invalid spacing on one rank sets no spacing on any. */
   expect_bad_rank(pnpbs_placement_set_spacing_constant(placement, is_bad ? -1 : 0.05),
                   PNPBS_ERROR_SPACING, "-1");
   expect_bad_rank(
@@ -214,7 +214,7 @@ static void different_input(void) {
   }
   pnpbs_placement_destroy(&placement);
 
-  /* What one rank could not take is set on none. */
+  /* Arguments that one rank rejects are set on no rank. */
   placement = square_placement(1);
   pnpbs_placement_set_spacing_callback(placement, spacing, &no_fault);
   expect_bad_rank(pnpbs_placement_set_spacing_constant(placement, is_bad ? 0 : 0.05),
@@ -231,7 +231,7 @@ static void different_input(void) {
   pnpbs_placement_destroy(&placement);
 }
 
-/* A square with a triangle in it and a fixed node. */
+/* Returns a placement in a square with a triangle in it and a fixed node. */
 static pnpbs_placement marked_placement(int32_t role, int32_t vertex_tag, int32_t fixed_tag) {
   const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1}, fixed[] = {0.75, 0.75};
   const double inner[] = {0.2, 0.2, 0.5, 0.2, 0.2, 0.5};
@@ -252,7 +252,7 @@ static pnpbs_placement marked_placement(int32_t role, int32_t vertex_tag, int32_
   return placement;
 }
 
-/* What differs between ranks is an error, and nobody waits for ever. */
+/* Different input on ranks is an error, and no rank hangs. */
 static void different_marks_and_keys(void) {
   const int is_bad = rank == bad_rank;
   int64_t value;
@@ -334,7 +334,8 @@ struct traffic {
   MPI_Request requests[2 * MOST_MESSAGES];
 };
 
-/* In the middle of a run, to the next rank, from whoever may come, with the tags of ours. */
+/* Sends a message to the next rank in the middle of a run and receives from any source, with tags
+ * that the library uses, too. */
 static int32_t send_something(double fraction, int64_t step, int64_t nodes, double speed,
                               void* user) {
   struct traffic* t = user;
@@ -356,7 +357,7 @@ static void traffic_beside_ours(void) {
   pnpbs_placement placement = square_placement(1);
   int k;
   t.sent = 0;
-  send_something(0, 0, 0, 0, &t); /* one that is under way when the run begins */
+  send_something(0, 0, 0, 0, &t); /* a message in flight when the run begins */
   pnpbs_placement_set_spacing_callback(placement, spacing, &no_fault);
   pnpbs_placement_set_monitor(placement, send_something, &t);
   expect_right_nodes(placement, "nodes beside the user's traffic");
@@ -389,7 +390,7 @@ static void communicators(void) {
   expect(pnpbs_context_create_checked_f(world, NULL, &context) == PNPBS_ERROR_ARGUMENT,
          "no library's name");
   MPI_Get_library_version(library, &length);
-  strcat(library, "  \n"); /* as Fortran pads */
+  strcat(library, "  \n"); /* padded as in Fortran */
   expect(pnpbs_context_create_checked_f(world, library, &context) == PNPBS_OK, "our own MPI");
   expect(pnpbs_context_destroy(&context) == PNPBS_OK, "destroyed");
 }
@@ -418,7 +419,7 @@ int main(int argc, char** argv) {
   }
   traffic_beside_ours();
 
-  /* The context is as good as before, and can be destroyed after an error. */
+  /* The context still works, and can be destroyed after an error. */
   bad_rank = size / 2;
   placement = square_placement(1);
   pnpbs_placement_set_spacing_callback(placement, spacing, &no_fault);

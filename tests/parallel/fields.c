@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Fields of a solver over ranks, in the plane and in space: ghosts get their owners' values, at
- * once or while the solver computes; sums and dot products are exact, and the same bits as one
- * process has; what is wrong on one rank is an error on all, and none waits. */
+ * Tests fields of a solver over ranks, in the plane and in space. Ghosts receive their owners'
+ * values, in one call or while the solver computes. Sums and dot products are exact and have the
+ * bits of one process. An error on one rank is an error on all, and no rank hangs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,7 +52,7 @@ static pnpbs_placement placed(int32_t dim) {
 
 /* ---------------------------------------------------------------- ghosts ----------------- */
 
-/* Something that only one node has, in each of its components. */
+/* Returns a value that is unique to a node, in each component. */
 static double mark(const struct nodes* v, int64_t i, int c) {
   return c == 0 ? (double)v->ids[i] : v->x[v->dim * i] * c + v->x[v->dim * i + 1];
 }
@@ -74,7 +74,7 @@ static void check_update(pnpbs_placement placement, const struct nodes* v, int c
   expect(memcmp(values, right, bytes) == 0, "a ghost has another value than its node");
   free(values);
 
-  /* What is sent are the values at the beginning; other calls may come between. */
+  /* The values at the beginning are sent; other calls may come in between. */
   values = marked(v, components, v->owned);
   expect(pnpbs_placement_begin_update_ghosts(placement, v->all, components, values) == PNPBS_OK,
          "begin");
@@ -127,7 +127,7 @@ static void check_wrong_updates(pnpbs_placement placement, const struct nodes* v
   free(values);
 }
 
-/* Nodes change their owners or move while values are on their way. */
+/* Nodes change owners or move while an update is in progress. */
 static void check_moving(pnpbs_placement placement) {
   struct nodes v = get_nodes(placement);
   double* values = marked(&v, 1, v.owned);
@@ -138,7 +138,7 @@ static void check_moving(pnpbs_placement placement) {
   free(values), free_nodes(&v);
   v = get_nodes(placement);
   check_update(placement, &v, 1);
-  /* Nor does it matter if nobody ends it. */
+  /* An update that is never ended does no harm. */
   values = marked(&v, 1, v.owned);
   expect(pnpbs_placement_begin_update_ghosts(placement, v.all, 1, values) == PNPBS_OK, "begin");
   free(values), free_nodes(&v);
@@ -146,12 +146,12 @@ static void check_moving(pnpbs_placement placement) {
 
 /* ---------------------------------------------------------------- sums ------------------- */
 
-/* By the node's number among all: great terms that come to nothing, and 1. Any sum that rounds on
- * the way, in any order, is wrong by more than 2^100 with high probability. */
+/* Returns a value by the global number of the node: large terms that cancel, and 1. Any sum that
+ * rounds intermediate results, in any order, is wrong by more than 2^100 with high probability. */
 static double ill_conditioned(int64_t number, int64_t all) {
   const int64_t pair = (number - 1) / 2;
   if (number == 0) return 1;
-  if (number == all - 1 && all % 2 == 0) return 0; /* alone */
+  if (number == all - 1 && all % 2 == 0) return 0; /* without a partner */
   return (number % 2 == 0 ? -1 : 1) * ldexp((double)(1 + pair % 7), (int)(100 + pair * 37 % 800));
 }
 
@@ -197,7 +197,7 @@ static void check_known_sums(pnpbs_placement placement, const struct nodes* v) {
   free(values), free(ones);
 }
 
-/* Some field's: on the ranks there are, or on one process alone. */
+/* Computes sums of a field, on all ranks or on one process. */
 static void some_sums(pnpbs_placement placement, double sums[6]) {
   struct nodes v = get_nodes(placement);
   double *f = array(3 * v.owned, sizeof(double)), *g = array(3 * v.owned, sizeof(double));

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Every call on a file fails once, on one rank, while several files are written, of a placement and
- * of a mesh in parts: all ranks get the same status, and there are all files or what was there
- * before, nothing else. With an argument n, only every n-th call for the placement does. */
+ * Lets every file call fail once, on one rank, while several files of a placement and a partitioned
+ * mesh are written. All ranks get the same status, and either all files exist or those from before,
+ * nothing else. With an argument n, only every n-th call for the placement fails. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <dirent.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 static const char* const asked[] = {"a.vtu", "b.pvtu", "c.csv", "d.node", "e.vtkhdf", "f.xdmf"};
 static const int32_t elements[] = {1, 1, 0, 1, 1, 1};
 static int asked_count = 6;
-static char files[32][32]; /* all that these are */
+static char files[32][32]; /* all files that these consist of */
 static int file_count;
 static pnpbs_placement placement;
 static pnpbs_mesh mesh;
@@ -45,8 +45,7 @@ static void list_files_of_placement(void) {
   }
 }
 
-/* --- what is in the folder; rank 0 looks -------------------------------------------------------
- */
+/* --- content of the folder, checked by rank 0 ------------------------------------------------ */
 
 static void lay_old_files(int there) {
   for (int k = 0; k < file_count; ++k) {
@@ -90,7 +89,7 @@ static void check_folder(const char* what, int written, int old_there, int unlin
            text);
   }
   left = left_aside();
-  expect(left <= unlink_failed, what); /* something was left behind */
+  expect(left <= unlink_failed, what); /* temporary files left behind */
 }
 
 /* --- faults --------------------------------------------------------------------------------- */
@@ -107,8 +106,8 @@ static void make_placement_and_mesh(void) {
   expect(pnpbs_mesh_create(placement, 1, &mesh) == PNPBS_OK, "mesh");
 }
 
-/* The n-th call on one rank fails. Tells whether there was one; counts those that ended in an
- * error. */
+/* Lets the n-th call on one rank fail. Returns whether there was such a call, and counts those that
+ * ended in an error. */
 static int one_fault(pnpbs_status (*write)(void), int bad, long n, int old_there, long* errors) {
   char call[20] = "", what[100];
   pnpbs_status status;
@@ -131,7 +130,7 @@ static int one_fault(pnpbs_status (*write)(void), int bad, long n, int old_there
   return call[0] != 0;
 }
 
-/* More than `few` of all faults must be errors. */
+/* Expects that more than `few` of all faults are errors. */
 static void faults_on(pnpbs_status (*write)(void), int bad, int old_there, long stride, long few) {
   long n = (bad + old_there) % stride, errors = 0;
   while (one_fault(write, bad, n, old_there, &errors)) n += stride;
@@ -159,7 +158,7 @@ int main(int argc, char** argv) {
   list_files_of_placement();
   all_faults(write_placement, stride, 5); /* open, write, close, rename of a piece */
   list_files_of_mesh();
-  all_faults(write_mesh, 1, 4); /* the same, of one file */
+  all_faults(write_mesh, 1, 4); /* the same for one file */
   pnpbs_mesh_destroy(&mesh);
   pnpbs_placement_destroy(&placement);
   if (rank == 0) expect(rmdir(folder) == 0, "something was left behind");

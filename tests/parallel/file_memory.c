@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Writing files takes hardly any memory beside what the run took: the peak of each rank while it
- * writes, format by format, against its peak before. */
+ * Tests that writing files takes little memory beyond that of the run: compares the peak of each
+ * rank while it writes each format with its peak before. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <inttypes.h>
 #include <stdio.h>
@@ -11,14 +11,14 @@
 
 #include "rank_program.h"
 
-/* Of the run's peak, and what windows and MPI-IO take whatever the number of nodes. */
+/* Limit in KiB: a share of the run's peak, and a constant for windows and MPI-IO. */
 static double most_after(long before) { return 1.15 * (double)before + 12 * 1024; }
-/* What HDF5 takes itself, on the one rank that asks it. */
+/* Memory in KiB of HDF5 itself, on the rank that calls it. */
 static const double hdf5_itself = 10 * 1024;
 
-/* Largest resident size of this process so far, in KiB; 0 if the system does not report it. It
- * never falls, so that a format that takes more than the run and all formats before it raises it.
- */
+/* Returns the largest resident size of this process so far in KiB, or 0 if the system does not
+ * report it. It never decreases, so a format raises it only if it takes more than the run and all
+ * formats before. */
 static long peak(void) {
   FILE* status = fopen("/proc/self/status", "r");
   char line[200];
@@ -28,7 +28,7 @@ static long peak(void) {
   return kib;
 }
 
-/* Collective. */
+/* Returns whether all ranks report their peaks. Collective. */
 static int all_have_peaks(void) {
   int ok = peak() > 0;
   MPI_Allreduce(MPI_IN_PLACE, &ok, 1, MPI_INT, MPI_MIN, group);

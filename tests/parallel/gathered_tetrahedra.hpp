@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gathers the results of a placement in space from all ranks of the group on rank 0: only a test
-// may do so.
+// Gathers the results of a placement in space from all ranks of the group on rank 0, which is
+// acceptable only in a test.
 #pragma once
 
 #include "gathered_triangulation.hpp"
@@ -29,7 +29,7 @@ struct Volume {
   std::vector<std::array<std::int64_t, 2>> star_neighbours;  // (node, neighbour) of every star
 };
 
-// The nodes of this rank, then its ghosts: in the order of local indices.
+// Returns the nodes of this rank, then its ghosts, in the order of local indices.
 inline std::vector<SpaceNode> local_space_nodes(pnpbs_placement p, std::int64_t& owned) {
   std::int64_t ghosts;
   require(pnpbs_placement_ghost_count(p, &ghosts), "ghost count");
@@ -102,7 +102,7 @@ inline std::vector<std::array<std::int64_t, 2>> local_star_neighbours(
   return pairs;
 }
 
-// Collective; complete on rank 0.
+// Gathers all results. The result is complete on rank 0. Collective.
 inline Volume gather_volume(pnpbs_placement p) {
   std::int64_t owned;
   const std::vector<SpaceNode> nodes = local_space_nodes(p, owned);

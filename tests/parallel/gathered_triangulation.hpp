@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gathers the results of a placement from all ranks of the group on rank 0: only a test may do so.
+// Gathers the results of a placement in the plane from all ranks of the group on rank 0, which is
+// acceptable only in a test.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +32,7 @@ struct Edge {
 struct Triangulation {
   std::vector<Node> nodes;           // by id
   std::vector<Node> ghosts;          // of all ranks
-  std::vector<Ids3> triangles;       // counter-clockwise, as handed out
+  std::vector<Ids3> triangles;       // counter-clockwise, as returned
   std::vector<Ids3> star_triangles;  // (node, neighbour, next neighbour) of every star
   std::vector<Edge> boundary_edges;
 };
@@ -58,7 +59,7 @@ std::vector<T> on_rank_0(const std::vector<T>& mine) {
   return all;
 }
 
-// The nodes of this rank, then its ghosts: in the order of local indices.
+// Returns the nodes of this rank, then its ghosts, in the order of local indices.
 inline std::vector<Node> local_nodes(pnpbs_placement p, std::int64_t& owned) {
   std::int64_t ghosts;
   require(pnpbs_placement_ghost_count(p, &ghosts), "ghost count");
@@ -137,7 +138,7 @@ inline std::vector<Edge> local_boundary_edges(pnpbs_placement p, const std::vect
   return edges;
 }
 
-// Collective; complete on rank 0.
+// Gathers all results. The result is complete on rank 0. Collective.
 inline Triangulation gather(pnpbs_placement p) {
   std::int64_t owned;
   const std::vector<Node> nodes = local_nodes(p, owned);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The growth limit over ranks: the same to the bit as in one process, with a part of the tree on
-// each rank; d that is asked by all ranks together; failures of one rank.
+// Tests the growth limit over ranks: equal to the bit with one process, with a part of the tree on
+// each rank; a collective spacing; and failures on one rank.
 #include "spacing/growth_limit.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ double pits(double x, double y) {
 
 std::vector<Case> cases() {
   return {
-      {"constant", add_square, constant(0.3), 0.2},  // a few leaves: some ranks have none
+      {"constant", add_square, constant(0.3), 0.2},  // a few leaves, so some ranks have none
       {"pits", add_square, pits, 0.15},
       {"jump", add_square, [](double x, double) { return x > 0.503 ? 1.0 : 0.01; }, 0.3},
       {"slow", add_square, [](double x, double y) { return x + y < 0.03 ? 0.008 : 0.1; }, 0.02},
@@ -68,7 +68,7 @@ std::vector<Case> cases() {
   };
 }
 
-// As d from a solver: to ask it takes all ranks, at the same time.
+// A collective spacing, such as d from a solver: all ranks must evaluate it at the same time.
 class AskedTogether : public Spacing<2> {
  public:
   explicit AskedTogether(Plane d) : d_(std::move(d)) {}
@@ -124,7 +124,7 @@ void check_case(const Case& c) {
                    std::string(c.name) + ": the same where each asks its own");
   expect_same_bits(alone, together, points_in(domain, seed, comm->rank() == 0 ? 3000 : 0),
                    std::string(c.name) + ": the same where one rank asks");
-  // Copies are a band along the border, and some large leaves beside it.
+  // Copies of leaves are a band along the border, and some large leaves beside it.
   const auto whole = static_cast<double>(alone.growth_limit()->leaves_held());
   const double share = whole / comm->size(),
                max =
@@ -178,7 +178,7 @@ void check_failures() {
     limited_spacing<2>(comm, line_of_sight(domain, *spacing_of(even)), asked, 0.1, max_nodes, beat);
   };
   make(even, kManyNodes, [&] { ++beats; });
-  // Whenever the last rank's monitor stops it, all stop.
+  // The run stops on all ranks whenever the last rank's monitor stops it.
   const int last = comm->rank() == comm->size() - 1 ? beats : 0;
   beats = static_cast<int>(comm->allreduce_max(last));
   expect(beats > 5, "the monitor is asked now and then");

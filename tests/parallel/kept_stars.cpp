@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stars in space are put back as they were where no node of any rank has moved, come or gone, and
-// found again otherwise: both are those that are found with nothing known.
+// Tests that stars in space are restored if no node of any rank has moved, been inserted or
+// deleted, and are rebuilt otherwise. In both cases they equal stars built from scratch.
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -29,7 +29,7 @@ using Level = pnpbs::Level<3>;
 struct Body {
   std::string name;
   std::function<void(pnpbs::VolumeDomain&)> add;
-  double d;  // where x = 0; it grows with x
+  double d;  // at x = 0; it grows with x
 };
 
 void add_rough_globe(pnpbs::VolumeDomain& domain) {
@@ -42,7 +42,7 @@ void add_rough_globe(pnpbs::VolumeDomain& domain) {
                      triangles.data(), nullptr, 40);
 }
 
-// With a wall inside; and where tetrahedra at the boundary are inside or outside by chance.
+// A box with a wall inside, and a body at whose boundary labels of tetrahedra are ambiguous.
 const std::vector<Body>& bodies() {
   static const std::vector<Body> all{{"a box",
                                       [](pnpbs::VolumeDomain& domain) {
@@ -87,7 +87,7 @@ void expect_found_anew(const Level& level, const std::string& when) {
   expect(stars_by_id(level, level.stars) == stars_by_id(level, anew), when + ": the same stars");
 }
 
-// Makes the stars again; returns whether those of before are put back.
+// Builds the stars again. Returns whether the previous ones were restored.
 bool made_again(Level& level) {
   prepare_finish(level);
   const bool hold = stars_hold(level);
@@ -95,7 +95,7 @@ bool made_again(Level& level) {
   return hold;
 }
 
-// On the last rank that has any, the owned free node in the middle of the order.
+// Applies a change to an owned free node in the middle of the order, on the last rank that has any.
 void change_one(Level& level, const std::function<void(std::int64_t)>& change) {
   std::int64_t some = -1;
   for (std::int64_t i = 0; i < level.nodes.count && some < level.nodes.count / 2; ++i)
@@ -104,8 +104,8 @@ void change_one(Level& level, const std::function<void(std::int64_t)>& change) {
   if (last == comm->rank()) change(some);
 }
 
-// Elements of a torn boundary get other labels, whose stars are not put back: these are gone when
-// stars have been made again.
+// Elements at a non-manifold boundary get other labels. Stars with such labels are not restored and
+// must be replaced.
 void check_restore(Level& level, const Body& body) {
   made_again(level);
   expect(made_again(level), "stars are put back");
@@ -124,7 +124,7 @@ void check_restore(Level& level, const Body& body) {
   expect_found_anew(level, body.name + ", with another d");
 }
 
-// A repair leaves some stars in doubt, and those found then are right.
+// A repair invalidates some stars; their replacements must be correct.
 void check_after_repair(Level& level, const Body& body) {
   sweep_and_repair(level, 1);
   make_finish_stars(level, {});

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Adjacency lists of the greatest radius, for stencils of high order, over ranks: the nodes are
- * those of shorter lists, and every list is that of one process, in the plane and in space. */
+ * Tests adjacency lists with the largest radius, for stencils of high order, over ranks. The nodes
+ * are those of shorter lists, and every list equals that of one process, in the plane and in space.
+ */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +30,7 @@ static uint64_t mixed(uint64_t x) {
   return x ^ (x >> 32);
 }
 
-/* Of all lists of all ranks, and of the nodes' order in them. */
+/* Returns a hash of all lists of all ranks, including the order in them. */
 static uint64_t hash_of_lists(pnpbs_placement placement, int over_ranks, int64_t* longest) {
   int64_t n, ghosts, entries, *ids, *offsets, *neighbours, i, k;
   uint64_t hash = 0;

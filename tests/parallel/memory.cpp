@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One rank runs out of memory, at every place where it asks for much: every rank is told so, nobody
-// hangs, the placement is what it was before the call that failed, and a later run on the same
-// context places the right nodes. The operators new below stand in for a machine that has no more:
-// they refuse one large request, or all from some on.
-// Arguments: every how many requests one is refused, and the least size of those that are counted.
+// Tests that lack of memory on one rank, at every large allocation, is reported on every rank: no
+// rank hangs, the placement is unchanged by the failed call, and a later run on the same context
+// places the correct nodes. The operators new below reject one large request, or all from one on.
+// Arguments: the stride of the requests that are rejected, and the smallest size of those that
+// count.
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kLarge = 1024;  // bytes
 std::size_t least_refused = kLarge;   // bytes
-std::atomic<long> until_refusal{-1};  // large requests; negative: none is refused
+std::atomic<long> until_refusal{-1};  // number of large requests; negative: none is rejected
 std::atomic<bool> refuse_all_after{false};
 std::atomic<long> asked{0}, refusals{0};
 
@@ -112,7 +112,7 @@ pnpbs_placement new_placement() {
 
 constexpr const char* kFile = "memory_on_ranks.vtu";
 
-// What queries return, without requests that are refused: they are the test's own.
+// Returns the results of queries. Requests of the test itself are not rejected.
 PlacementView view_of(pnpbs_placement placement,
                       PlacementView (*view)(pnpbs_placement) = view_before_call) {
   const long refuse = until_refusal.exchange(-1);
@@ -121,25 +121,25 @@ PlacementView view_of(pnpbs_placement placement,
   return seen;
 }
 
-// Everything in which ranks work together; the first error ends it. `before` is what queries return
-// before the call that fails.
+// Performs all collective operations until the first error. `before` receives the results of
+// queries before the failing call.
 pnpbs_status whole_job(pnpbs_placement placement, PlacementView& before) {
   before = view_of(placement);
   pnpbs_status status = pnpbs_placement_run(placement);
   if (status < 0) return status;
   std::int64_t nodes = 0, ghosts = 0, triangles = 0;
   pnpbs_placement_count(placement, &nodes);
-  const long refuse = until_refusal.exchange(-1);  // not in what is the test's own
+  const long refuse = until_refusal.exchange(-1);  // not in allocations of the test
   std::vector<double> d(static_cast<std::size_t>(nodes) + 1);
   until_refusal = refuse;
   status = pnpbs_placement_get_nodes(placement, nodes, nullptr, nullptr, nullptr, d.data());
-  if (status == PNPBS_ERROR_MEMORY) {  // a local call: nobody else is told
+  if (status == PNPBS_ERROR_MEMORY) {  // a local call: other ranks do not get the error
     until_refusal = -1;
     status = pnpbs_placement_get_nodes(placement, nodes, nullptr, nullptr, nullptr, d.data());
   }
   expect(status == PNPBS_OK, "get_nodes");
   for (double& value : d) value = 0.9 * value + 0.001;
-  before = {};  // lists are made by these calls, which statistics count
+  before = {};  // these calls build lists, which changes statistics
   status = pnpbs_placement_ghost_count(placement, &ghosts);
   if (status < 0) return status;
   status = pnpbs_placement_get_triangles(placement, 0, &triangles, nullptr);
@@ -162,7 +162,7 @@ std::string hash_of(pnpbs_placement placement) {
   return hash;
 }
 
-// Refuses the n-th large request of one rank. Tells whether there was one.
+// Rejects the n-th large request of one rank. Returns whether there was one.
 bool fails_well(int on_rank, long n, bool all_after, const std::string& right_hash) {
   const std::string name = "request " + std::to_string(n) + " on rank " + std::to_string(on_rank);
   pnpbs_placement placement = new_placement();
@@ -188,7 +188,7 @@ bool fails_well(int on_rank, long n, bool all_after, const std::string& right_ha
     const PlacementView after = view_of(placement, view_after_call);
     expect(before == PlacementView{} || before == after,
            name + ": changed " + before.difference(after));
-    // The placement itself can go on, too.
+    // The placement can continue as well.
     expect(pnpbs_placement_run(placement) >= 0, name + ": run again");
   } else {
     expect(hash_of(placement) == right_hash, name + ": not told, and other nodes");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The partitioned files of a mesh against its arrays: each rank reads its file, and what files must
-// have in common is compared over all ranks. Then what goes wrong on one rank. Usage: mesh_files
+// Tests the partitioned files of a mesh against its arrays. Each rank reads its file; common
+// properties of the files are compared over all ranks. Then errors on one rank. Usage: mesh_files
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 // ------------------------------------------------------------------ regions --------------------
 
-// Halves of which one has a tag, and a third part between them that has another.
+// Returns a square of three parts: the middle has one tag and the left half another.
 pnpbs_status plane_with_regions(pnpbs_domain domain, const char*) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, left[] = {0.4, 0, 0.4, 1},
                right[] = {0.6, 0, 0.6, 1}, in_left[] = {0.1, 0.1}, between[] = {0.5, 0.5};
@@ -30,7 +30,7 @@ pnpbs_status plane_with_regions(pnpbs_domain domain, const char*) {
   return pnpbs_domain_add_region(domain, in_left, 1);
 }
 
-// Another box in the middle; no element is without a region.
+// Returns a box within a box, with a region for every element.
 pnpbs_status box_in_box(pnpbs_domain domain, const char*) {
   const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
   const double corners[8][3] = {{.3, .3, .3}, {.7, .3, .3}, {.3, .7, .3}, {.7, .7, .3},
@@ -50,20 +50,22 @@ const Case kRegions[] = {{"regions", 2, plane_with_regions, 0.05},
 
 // ------------------------------------------------------------------ against the mesh -----------
 
-// The tag that the group of a part stands for; -6 is none that a group can have.
+// Returns whether the group of an entity stands for this tag. Groups cannot be negative, so
+// negative tags are part of the name.
 bool is_of_tag(const File& file, const Entity& entity, std::int32_t tag) {
   const std::int64_t number = file.parts.at(entity).group;
   if (tag > 0) return number == tag;
   return file.names.at({entity[0], number}) == "\"tag_" + std::to_string(tag) + "\"";
 }
 
-// The group has none of these names.
+// Returns whether the group is that of the inside without a region or tag.
 bool is_of_inside(const File& file, const Entity& entity) {
   const std::string& name = file.names.at({entity[0], file.parts.at(entity).group});
   return !name.starts_with("\"region_") && !name.starts_with("\"tag_") && name != "\"middle\"";
 }
 
-// A node inside is with the elements around it, which are not all here if it is a ghost.
+// An inner node belongs to the region of its elements. Only owned elements are checked, since a
+// ghost does not have all of its elements here.
 void check_regions_of_nodes(const File& file, const Part& p) {
   for (std::int64_t k = 0; k < p.owned_elements * p.corners; ++k) {
     const auto node = static_cast<std::size_t>(p.element_nodes[static_cast<std::size_t>(k)]);
@@ -138,7 +140,7 @@ void check_elements(const File& file, const Part& p) {
   }
 }
 
-// Returns the numbers of those of this rank.
+// Checks the facets and returns the numbers of this rank's.
 Ids check_facets(const File& file, const Part& p) {
   std::map<Ids, std::int32_t> owned;
   for (std::int64_t f = 0; f < p.facets; ++f) {
@@ -166,7 +168,7 @@ Ids check_facets(const File& file, const Part& p) {
   return numbers;
 }
 
-// Each number from `first` on comes once over all ranks.
+// Expects that the numbers from `first` on occur once each over all ranks.
 void expect_counting(const Ids& mine, std::int64_t first, const char* what) {
   Ids all = gathered(mine);
   std::ranges::sort(all);
@@ -206,7 +208,7 @@ void check_all_files(const File& file, const Part& p, const Ids& facets) {
     expect(of_all[k] == entities[k % entities.size()], "all files have the same entities");
 }
 
-// Its names are quoted.
+// Checks that names are quoted.
 void check_names(const File& file, const Case& it) {
   const auto is_named = [&](const Entity& entity, const char* name) {
     const auto found = file.names.find(entity);
@@ -287,7 +289,7 @@ std::string contents(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// What fails on one rank fails on all, and changes no file.
+// An error on one rank is an error on all, and changes no file.
 void check_errors(const std::string& folder) {
   const std::string prefix = folder + "/old", other = folder + "/new";
   pnpbs_domain domain = unit_domain(2);

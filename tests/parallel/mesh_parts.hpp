@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Placements in the plane, in space and on surfaces, and the part of a mesh that a rank has, as the
-// public interface hands it out.
+// Placements in the plane, in space and on surfaces, and a rank's part of a mesh as returned by the
+// public interface.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ using Ids = std::vector<std::int64_t>;
 
 // ------------------------------------------------------------------ cases ----------------------
 
-// The unit square with a hole, and a curve inside that ends in it. Not all have names, and one tag
-// is no number that other programs can have.
+// Adds the unit square with a hole, and an inner curve that ends in the hole. Some tags have no
+// names, and one is negative, which other programs cannot represent.
 inline pnpbs_status plane_with_curve(pnpbs_domain domain, const char*) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1},
                hole[] = {0.2, 0.2, 0.2, 0.4, 0.4, 0.4, 0.4, 0.2},
@@ -31,7 +31,7 @@ inline pnpbs_status plane_with_curve(pnpbs_domain domain, const char*) {
   return pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 3, curve, of_curve, 0);
 }
 
-// A box, and a wall inside that touches nothing.
+// Adds a box, and a wall inside that touches nothing.
 constexpr std::int32_t kWall = 2;
 inline pnpbs_status walled_box(pnpbs_domain domain, const char*) {
   const double low[] = {0, 0, 0}, high[] = {2, 1, 1};
@@ -95,7 +95,7 @@ struct Part {
 
 template <class Array>
 auto* room(Array& array, std::int64_t n) {
-  array.resize(static_cast<std::size_t>(n) + 1);  // so that there always is a pointer
+  array.resize(static_cast<std::size_t>(n) + 1);  // one more, so that the pointer is never null
   return array.data();
 }
 

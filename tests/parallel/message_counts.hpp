@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a rank sends, counted on its way to MPI: these functions stand before those of the MPI
-// library (its profiling interface), for the whole program. Include it in one file of a program
-// that is linked with the objects of the library.
+// Counts the messages that a rank sends, by functions that replace those of the MPI library (its
+// profiling interface) in the whole program. Must be included in one file of a program that is
+// linked with the objects of the library.
 #pragma once
 
 #include <mpi.h>
@@ -13,11 +13,11 @@
 namespace message_counts {
 
 struct Counts {
-  std::map<int, std::int64_t> announced;  // messages of sparse exchanges, by rank they went to
-  std::int64_t messages = 0;              // all messages to one rank
-  std::int64_t bytes = 0;                 // in these
+  std::map<int, std::int64_t> announced;  // messages of sparse exchanges, by destination
+  std::int64_t messages = 0;              // all messages to single ranks
+  std::int64_t bytes = 0;                 // of these messages
   std::int64_t barriers = 0;              // one in every sparse exchange
-  std::int64_t longest = 0;               // bytes that a rank gave or got in a collective call
+  std::int64_t longest = 0;  // bytes of the longest contribution to a collective call, in or out
 
   std::int64_t announced_messages() const {
     std::int64_t sum = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A call of MPI fails on one rank, at many places: every rank gets PNPBS_ERROR_MPI, none waits for
-// ever, and the next job on the same context places the right nodes. The functions below stand
-// before those of the MPI library (its profiling interface).
+// Lets a call of MPI fail on one rank, at many positions. Every rank gets PNPBS_ERROR_MPI, no rank
+// hangs, and the next job on the same context places the correct nodes. The functions below replace
+// those of the MPI library (its profiling interface).
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 
@@ -15,11 +15,11 @@
 namespace {
 
 bool armed = false;                // on the rank whose calls are counted
-std::map<std::string, long> made;  // calls
-std::string failing;               // name of a call
-long fails_at = 0;                 // the number of the call that fails
+std::map<std::string, long> made;  // number of calls by name
+std::string failing;               // name of the call
+long fails_at = 0;                 // number of the call that fails
 
-// Whether this call fails. `kind` is the name of a call and the way in which it fails.
+// Returns whether this call fails. `kind` is the name of a call and the way in which it fails.
 bool fails(const std::string& kind) { return armed && ++made[kind] == fails_at && kind == failing; }
 
 }  // namespace
@@ -38,7 +38,7 @@ int MPI_Issend(const void* data, int count, MPI_Datatype type, int to, int tag, 
   return PMPI_Issend(data, count, type, to, tag, comm, request);
 }
 
-// The second way: the message is taken, but not into the buffer.
+// The second kind of failure receives the message into another buffer.
 int MPI_Irecv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
               MPI_Request* request) {
   static std::vector<char> elsewhere(1 << 20);
@@ -81,7 +81,7 @@ int MPI_Ibarrier(MPI_Comm comm, MPI_Request* request) {
   return PMPI_Ibarrier(comm, request);
 }
 
-// A reduction by which ranks agree, and not one of many entries.
+// Only reductions for agreement fail, not sums of many entries.
 int MPI_Allreduce(const void* in, void* out, int count, MPI_Datatype type, MPI_Op op,
                   MPI_Comm comm) {
   if (op != MPI_SUM && fails("MPI_Allreduce")) return MPI_ERR_OTHER;
@@ -127,7 +127,7 @@ pnpbs_placement new_placement(int dim) {
   return placement;
 }
 
-// Places nodes, and moves values between nodes and ghosts. The first error ends it.
+// Places nodes, and exchanges values between nodes and ghosts, until the first error.
 pnpbs_status job(pnpbs_placement placement) {
   pnpbs_status status = pnpbs_placement_run(placement);
   std::int64_t nodes = 0, ghosts = 0;
@@ -155,7 +155,7 @@ void expect_same_status(pnpbs_status status, const std::string& what) {
   expect(all[0] == -all[1], what + ": ranks disagree on the status");
 }
 
-// Does the job with one failing call. Returns whether the call was reached.
+// Performs the job with one failing call. Returns whether the call was reached.
 bool check_failure(int dim, int bad, const std::string& kind, long at, const std::string& right) {
   const std::string what =
       kind + " number " + std::to_string(at) + " fails on rank " + std::to_string(bad);
@@ -180,8 +180,8 @@ bool check_failure(int dim, int bad, const std::string& kind, long at, const std
   return true;
 }
 
-// A message of an update that ends on each rank for itself cannot be sent: its sender and its
-// receiver get the error, and the next update is right.
+// A message of an update that ends locally on each rank cannot be sent. Its sender and its receiver
+// get the error, and the next update is correct.
 void check_split_update(int bad) {
   pnpbs_placement placement = new_placement(2);
   std::int64_t nodes = 0, ghosts = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One of Gmsh's partitioned files, read by a parser of our own as Gmsh's documentation describes
-// the format. What the file says about itself is checked here.
+// A partitioned file of Gmsh, read by an independent parser that follows Gmsh's documentation. The
+// constructor checks the file's statements about itself.
 #pragma once
 
 #include <array>
@@ -38,7 +38,8 @@ class File {
   std::map<std::int64_t, std::int64_t> ghost_entities;  // their partitions
   std::map<std::int64_t, FileNode> nodes;
   std::map<std::int64_t, FileElement> elements;
-  std::map<std::int64_t, std::pair<std::int64_t, Ids>> ghosts;  // partition, those with the ghost
+  // Owner, and the partitions that have the ghost.
+  std::map<std::int64_t, std::pair<std::int64_t, Ids>> ghosts;
   std::int64_t partitions = 0;
   bool has_ghosts = false;
 
@@ -126,7 +127,7 @@ class File {
     parts[entity] = part;
   }
 
-  // Returns blocks, rows and the range of their numbers.
+  // Returns the numbers of blocks and rows, and the range of the row numbers.
   std::array<std::int64_t, 4> read_sizes() {
     std::array<std::int64_t, 4> sizes{};
     for (std::int64_t& size : sizes) size = number();

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Places the nodes of many small cases of every kind and prints a line with the hash for each: what
- * must stay the same when code is moved about but not changed. node_hashes.sh runs it on several
- * numbers of ranks and threads and compares. usage: node_hashes DATA [CASE] */
+ * Places the nodes of many small cases of every kind and prints a line with the hash of each. The
+ * hashes must not change when code is moved without being changed. node_hashes.sh runs it on
+ * several numbers of ranks and threads and compares.
+ * usage: node_hashes DATA [CASE] */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -59,7 +60,7 @@ static int32_t wave(int64_t n, int32_t dim, const double* t, double* xy, void* u
   return 0;
 }
 
-/* A ring, a polyline that ends inside, and a curve from side to side that nodes must follow. */
+/* Adds a ring, a polyline that ends inside, and a curve from side to side as inner curves. */
 static void add_square_with_inner_curves(pnpbs_domain domain) {
   const double hook[] = {0.1, 0.1, 0.4, 0.15, 0.35, 0.4};
   add_square(domain);
@@ -74,7 +75,7 @@ static void add_square_with_fixed_nodes(pnpbs_domain domain) {
   check(pnpbs_domain_add_fixed_nodes(domain, 5, nodes, NULL), "fixed nodes");
 }
 
-/* Holes that no node fits between, and one that is barely seen. */
+/* Adds holes without room for a node in between, and one barely larger than d. */
 static void add_square_with_small_holes(pnpbs_domain domain) {
   add_square(domain);
   add_circle(domain, PNPBS_BOUNDARY, 0.4, 0.4, 0.004);
@@ -88,12 +89,12 @@ static void add_sharp_corner(pnpbs_domain domain) {
 }
 
 /* ---------------------------------------------------------------- spacings -------------- */
-/* From + - * / and square roots alone, which have the same bits everywhere. */
+/* A spacing from + - * / and square roots only, which have the same bits everywhere. */
 
 struct spacing {
   double constant, slope, x, y; /* grows from a point, or from a line if x is nan */
   double max;
-  double line, beyond; /* something else right of a line */
+  double line, beyond; /* another value right of a line */
 };
 
 static int32_t spacing_at(int64_t n, int32_t dim, const double* x, double* d, void* user) {
@@ -206,7 +207,7 @@ static void place(const struct placing* job) {
 
 /* ---------------------------------------------------------------- sequences ------------- */
 
-/* As after an error estimate: finer at a front. */
+/* Refines at a front, as after an error estimate. */
 static void refine_at(pnpbs_placement placement, double front) {
   int64_t n, i;
   double *xy, *d;
@@ -222,7 +223,7 @@ static void refine_at(pnpbs_placement placement, double front) {
   free(xy), free(d);
 }
 
-/* A moving spot, values at nodes, a grid, one live placement all along. */
+/* One live placement with a moving spot, values at nodes and a grid. */
 static void adapt(void) {
   const int64_t grid_size[] = {3, 2};
   const double origin[] = {0, 0}, step[] = {0.5, 1},
@@ -246,7 +247,8 @@ static void adapt(void) {
   check(pnpbs_placement_destroy(&placement), "adapt");
 }
 
-/* Points of the square, some outside the domain; every rank gives every size-th of them. */
+/* Begins with given points of the square, some outside the domain; every rank gives every size-th
+ * of them. */
 static void begin_with_given_nodes(void) {
   enum { rows = 40 };
   const struct spacing spacing = {0.02, 0.02, 0.1, 0.1, EVERYWHERE};
@@ -267,7 +269,7 @@ static void begin_with_given_nodes(void) {
   free(xy), free(ids);
 }
 
-/* By hand instead of by run: steps, population and a new partition between them. */
+/* Calls steps, population control and rebalancing directly instead of a run. */
 static void drive_by_steps(void) {
   struct spacing spacing = {0.006, 0.05, 0.2, 0.8, EVERYWHERE};
   pnpbs_placement placement = placement_on(add_square_with_inner_curves);

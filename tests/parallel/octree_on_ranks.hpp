@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An octree over the unit cube, whole on every rank, and its partition.
+// An octree over the unit cube, complete on every rank, and its partition.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using pnpbs::Point;
 
 using Function = std::function<double(const Point<3>& x)>;
 
-// Leaves are at most as wide as this in their centres.
+// Returns a tree whose leaves are at most `width` wide at their centres.
 inline BackgroundTree<3> refined_to(const Function& width) {
   BackgroundTree<3> tree;
   tree.build({{0, 0, 0}, {1, 1, 1}}, [&](const BackgroundTree<3>& grown, std::int32_t first,
@@ -33,7 +33,7 @@ inline BackgroundTree<3> refined_to(const Function& width) {
   return tree;
 }
 
-// The largest d in each leaf: in a corner, as the spacings here are convex functions.
+// Returns the largest d in each leaf. It is at a corner, as the spacings here are convex functions.
 inline std::vector<double> max_spacings(const BackgroundTree<3>& tree, const Function& spacing) {
   std::vector<double> max(static_cast<std::size_t>(tree.leaf_count()), 0);
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
@@ -48,7 +48,8 @@ inline std::vector<double> max_spacings(const BackgroundTree<3>& tree, const Fun
   return max;
 }
 
-// Ten for every node that d asks for; none in a leaf outside the domain, which has no d.
+// Returns ten units of work per expected node, and none for leaves outside the domain, which have
+// no d.
 inline std::vector<std::int64_t> leaf_work(const BackgroundTree<3>& tree,
                                            const std::vector<double>& d) {
   std::vector<std::int64_t> work;
@@ -60,7 +61,8 @@ inline std::vector<std::int64_t> leaf_work(const BackgroundTree<3>& tree,
   return work;
 }
 
-// As before a second partition: each rank knows the leaves that a first one has given to it.
+// Returns cells of equal work. Each rank knows the leaves that a first partition has assigned to
+// it.
 inline std::vector<pnpbs::PartitionCell<3>> equal_cells(const pnpbs::Communicator& comm,
                                                         const BackgroundTree<3>& tree,
                                                         const std::vector<double>& d) {
@@ -74,7 +76,7 @@ inline std::vector<pnpbs::PartitionCell<3>> equal_cells(const pnpbs::Communicato
        [&](std::int32_t leaf) { return d[at(leaf)]; }});
 }
 
-// The tree must stay where it is.
+// The tree must not move.
 inline pnpbs::Distribution<3> distributed(const pnpbs::Communicator& comm,
                                           const BackgroundTree<3>& tree,
                                           const std::vector<double>& d, double radius) {

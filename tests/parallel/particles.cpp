@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles that fill a body: whatever the body, none are closer than the library promises, none
-// comes nearer to the wall than the nodes did, most nodes become particles where they are, and the
-// others for a reason; volumes add up to the body, and are those of cells that are cut by brute
-// force out of a square and a cube; and any number of ranks gives the bits of one. Nothing but the
-// public interface is asked. Usage: particles <folder of the examples' bodies>
+// Tests particles that fill a body. For any body, no pair is closer than documented, none is nearer
+// to the wall than the nodes were, most nodes become particles without moving, and the others only
+// for a reason. Volumes sum up to that of the body, and equal those of cells cut by brute force
+// from a square and a cube. Any number of ranks gives the bits of one. The test uses the public
+// interface only. Usage: particles <folder of the examples' bodies>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ pnpbs_status unit_square(pnpbs_domain domain, const char*) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   return pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0);
 }
-// A slit that is narrower than the spacing, and a narrow bay.
+// A slit narrower than the spacing, and a narrow bay.
 pnpbs_status slotted_plane(pnpbs_domain domain, const char*) {
   const double outline[] = {0, 0, 1, 0, 1, 1, 0.52, 1, 0.5, 0.5, 0.48, 1, 0, 1, 0, 0.6, -1, 0.5};
   return pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 9, outline, nullptr, 0);
@@ -49,7 +49,7 @@ pnpbs_status strips(pnpbs_domain domain, const char*) {
 pnpbs_status islands(pnpbs_domain domain, const char* data) {
   return pnpbs_domain_read_poly(domain, (std::string(data) + "/great_lakes_islands.poly").c_str());
 }
-// In which two layers of nodes are too close to each other.
+// A plate in which two layers of nodes are too close to each other.
 pnpbs_status thin_plate(pnpbs_domain domain, const char*) {
   const double low[] = {0, 0, 0}, high[] = {1, 1, 0.084};
   return pnpbs_domain_add_box(domain, low, high, 1);
@@ -59,9 +59,9 @@ struct Case {
   const char* name;
   std::int32_t dim;
   volume_body body;
-  double d, growth;  // times x
+  double d, growth;  // coefficient of x
   bool is_box;       // the unit square or cube
-  bool is_crowded;   // in some places
+  bool is_crowded;   // in some regions
 };
 const Case kCases[] = {{"square", 2, unit_square, 0.05, 0, true, false},
                        {"graded square", 2, unit_square, 0.02, 0.08, true, false},
@@ -108,7 +108,7 @@ void destroy(Placed& made) {
   pnpbs_domain_destroy(&made.body);
 }
 
-// ------------------------------------------------------------------ what there is --------------
+// ------------------------------------------------------------------ results --------------------
 
 struct Node {
   Point x{};
@@ -176,7 +176,7 @@ Told particles_of(const Placed& made, std::int32_t dim) {
   return told;
 }
 
-// ------------------------------------------------------------------ what holds of all ----------
+// ------------------------------------------------------------------ invariants -----------------
 
 double apart(const Node& a, const Node& b) { return length(a.x - b.x) / ((a.d + b.d) / 2); }
 
@@ -192,7 +192,7 @@ void check_pairs(const Told& told, std::int32_t dim) {
   expect(told.closest >= closest_pair(dim), "no two are too close");
 }
 
-// Which became particles, and why others did not.
+// Checks which nodes became particles, and why others did not.
 void check_nodes(const Told& told, const NodesById& nodes, const Case& it) {
   std::int64_t moved = 0;
   for (const auto& [id, particle] : told.particles) {
@@ -207,8 +207,8 @@ void check_nodes(const Told& told, const NodesById& nodes, const Case& it) {
   expect((told.left_out > 0) == it.is_crowded, "some left out where there are too many");
 }
 
-// Those that are closer to another than pushing tries to get them, and those that have moved and
-// are near one of these, and so on.
+// Returns the nodes that are closer to another one than the distance to which pairs are pushed
+// apart, and, repeatedly, the moved nodes near one of these.
 std::set<std::int64_t> crowd_of(const Told& told, const NodesById& nodes, double pushed) {
   std::set<std::int64_t> crowd, moved;
   for (const auto& [id, node] : nodes) {
@@ -283,7 +283,7 @@ void check_bits(const Told& own, const Told& all) {
     expect(all.particles.contains(id) && particle == all.particles.at(id), "the bits of one rank");
 }
 
-// On one rank alone, checked.
+// Returns the particles of one rank, after all checks.
 Told made_alone(const Case& it, const char* data) {
   pnpbs_context serial;
   expect(pnpbs_context_create_serial(&serial) == PNPBS_OK, "context of one rank");
@@ -300,7 +300,7 @@ Told made_alone(const Case& it, const char* data) {
   return all;
 }
 
-// What rank 0 has, on all.
+// Returns the result of rank 0 on all ranks.
 Told of_rank_0(Told told) {
   std::vector<std::pair<std::int64_t, Node>> list(told.particles.begin(), told.particles.end());
   std::int64_t counts[] = {std::int64_t(list.size()), told.all, told.left_out, told.moved};
@@ -318,7 +318,7 @@ void check_case(const Case& it, const char* data) {
   const Told all = of_rank_0(rank == 0 ? made_alone(it, data) : Told());
   Placed made = placed(it, context, data);
   check_bits(particles_of(made, it.dim), all);
-  // On one rank that does not name the body.
+  // An error if one rank does not pass the body.
   pnpbs_particles particles;
   if (size > 1)
     expect(pnpbs_particles_create(made.placement, rank == 1 ? nullptr : made.body, &particles) ==

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is numbered over the partition: sums along its cells, against the sum over a table of all of
-// them, by messages that grow with the cells of a rank alone; and which rank gets which new part,
-// against a table of all parts and ranks.
+// Tests numbers over the partition: running sums along its cells against sums over a table, with
+// messages proportional to the cells of a rank; and the assignment of new parts to ranks, against a
+// table of all parts and ranks.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -26,9 +26,9 @@ std::uint64_t number(std::uint64_t a, std::uint64_t b) { return pnpbs::mixed(pnp
 // ------------------------------------------------------------------ sums -----------------------
 
 enum class Owners {
-  random,   // of each cell
+  random,   // random for each cell
   strips,   // along the order
-  last,     // the last rank has all
+  last,     // the last rank has all cells
   crowded,  // several ranks count in a cell
 };
 
@@ -48,7 +48,7 @@ bool counts_in(Owners owners, int rank, std::int64_t cell, std::int64_t cells) {
   return false;
 }
 
-// Some count nothing, some more than 32 bits hold.
+// Some counts are zero, some exceed 32 bits.
 std::int64_t count_of(int rank, std::int64_t cell) {
   const std::uint64_t random =
       number(static_cast<std::uint64_t>(rank), static_cast<std::uint64_t>(cell));
@@ -77,7 +77,7 @@ void check_sums(Owners owners, std::int64_t cells) {
   for (std::size_t k = 0; k < std::min(found.size(), own.size()); ++k)
     expect(found[k] == all[static_cast<std::size_t>(own[k].cell)], what + ": before a cell");
 
-  // What we ask, and what we tell the others of the block that we add up.
+  // A rank sends its requests, and the answers for the block that it adds up.
   const std::int64_t asked = static_cast<std::int64_t>(own.size() * sizeof(CellSum));
   const std::int64_t block = (cells + comm->size() - 1) / comm->size() * comm->size() * 8;
   expect(sent.bytes <= asked + block, what + ": bytes sent");
@@ -87,7 +87,7 @@ void check_sums(Owners owners, std::int64_t cells) {
 
 // ------------------------------------------------------------------ parts ----------------------
 
-// As it was done when there was a table: kept[part * ranks + rank].
+// The assignment by a complete table: kept[part * ranks + rank].
 std::vector<int> ranks_by_table(const std::vector<std::int64_t>& kept, int ranks) {
   struct Match {
     std::int64_t work;

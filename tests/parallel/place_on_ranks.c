@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Places nodes over the ranks of MPI_COMM_WORLD and prints the hash, and what is told of the
- * elements (run's outcome, quality, edge length over d) in one word: the same for any number of
- * ranks. usage: place_on_ranks CASE SCALE [key=value]...  with CASE one of graded-square,
- * uniform-square, jump-square, ring, or a .poly file (graded) */
+ * Places nodes over the ranks of MPI_COMM_WORLD. Prints the hash, and in one word the outcome of
+ * the run and the statistics of the elements (quality, edge length over d), which do not depend on
+ * the number of ranks.
+ * usage: place_on_ranks CASE SCALE [key=value]...  with CASE one of graded-square, uniform-square,
+ * jump-square, ring, or a .poly file (graded) */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@ static pnpbs_context context;
 
 static void check(pnpbs_status status, const char* what) { case_check(context, status, what); }
 
-/* In hexadecimal, to the last bit. */
+/* Appends the number in hexadecimal, with all bits. */
 static void append(char* word, double value) { sprintf(word + strlen(word), "%a/", value); }
 
 static void describe_elements(pnpbs_placement placement, char* word) {

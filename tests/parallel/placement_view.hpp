@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that the queries of a placement return on a rank, to compare before and after a call.
+// All results that the queries of a placement return on a rank, for comparison before and after a
+// call.
 #pragma once
 
 #include <pnpbs/pnpbs.h>
@@ -18,7 +19,7 @@ struct PlacementView {
 
   bool operator==(const PlacementView&) const = default;
 
-  // What differs, in words.
+  // Returns a text with the differences.
   std::string difference(const PlacementView& other) const {
     std::string text;
     for (std::size_t k = 0; k < statistics.size() && k < other.statistics.size(); ++k)
@@ -72,7 +73,7 @@ inline void add_nodes_and_lists(pnpbs_placement placement, PlacementView& view) 
   pnpbs_placement_get_nodes(placement, view.nodes, view.coordinates.data(), view.ids.data(),
                             view.tags.data(), view.spacing.data());
   std::int64_t entries = 0, elements = 0;
-  if (pnpbs_placement_adjacency_size(placement, &entries) < 0) return;  // it has no nodes
+  if (pnpbs_placement_adjacency_size(placement, &entries) < 0) return;  // there are no nodes
   view.offsets.assign(n + 1, 0);
   view.neighbours.assign(static_cast<std::size_t>(entries), 0);
   pnpbs_placement_get_adjacency(placement, entries, view.offsets.data(), view.neighbours.data());
@@ -96,8 +97,8 @@ inline void add_warnings(pnpbs_placement placement, PlacementView& view) {
 
 }  // namespace placement_view
 
-// Lists are made when they are requested, which statistics count: before a call they are made
-// first, and behind it the statistics are read first. Collective.
+// Lists are built on request, which changes statistics. So before a call the lists are requested
+// first, and after a call the statistics are read first. Collective.
 inline PlacementView view_before_call(pnpbs_placement placement) {
   PlacementView view;
   placement_view::add_nodes_and_lists(placement, view);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Common part of the C++ programs that test the inside of the library over ranks: runs the checks
-// on groups of ranks, while MPI and Kokkos run, and reports failures with the rank.
+// Common part of the C++ programs that test internals of the library over ranks. It runs the checks
+// on groups of ranks with MPI and Kokkos, and reports failures with the rank.
 #pragma once
 
 #include <mpi.h>
@@ -17,13 +17,13 @@
 
 namespace rank_checks {
 
-inline MPI_Comm group = MPI_COMM_NULL;  // of the ranks that run the checks together
+inline MPI_Comm group = MPI_COMM_NULL;  // communicator of the ranks that run the checks together
 inline std::shared_ptr<const pnpbs::Communicator> comm;  // over `group`
 inline std::int64_t failures = 0;                        // of this rank, in all rounds
 
 inline void expect(bool condition, const std::string& what) {
   if (condition) return;
-  if (++failures <= 10)  // of the same kind there may be thousands
+  if (++failures <= 10)  // there may be thousands of the same kind
     std::fprintf(stderr, "rank %d of %d: %s\n", comm->rank(), comm->size(), what.c_str());
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Work that ranks do for nodes of others: none on one rank, and little in steps where ghosts follow
- * each of them, or where parts have short borders, on whole spheres as well. The nodes are the
- * same. */
+ * Tests the redundant work of ranks for nodes of others: none on one rank, and little if ghosts are
+ * updated in each step or parts have short borders, also on whole spheres. The nodes do not depend
+ * on it. */
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ static double real(pnpbs_placement placement, const char* name) {
 }
 
 static pnpbs_placement placed(int32_t dim, const char* interval) {
-  static double finest[] = {0.02, 0.08}; /* for steps to come, too */
+  static double finest[] = {0.02, 0.08}; /* static, since later steps use it as well */
   pnpbs_domain domain = unit_domain(dim);
   pnpbs_placement placement;
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
@@ -46,7 +46,8 @@ static void check_on_ranks(int32_t dim) {
   pnpbs_placement_destroy(&seldom);
 }
 
-/* Lists that an interval of 1 left to owned nodes do not serve a longer one. */
+/* Lists that an interval of 1 builds for owned nodes only are not sufficient for a longer interval.
+ */
 static void check_change_of_interval(void) {
   pnpbs_placement changed = placed(3, "1"), same = placed(3, "1");
   char hash[32], other[32];
@@ -61,7 +62,8 @@ static void check_change_of_interval(void) {
   pnpbs_placement_destroy(&same);
 }
 
-/* Finer towards a corner: parts of even work do not have even work on the surface. */
+/* A spacing that is finer towards a corner: parts with equal work in the volume have unequal work
+ * on the surface. */
 static int32_t spacing_from_corner(int64_t n, int32_t dim, const double* x, double* d, void* none) {
   int64_t i;
   (void)none;
@@ -74,7 +76,7 @@ static int32_t spacing_from_corner(int64_t n, int32_t dim, const double* x, doub
   return 0;
 }
 
-/* Parts whose borders are as short as can be have fewer ghosts than those with jagged ones. */
+/* Parts with the shortest borders have fewer ghosts than those with jagged ones. */
 static void check_borders_of_two_parts(void) {
   pnpbs_domain domain = unit_domain(3);
   pnpbs_placement placement;
@@ -102,7 +104,7 @@ static pnpbs_placement placed_on_whole_sphere(void) {
 
 enum { TIMES = 3 };
 
-/* After the run there was, steps without a finish, and a further run. */
+/* Writes the hashes after the run, after steps without a finish, and after a further run. */
 static void hash_each_time(pnpbs_placement placement, char hash[TIMES][32]) {
   hash_of_nodes(placement, hash[0]);
   expect(pnpbs_placement_step(placement, 30) >= 0, "steps after a run");
@@ -112,9 +114,9 @@ static void hash_each_time(pnpbs_placement placement, char hash[TIMES][32]) {
   hash_of_nodes(placement, hash[2]);
 }
 
-/* In the chart of a whole sphere what is near the point projected from is as far away as all the
- * rest: who owns that asks for no more nodes than others, and lists hold what is near along the
- * sphere, whenever they are made. */
+/* In the chart of a whole sphere, points near the centre of projection are as far away as all the
+ * rest. Still the rank that owns this region must not request more nodes than others, and lists
+ * contain nodes that are near along the sphere, whenever they are built. */
 static void check_whole_sphere(pnpbs_context serial) {
   pnpbs_placement placement = placed_on_whole_sphere(), alone;
   const pnpbs_context all = context;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A jittered body-centred cubic lattice in a box relaxes over the ranks to the same bits as on one
-// rank, and does not if the ghosts do not reach far enough. (The lattice is no state of rest under
-// this law, which squeezes eight neighbours more than it would squeeze twelve that are farther
-// away: when the jitter is gone, nodes begin to move again. So there is something to get wrong all
-// along.)
+// Tests that a body-centred cubic lattice with random displacements in a box relaxes over the ranks
+// to the same bits as on one rank, and does not if the ghost layer is too thin. (Under this law the
+// lattice is not at rest: eight neighbours are compressed more than twelve farther ones would be.
+// So nodes move again when the displacements have decayed, and errors would have an effect all the
+// time.)
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,19 +27,19 @@ using rank_checks::expect;
 constexpr pnpbs::LinearPush kLaw{1, 1.06};
 constexpr pnpbs::Motion kMotion{0.8, 0.2, 0.03};
 constexpr double kListRadius = 1.7;
-constexpr int kSteps = 100, kExchangeInterval = 4, kGhostLife = 20;  // steps
+constexpr int kSteps = 100, kExchangeInterval = 4, kGhostLife = 20;  // in steps
 
 // ------------------------------------------------------------------ the lattice ----------------
 
-constexpr int kCells = 25;              // along the box
-constexpr double kEdge = 1.0 / kCells;  // of a cubic cell, with a node in a corner and the middle
-constexpr double kJitter = 0.3;         // in spacings, along each axis
+constexpr int kCells = 25;                 // along the box
+constexpr double kEdge = 1.0 / kCells;     // of a cubic cell, with nodes at a corner and the centre
+constexpr double kJitter = 0.3;            // in spacings, along each axis
 constexpr double kFixedRim = 1.5 * kEdge;  // three layers of nodes
 
-// A little larger on one side, and so on average the distance of the nearest nodes.
+// A spacing that is slightly larger on one side; on average the distance of the nearest nodes.
 double spacing(const Point<3>& x) { return 0.5 * std::sqrt(3.0) * kEdge * (0.97 + 0.06 * x[0]); }
 
-// The leaves are smaller in one half of the box: a hop has not the same length everywhere.
+// Leaves are smaller in one half of the box, so hops have different lengths.
 double leaf_width(const Point<3>& x) { return (x[2] < 0.5 ? 2 : 4) * spacing(x); }
 
 double jitter(std::int64_t id, int k) {
@@ -64,9 +64,9 @@ PackedNode lattice_node(std::int64_t id) {
 
 // ------------------------------------------------------------------ the time loop --------------
 
-// How many hops of the leaf graph the ghosts must reach: what a step brings in comes from no
-// farther than the range of the force and the ways of both nodes, both drift while the ghosts stay
-// the same ones, and a hop spans a list radius.
+// Returns the number of hops of the leaf graph that the ghosts must cover. A step depends on nodes
+// within the range of the force plus the moves of both nodes. Both nodes drift as long as the set
+// of ghosts is unchanged. A hop spans a list radius.
 int hops_needed() {
   const double step = kLaw.range + 2 * kMotion.max_move, drift = 2 * kMotion.max_move * kGhostLife;
   return static_cast<int>(std::ceil((kExchangeInterval * step + drift) / kListRadius));
@@ -76,7 +76,7 @@ struct Relaxed {
   std::uint64_t hash = 0;        // of ids and coordinates of all nodes
   double min_gap = kListRadius;  // distance of two nodes over the desired one
   std::uint64_t nodes = 0;
-  std::uint64_t held = 0;  // in the last step: ghosts, too
+  std::uint64_t held = 0;  // in the last step, including ghosts
 };
 
 Relaxed measured(const Communicator& ranks, BoxNodes& box) {
@@ -120,7 +120,7 @@ Relaxed relax(const std::shared_ptr<const Communicator>& ranks, int steps, int h
   return measured(*ranks, box);
 }
 
-// ------------------------------------------------------------------ what must hold -------------
+// ------------------------------------------------------------------ checks ---------------------
 
 void print(const char* what, const Relaxed& relaxed) {
   if (comm->rank() == 0)
@@ -139,10 +139,10 @@ void check_relaxation() {
   expect(after.min_gap > 0.8 && before.min_gap < 0.4, "the jitter is gone");
   std::uint64_t alone = 0;
   if (comm->rank() == 0) alone = relax(pnpbs::serial_communicator(), kSteps, hops).hash;
-  alone = comm->allreduce_sum(alone);  // of the first rank
+  alone = comm->allreduce_sum(alone);  // value of the first rank
   expect(after.hash == alone, "the same bits as on one rank");
   if (comm->size() == 1) return;
-  // The number of hops is a bound for the worst case, of which one may be to spare.
+  // The number of hops is a bound for the worst case and may exceed the need by one.
   const Relaxed thin = relax(comm, kSteps, hops - 2);
   print("too thin a halo", thin);
   expect(thin.hash != alone, "a halo that is too thin is noticed");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs continued from a checkpoint, for every kind of spacing, in the plane, in space, on surfaces
-// and on the sphere, with and without a growth limit and spots that samples of d miss. Three ranks
-// run and write checkpoints at five moments; two ranks and one rank continue from each of them.
-// What the run comes to is the same: nodes, status and warnings.
+// Tests runs continued from a checkpoint, for every kind of spacing, in the plane, in space, on
+// surfaces and on the sphere, with and without a growth limit and spots that samples of d miss.
+// Three ranks run and write checkpoints at five moments; two ranks and one rank continue from each
+// of them. Nodes, status and warnings must be the same.
 #include <pnpbs/pnpbs_mpi.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void require(pnpbs_status status, const char* what) {
 
 // ------------------------------------------------------------------ spacings -------------------
 
-// Small around one point that few samples come near, where `spot` is set.
+// A spacing; with `spot` it is small around a point that few samples come near.
 struct Spot {
   double d, fine, radius;
   double at[3];
@@ -67,7 +67,7 @@ SetSpacing grid(std::int32_t dim, double d) {
   };
 }
 
-// Of two triangles or of five tetrahedra, over the square or cube from -1 to 1.
+// Sets d on a mesh of two triangles or five tetrahedra over the square or cube from -1 to 1.
 SetSpacing mesh(std::int32_t dim, double d) {
   return [=](pnpbs_placement p) {
     std::vector<double> x, values;
@@ -103,7 +103,7 @@ SetSpacing shape(double d) {
   };
 }
 
-// Values at the nodes of a short run before.
+// Sets values at the nodes of a placement that was initialised before.
 SetSpacing at_nodes(double d) {
   return [=](pnpbs_placement p) {
     constant(d)(p);
@@ -174,7 +174,7 @@ Result result_of(pnpbs_placement placement, pnpbs_status status) {
 
 std::string path_of(int moment) { return "restart_" + std::to_string(moment) + ".vtkhdf"; }
 
-// Writes at the first events, so that later ones overwrite the last files.
+// Writes at the first events and then at later ones, which overwrite the last files.
 struct Watch {
   pnpbs_placement placement;
   int events = 0, written = 0;
@@ -200,7 +200,7 @@ void expect_same(const Result& result, const Result& right, int moment) {
   expect(result.warnings == right.warnings, (name + ": other warnings:" + warnings).c_str());
 }
 
-// From each checkpoint; the last one is that of the finished run.
+// Continues from each checkpoint; the last one is that of the finished run.
 void continue_from(pnpbs_context on, const Case& c, int moments, const Result& right,
                    const SetSpacing& set_spacing) {
   for (int moment = 0; moment < moments; ++moment) {

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A soak: random operations in random order, chosen alike on all ranks by a seed, with a check
- * after each and the memory now and then. Hours by hand, seconds as a test:
+ * A soak test: random operations in random order, chosen equally on all ranks by a seed, with a
+ * check after each and a memory report at intervals. It runs for hours by hand and for seconds as a
+ * test:
  *
  *   soak <seconds> [seed] [most operations between reports]
  *
- * Memory is flat if the resident size of every rank in the last quarter is what it was in the
+ * Memory is constant if the resident size of every rank in the last quarter equals that in the
  * second. */
 #define _GNU_SOURCE /* mkdtemp, mallinfo2, malloc_trim */
 #include <inttypes.h>
@@ -21,10 +22,10 @@
 static pnpbs_context context;
 static pnpbs_domain domain;
 static pnpbs_placement placement;
-static int has_nodes; /* has the placement any? */
+static int has_nodes; /* whether the placement has any */
 static int rank, failures;
 static int64_t operations;
-static uint64_t state; /* of the choices, the same on all ranks */
+static uint64_t state; /* of the random choices, equal on all ranks */
 
 static void expect(int condition, const char* what) {
   if (condition) return;
@@ -44,7 +45,7 @@ static double between(double low, double high) {
 
 /* --- operations ----------------------------------------------------------------------------- */
 
-static double fine, grade, centre; /* of the spacing callback; the same on all ranks */
+static double fine, grade, centre; /* of the spacing callback; equal on all ranks */
 
 static int32_t graded(int64_t n, int32_t dim, const double* x, double* d, void* user) {
   int64_t i;
@@ -101,7 +102,7 @@ static void nodal_spacing(void) {
   free(d);
 }
 
-/* What was extracted, given back as nodes to start from. */
+/* Gives the extracted nodes back as start nodes. */
 static void given_nodes(void) {
   int64_t n = 0, *ids;
   double* xy;
@@ -162,7 +163,7 @@ static void one_operation(void) {
 
 /* --- memory over time ------------------------------------------------------------------------ */
 
-/* Bytes in use on the heap, and the resident size, of the rank that has most; in MiB. */
+/* Returns the bytes in use on the heap and the resident size, in MiB, of the rank with the most. */
 static void memory_now(double* heap, double* resident) {
   FILE* file = fopen("/proc/self/statm", "r");
   long pages[2] = {0, 0};
@@ -178,7 +179,7 @@ static void memory_now(double* heap, double* resident) {
   *heap = most[0], *resident = most[1];
 }
 
-/* The heap with nothing of ours in it. */
+/* Returns the size of the heap after all objects are destroyed. */
 static double empty_heap(double* resident) {
   double heap;
   pnpbs_placement_destroy(&placement);
@@ -211,7 +212,7 @@ static void soak(double seconds, int64_t between_reports) {
       printf("%6.0f s %8" PRId64 " operations; empty: heap %.2f MiB, resident %.1f MiB\n",
              MPI_Wtime() - begin, operations, heap, resident),
           fflush(stdout);
-    if (++reports <= 3) settled = fmax(settled, heap); /* what MPI and Kokkos keep from first use */
+    if (++reports <= 3) settled = fmax(settled, heap); /* memory that MPI and Kokkos keep */
   }
   expect(reports <= 3 || heap < settled + 1 + 0.02 * settled, "memory grows");
 }

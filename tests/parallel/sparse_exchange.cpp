@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages to ranks that do not expect them: each arrives once, whole and in its own exchange, by
-// whatever pattern, with failures in between, and nothing else is sent. And sums over the ranks
-// before.
+// Tests messages to ranks that do not expect them: each arrives once, complete and in its own
+// exchange, for any pattern and with failures in between, and nothing else is sent. Also tests
+// exclusive sums over ranks.
 #include <unistd.h>
 
 #include <cstddef>
@@ -22,11 +22,12 @@
 namespace {
 
 constexpr std::size_t kNoLimit = SIZE_MAX;
-std::size_t refused_from = kNoLimit;  // bytes: a machine that has no more memory
+// Size in bytes from which requests fail, as on a machine without memory.
+std::size_t refused_from = kNoLimit;
 
 }  // namespace
 
-// Not inline: else the compiler sees malloc here and delete there, and warns.
+// Not inline, because the compiler would otherwise see malloc and delete and warn.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = size < refused_from ? std::malloc(size > 0 ? size : 1) : nullptr;
   if (!memory) throw std::bad_alloc();
@@ -51,7 +52,7 @@ std::uint64_t number(std::uint64_t round, int from, int to) {
                       (static_cast<std::uint64_t>(from) << 20 | static_cast<std::uint64_t>(to)));
 }
 
-// What every rank knows of every message: its length, 0 for none.
+// Returns the length of each message, 0 for none. Every rank can compute it.
 std::uint64_t length(std::uint64_t round, int from, int to) {
   const std::uint64_t random = number(round, from, to);
   const std::uint64_t some = 1 + random % 3000;
@@ -93,7 +94,7 @@ bool same(const std::vector<Message>& a, const std::vector<Message>& b) {
   return all;
 }
 
-// Of this rank in a round: its messages in an order of its own, and what must come, by rank.
+// A round of this rank: its messages in an order of its own, and the expected messages by rank.
 struct Round {
   std::vector<Message> outgoing, expected;
   std::int64_t announced = 0;
@@ -104,7 +105,8 @@ struct Round {
       const int to = (k + me + static_cast<int>(round % 5)) % size;
       Bytes bytes = content(round, me, to);
       announced += to != me && !bytes.empty();
-      // Empty ones make no difference; that to oneself would be one.
+      // Empty messages to other ranks may be passed and are not delivered. An empty message to
+      // oneself would be.
       if (!bytes.empty() || (to != me && round % 2)) outgoing.push_back({to, std::move(bytes)});
     }
     for (int from = 0; from < size; ++from) {
@@ -131,7 +133,8 @@ void check_rounds() {
   expect(message_counts::counts.longest <= 32, "no table of all ranks");
 }
 
-// One after the other, by ranks that come late now and then; and among other exchanges.
+// Exchanges follow each other, with ranks that are late at times, and are mixed with other
+// exchanges.
 void check_mixing() {
   constexpr std::uint64_t kRounds = 300;
   std::vector<Round> rounds;
@@ -165,7 +168,7 @@ void check_records() {
     return static_cast<int>(pnpbs::mixed(static_cast<std::uint64_t>(record)) %
                             static_cast<unsigned>(comm->size()));
   };
-  std::vector<std::int64_t> expected;  // in the order of ranks, and of each rank's records
+  std::vector<std::int64_t> expected;  // in the order of ranks, and of the records of each rank
   for (std::int64_t record = 0; record < 5000 * comm->size(); ++record)
     if (owner(record) == comm->rank()) expected.push_back(record);
   expect(pnpbs::redistribute(*comm, records, owner) == expected, "records come to their owners");
@@ -173,7 +176,7 @@ void check_records() {
 
 // ------------------------------------------------------------------ failures -------------------
 
-// All ranks throw what happened on one.
+// Expects that all ranks throw the error of one.
 template <class Work>
 void expect_failure(int bad, pnpbs::ErrorKind kind, const std::string& part, const Work& work) {
   std::string told;
@@ -189,7 +192,7 @@ void expect_failure(int bad, pnpbs::ErrorKind kind, const std::string& part, con
     expect(comm->size() == 1, "an error that ranks agree on");
   }
   refused_from = kNoLimit;
-  // A rank that has no memory for the text says only what it lacks.
+  // A rank without memory for the text reports only the lack of memory.
   const bool lacks = kind == pnpbs::ErrorKind::memory && comm->rank() == bad;
   const std::string begin = comm->size() > 1 && !(lacks && told.find("rank") != 0)
                                 ? "rank " + std::to_string(bad) + ": "
@@ -211,7 +214,7 @@ void check_failures() {
   }
 }
 
-// There is no memory on one rank for what comes, whole or in pieces: its senders do not wait.
+// One rank has no memory for incoming messages, complete or in pieces. Their senders must not wait.
 void check_no_memory() {
   for (const std::uint64_t size : {std::uint64_t{20000}, 3 * kPiece + 7})
     for (int bad = 0; bad < comm->size() && comm->size() > 1; ++bad) {
@@ -227,8 +230,8 @@ void check_no_memory() {
     }
 }
 
-// No memory at all on some ranks: one, every other one, all. An exchange that was made before needs
-// none, and one that needs some fails on all ranks.
+// Some ranks have no memory at all: one, every other one, or all. An exchange that was prepared
+// before needs none, and one that needs memory fails on all ranks.
 void check_neighbours_without_memory() {
   std::vector<int> others(static_cast<std::size_t>(comm->size()));
   std::iota(others.begin(), others.end(), 0);
@@ -239,7 +242,7 @@ void check_neighbours_without_memory() {
   };
   for (const int pattern : {0, 1, 2}) {
     const std::string what = "pattern " + std::to_string(pattern);
-    // More and more pieces, so that no memory of an earlier exchange is enough for the next.
+    // The number of pieces increases, so that memory of an earlier exchange does not suffice.
     const std::uint64_t pieces = 3 + 2 * static_cast<std::uint64_t>(pattern);
     const bool bad = (pattern == 0 && comm->rank() == comm->size() / 2) ||
                      (pattern == 1 && comm->rank() % 2 == 0) || pattern == 2;
@@ -265,9 +268,9 @@ void check_neighbours_without_memory() {
   }
 }
 
-// ------------------------------------------------------------------ what all give --------------
+// ------------------------------------------------------------------ gathering ------------------
 
-// Every rank throws when one has no memory for what the others give.
+// All ranks throw if one has no memory for the contributions of the others.
 void check_gathering() {
   for (int bad = 0; bad < comm->size() && comm->size() > 1; ++bad)
     for (const std::size_t limit : {std::size_t{1}, std::size_t{20000}}) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Spacing on spheres from grids, meshes and points, over ranks: nodes are where one process has
- * them, warnings have the same words, and ranks that do not give the same are told. */
+ * Tests spacings on spheres from grids, meshes and points over ranks: nodes equal those of one
+ * process, warnings have the same words, and different input on ranks is an error. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,7 +15,8 @@ struct field {
   double *x, *d;
 };
 
-/* A sea around the pole, or the whole sphere, on both of which d is given. */
+/* Returns a placement in a sea around the pole or on the whole sphere, both within the region of d.
+ */
 static pnpbs_placement placement_on_sphere(int whole) {
   const double from[2] = {20, whole ? -30 : 90};
   double outside[3];
@@ -36,7 +37,7 @@ static pnpbs_placement placement_on_sphere(int whole) {
   return placement;
 }
 
-/* The triangles of a whole sphere that one process has placed, with d by longitude. */
+/* Returns the triangles of a whole sphere, placed by one process, with d by longitude. */
 static struct field globe(void) {
   struct field f = {0};
   pnpbs_context all = context;
@@ -79,7 +80,7 @@ static pnpbs_status give(pnpbs_placement placement, const struct field* f, int k
   }
 }
 
-/* The hash of the nodes, and the warning about what is not covered. */
+/* Writes the hash of the nodes, and the warning about regions that are not covered. */
 static void place(const struct field* f, int kind, int whole, char told[600]) {
   pnpbs_placement placement = placement_on_sphere(whole);
   const char* text = "";

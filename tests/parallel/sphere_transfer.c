@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Fields carried from earlier nodes on a sphere, over ranks: of the order told, also about the
- * point that is projected from; with the integrals that were; the same bits as on one process. */
+ * Tests fields transferred from previous nodes on a sphere over ranks: the order of accuracy, also
+ * about the centre of projection; conserved integrals; and the bits of one process. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "transfer_program.h"
 
-static const double R = 6371.22, kPoint[2] = {20, -30}; /* the latter is projected from */
+static const double R = 6371.22, kPoint[2] = {20, -30}; /* kPoint is the centre of projection */
 enum { CONSTANT, SMOOTH, FIELDS };
 enum { GLOBE, SEA, SHAPES, CAP = SHAPES };
 
@@ -82,8 +82,8 @@ static pnpbs_transfer transfer_of(pnpbs_placement placement) {
 
 /* ---------------------------------------------------------------- order ------------------ */
 
-/* Over points that do not depend on the nodes, all of them within 30 degrees of the point that is
- * projected from: the largest error, on all ranks. */
+/* Returns the largest error over all ranks, at points that do not depend on the nodes and lie
+ * within 30 degrees of the centre of projection. */
 static double error_about_the_point(pnpbs_transfer transfer) {
   enum { N = 2000 };
   double *degrees = array(2 * N, sizeof(double)), *x = array(3 * N, sizeof(double));
@@ -94,7 +94,7 @@ static double error_about_the_point(pnpbs_transfer transfer) {
     degrees[2 * i] = kPoint[0] + way * cos(angle),
                 degrees[2 * i + 1] = kPoint[1] + way * sin(angle);
   }
-  pnpbs_sphere_points(2 * R, N, degrees, x); /* points are on the rays */
+  pnpbs_sphere_points(2 * R, N, degrees, x); /* points on the rays are allowed */
   expect(pnpbs_transfer_at_points(transfer, N, x, values) == PNPBS_OK, "at points");
   for (i = 0; i < N; ++i) {
     const double on_sphere[3] = {x[3 * i] / 2, x[3 * i + 1] / 2, x[3 * i + 2] / 2};
@@ -105,7 +105,7 @@ static double error_about_the_point(pnpbs_transfer transfer) {
   return largest;
 }
 
-/* Far beyond the cap nothing is known of the field; but it stays bounded. */
+/* Far beyond the cap the field is unknown, but the extrapolation stays bounded. */
 static void check_is_bounded(void) {
   enum { N = 40 };
   pnpbs_placement placement = placed(CAP, 200);
@@ -142,7 +142,7 @@ static double arc(const double* a, const double* b) {
   return 2 * asin(sqrt(u * u + v * v + w * w) / (2 * R));
 }
 
-/* Along the sphere, by the theorem of l'Huilier. */
+/* Returns the area along the sphere, by l'Huilier's theorem. */
 static double area(const double* a, const double* b, const double* c) {
   const double u = arc(b, c), v = arc(c, a), w = arc(a, b), s = (u + v + w) / 2;
   return 4 * R * R *
@@ -209,7 +209,7 @@ static void check_integrals(int shape) {
 
 /* ---------------------------------------------------------------- spheres ---------------- */
 
-/* From the globe to a sea on it, which is seen from another point. */
+/* Transfers from the globe to a sea with another centre of projection. */
 static void check_another_point(void) {
   pnpbs_placement globe = placed(GLOBE, 500), sea = placed(SEA, 500);
   pnpbs_transfer transfer = transfer_of(globe);
@@ -282,7 +282,7 @@ static void check_all(void) {
     for (shape = GLOBE; shape < SHAPES; ++shape) {
       check_order(shape);
       check_integrals(shape);
-      if (order == 2) check_same_bits(shape); /* which is linear, too, and more */
+      if (order == 2) check_same_bits(shape); /* the second order includes the first */
     }
   }
   order = 1;

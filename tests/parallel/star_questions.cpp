@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where stars reach farther than the ghosts, ranks are asked for what lies there: those that own
-// something near, and no others. In a long strip with far too few nodes each rank has two
-// neighbours, however many ranks there are.
+// Tests which ranks are sent requests if stars reach beyond the ghosts: only ranks that own nodes
+// nearby. In a long strip with far too few nodes, each rank has two neighbours for any number of
+// ranks.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -19,7 +19,7 @@ using rank_checks::comm;
 using rank_checks::expect;
 
 constexpr double kLength = 16, kSpacing = 0.02;
-// A node is given every so often: their circles are no wider than two of these.
+// Distance of the given nodes. Their circles are at most two of these wide.
 constexpr double kGap = 0.25;
 
 pnpbs_context context;
@@ -51,7 +51,7 @@ struct Interval {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-// Along the strip, of the nodes of each rank.
+// Returns the interval along the strip of the nodes of each rank.
 std::vector<Interval> intervals_of_ranks(pnpbs_placement placement) {
   std::int64_t count = 0;
   require(pnpbs_placement_count(placement, &count), "count");
@@ -81,7 +81,7 @@ void check_questions() {
   require(pnpbs_placement_star_size(placement, &entries), "stars");
   const message_counts::Counts sent = message_counts::counts;
 
-  // A star's circles, and a leaf or two between the nodes and the border of a part.
+  // The circles of a star, and a leaf or two between the nodes and the border of a part.
   constexpr double kWay = 4 * kGap;
   std::int64_t near = 0;
   for (int r = 0; r < comm->size(); ++r) {
@@ -92,7 +92,7 @@ void check_questions() {
            "rank " + std::to_string(r) + " is asked, far away");
   }
   expect(sent.announced_messages() <= near * sent.barriers, "one message at a time to each");
-  // The strip is cut across.
+  // Parts of the strip follow each other along its length.
   expect(comm->size() < 8 || near < comm->size() - 1, "some ranks are far away");
   const auto asked = static_cast<std::uint64_t>(sent.announced_messages());
   expect(comm->size() == 1 || comm->allreduce_sum(asked) > 0, "there are questions");

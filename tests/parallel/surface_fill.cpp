@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First nodes on surfaces over ranks: together the same to the bit as in one process, while each
-// rank asks for d, looks at places and makes nodes in its own part only.
+// Tests initial nodes on surfaces over ranks: together they equal those of one process to the bit,
+// while each rank evaluates d and creates nodes in its own part only.
 #include "initial/volume/surface_fill.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct Case {
   double (*d)(const P&);
 };
 
-// What a fill costs whoever makes it.
+// The cost of a fill on a rank.
 struct Work {
   std::int64_t points_asked = 0, places_looked_at = 0;
 };
@@ -60,7 +60,8 @@ template <class Owns>
 Fill fill(const pnpbs::Communicator& over, const SurfaceCase& body, double (*d)(const P&),
           const BackgroundTree<3>& cells, const Owns& owns, std::int64_t limit = kMaxNodes) {
   Fill made;
-  // d of nodes of an earlier placement is asked by all ranks at once: they must go in step.
+  // A spacing from nodes of an earlier placement is collective, so the ranks must make the same
+  // calls.
   const auto spacing = [&](std::int64_t n, const P* x, double* values) {
     expect(over.same_on_all(0), "all ask for d together");
     made.work.points_asked += n;
@@ -103,7 +104,8 @@ double nearly_even(const P& x) { return 0.04 + 1e-3 * x[0]; }
 double graded(const P& x) { return 0.03 + 0.02 * (x[0] + x[2]) * (x[0] + x[2]); }
 double large(const P&) { return 9; }
 
-// Flat and curved, even and graded, coarse facets, and a closed one that is smaller than d.
+// Flat and curved surfaces, constant and graded d, coarse facets, and a closed surface smaller than
+// d.
 std::vector<Case> cases() {
   using namespace space_shapes;
   return {{"ball", ball(4), constant},
@@ -117,7 +119,7 @@ std::vector<Case> cases() {
 
 // ------------------------------------------------------------------ nodes ----------------------
 
-// Cells in rows along the Morton order, or anyhow.
+// Owners of cells: contiguous along the Morton order, or random.
 int owner_in_a_row(std::int32_t cell, std::int32_t cells) {
   return static_cast<int>(std::int64_t{cell} * comm->size() / cells);
 }
@@ -147,8 +149,8 @@ void check_nodes(const Case& job, const SurfaceCase& body) {
 
 // ------------------------------------------------------------------ work -----------------------
 
-// In proportion to its own nodes, but for what is large before it is cut, and for the border of its
-// cells, an eighth of the body wide.
+// Work is proportional to a rank's own nodes, except for large facets before they are cut, and the
+// border of its cells, which is an eighth of the body wide.
 void check_work(const Case& job, const SurfaceCase& body) {
   const BackgroundTree<3> cells = cells_of(body, 3);
   const auto serial = pnpbs::serial_communicator();
@@ -199,7 +201,8 @@ void check_too_many(const Case& job, const SurfaceCase& body) {
 
 // ------------------------------------------------------------------ levels ---------------------
 
-// Points at which d is asked to put the first nodes on a box's sides, and so put.
+// Counts of the points at which d is evaluated for the first nodes on the sides of a box, and of
+// the nodes.
 struct Put {
   std::int64_t points_asked = 0, nodes = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of level/step_hops.cpp in a library of the tests: ghost layers of one hop, however far
-// the steps until the next exchange look. Results then depend on the ranks, and checks that they do
-// not must notice.
+// Replaces level/step_hops.cpp in a test library: ghost layers have one hop, regardless of the
+// reach of the steps until the next exchange. Results then depend on the ranks, and the tests of
+// independence must detect it.
 #include "level/reach.hpp"
 
 namespace pnpbs {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A call that fails changes nothing: the spacing callback of one rank returns an error at some of
-// its calls, the monitor or a file fails, and all that queries return on any rank is what it was
-// before. The same call, repeated, has the result that it has without the error. Run on groups of
-// ranks.
+// Tests that a failed call changes nothing. The spacing callback of one rank returns an error in
+// some of its calls, or the monitor or a file fails. All results of queries on any rank stay as
+// they were. The same call, repeated, then succeeds with the same result as without the error. Run
+// on groups of ranks.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,7 +16,7 @@ namespace {
 
 using Call = std::function<pnpbs_status(pnpbs_placement)>;
 
-// d, and when the callback of the last rank fails.
+// d, and the call in which the callback of the last rank fails.
 struct Spacing {
   double d = 0.05, centre = 0.3;
   long calls = 0, fails_at = -1;
@@ -83,7 +83,7 @@ void set_another_spacing(pnpbs_placement placement, Spacing& spacing) {
   pnpbs_placement_set_spacing_callback(placement, spacing_at, &spacing);
 }
 
-// What is done before the call that fails, and that call.
+// The calls before the failing one, and that call.
 struct Case {
   const char* name;
   std::function<void(pnpbs_placement, Spacing&)> prepare;
@@ -119,7 +119,7 @@ std::string about(const Shape& shape, const Case& c, long call) {
   return std::string(shape.name) + ", " + c.name + ", fails at call " + std::to_string(call);
 }
 
-// The largest number of calls over the ranks, and what the call comes to without a failure.
+// The largest number of calls over the ranks, and the result of the call without a failure.
 struct Undisturbed {
   long calls;
   pnpbs_status status;
@@ -171,7 +171,7 @@ void check(const Shape& shape, const Case& c) {
   for (const long call : at) check_failure(shape, c, right, call);
 }
 
-// A checkpoint that is read with another spacing, which its last rank's callback tells too late.
+// A checkpoint is read with another spacing, which the callback of the last rank reveals too late.
 void check_reading() {
   const Shape& shape = shapes()[0];
   Spacing spacing;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Fields carried to other nodes, over ranks, by the first and the second order: linear ones or
- * quadratic ones exactly, smooth ones with the second or the third order, nodes that stay with the
- * values they have, integrals kept on demand; with the same bits as one process has. What is wrong
- * on one rank is an error on all. */
+ * Tests fields transferred to other nodes over ranks, with first and second order: linear or
+ * quadratic fields are exact, smooth fields converge with second or third order, nodes that stay
+ * keep their values, and integrals are conserved on request. The bits are those of one process. An
+ * error on one rank is an error on all. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,7 +74,7 @@ static double* field_at(const double* x, int64_t n, int dim) {
   return values;
 }
 
-/* None but on surfaces alone. */
+/* Returns the expected number of nodes with linear reconstruction: none except on surfaces. */
 static int64_t expected_linear(pnpbs_placement placement, shape s) {
   int64_t nodes;
   pnpbs_placement_get_int64(placement, "nodes", &nodes);
@@ -99,7 +99,7 @@ static pnpbs_transfer transfer_of(pnpbs_placement placement, shape s) {
   return transfer;
 }
 
-/* The largest error of a field over all ranks. */
+/* Returns the largest error of a field over all ranks. */
 static double largest_error(const double* values, const double* x, int64_t n, int dim, int which) {
   double part = 0, largest;
   int64_t i;
@@ -133,7 +133,7 @@ static void expect_exact(pnpbs_transfer transfer, pnpbs_placement placement, sha
 
 /* ---------------------------------------------------------------- tests ------------------ */
 
-/* After a change of owners alone, to coarser and finer nodes, and to graded ones. */
+/* Checks exactness after rebalancing, for coarser and finer nodes, and for graded ones. */
 static void check_exactness(shape s, double d) {
   pnpbs_placement placement = placed(s, d);
   pnpbs_transfer transfer = transfer_of(placement, s);
@@ -158,7 +158,7 @@ static void check_exactness(shape s, double d) {
   pnpbs_placement_destroy(&placement);
 }
 
-/* Half the spacing before, a quarter of the error after; an eighth by the second order. */
+/* Halving the previous spacing reduces the error to a quarter; with second order, to an eighth. */
 static void check_order(shape s, double d) {
   pnpbs_placement placement = placed(s, d);
   pnpbs_transfer coarse = transfer_of(placement, s), fine;
@@ -166,7 +166,7 @@ static void check_order(shape s, double d) {
   run_with(placement, d / 2);
   fine = transfer_of(placement, s);
   pnpbs_placement_destroy(&placement);
-  placement = placed(s, 0.83 * d); /* and what they come from may go */
+  placement = placed(s, 0.83 * d); /* the source placement may be destroyed before */
   values = at_nodes(coarse, placement, 0);
   error[0] = mean_square_error(placement, values);
   free(values);
@@ -190,8 +190,8 @@ static double det(const double* a, const double* b, const double* c, const doubl
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* Of a field's linear interpolant, by the elements that the library hands out. values: at this
- * rank's nodes. */
+/* Integrates the linear interpolant of a field over the elements that the library returns. values:
+ * at this rank's nodes. */
 static void integrate(pnpbs_placement placement, const double* values, double* integrals) {
   int32_t dim;
   int64_t owned, ghosts, elements, e, *corners;
@@ -258,7 +258,7 @@ static void check_integrals(shape s, double d) {
   pnpbs_placement_destroy(&placement);
 }
 
-/* Of all values after a change of d, with and without their integrals. */
+/* Computes hashes of all values after a change of d, with and without conserved integrals. */
 static void hashes(shape s, double d, uint64_t found[2]) {
   pnpbs_placement placement = placed(s, d);
   pnpbs_transfer transfer = transfer_of(placement, s);
@@ -289,7 +289,7 @@ static void check_same_bits(shape s, double d) {
   context = all;
 }
 
-/* Any points, inside and a little outside, none of them on the first rank. */
+/* Evaluates at points inside and slightly outside, none of them on the first rank. */
 static void check_points(shape s, double d) {
   pnpbs_placement placement = placed(s, d);
   pnpbs_transfer transfer = transfer_of(placement, s);

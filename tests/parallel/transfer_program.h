@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What the programs share that carry fields to other nodes over ranks. */
+ * Common functions of the programs that transfer fields to other nodes over ranks. */
 #ifndef PNPBS_TESTS_TRANSFER_PROGRAM_H
 #define PNPBS_TESTS_TRANSFER_PROGRAM_H
 
@@ -28,7 +28,7 @@ static inline struct nodes get_nodes(pnpbs_placement placement) {
 
 static inline void free_nodes(struct nodes* v) { free(v->ids), free(v->x); }
 
-/* [nodes of this rank][components] */
+/* Returns the values [nodes of this rank][components]. */
 static inline double* at_nodes(pnpbs_transfer transfer, pnpbs_placement placement, int conserve) {
   int64_t n;
   int32_t components = 0;
@@ -40,7 +40,7 @@ static inline double* at_nodes(pnpbs_transfer transfer, pnpbs_placement placemen
   return values;
 }
 
-/* Over this rank's values, so that neither order nor owners matter. */
+/* Hashes this rank's values, independent of their order and owners. */
 static inline uint64_t hash_of(const struct nodes* v, int components, const double* values) {
   uint64_t hash = 0, bits;
   int64_t i;

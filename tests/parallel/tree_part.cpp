@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tree spread over ranks against the same tree whole: who has which leaf, copies of those beyond
-// the border, which leaves touch.
+// Tests a tree distributed over ranks against the complete tree: owners of leaves, copies of leaves
+// beyond the border, and contacts of leaves.
 #include "tree/tree_part.hpp"
 
 #include <cmath>
@@ -44,7 +44,7 @@ LeafCell<Dim> cell_of(const BackgroundTree<Dim>& tree, std::int32_t leaf) {
   return {cell.index, cell.depth};
 }
 
-// Leaves with a corner, edge or side in common, by their boxes.
+// Returns whether two leaves have a corner, edge or side in common, by their boxes.
 template <int Dim>
 bool boxes_touch(const BackgroundTree<Dim>& tree, std::int32_t a, std::int32_t b) {
   const Box<Dim> x = tree.cell_box(tree.leaf_cell(a)), y = tree.cell_box(tree.leaf_cell(b));
@@ -53,7 +53,8 @@ bool boxes_touch(const BackgroundTree<Dim>& tree, std::int32_t a, std::int32_t b
   return true;
 }
 
-// Of the whole tree: every third leaf of those far from the origin touches nothing.
+// Returns whether a leaf of the complete tree takes part in contacts. Every third leaf far from the
+// origin does not.
 bool is_live(std::int32_t leaf) { return leaf < 20 || leaf % 3 != 0; }
 
 template <int Dim>
@@ -68,7 +69,7 @@ class Check {
 
   void run() {
     check_order();
-    // All leaves begin on one rank.
+    // All leaves start on one rank.
     std::vector<LeafCell<Dim>> own;
     if (comm->rank() == comm->size() / 2)
       for (std::int32_t leaf = 0; leaf < whole_.leaf_count(); ++leaf)
@@ -90,7 +91,7 @@ class Check {
     return number_.at({cell.first(), cell.depth});
   }
 
-  // Morton order is that of the tree.
+  // Checks that the Morton order is the order of the tree.
   void check_order() const {
     for (std::int32_t leaf = 1; leaf < whole_.leaf_count(); ++leaf) {
       const LeafCell<Dim> before = cell_of<Dim>(whole_, leaf - 1),
@@ -101,7 +102,7 @@ class Check {
     }
   }
 
-  // Copies have values of their owners: here, the numbers in the whole tree.
+  // Copies receive values from their owners: here, the indices in the complete tree.
   void name_copies() {
     std::int64_t held = 0;
     for (const LeafCell<Dim>& cell : cells_) numbers_.push_back(number(cell));
@@ -136,7 +137,7 @@ class Check {
             "copies touch own leaves");
   }
 
-  // Points are in the leaf of the whole tree, on the rank that all say.
+  // Checks that points are found in the leaf of the complete tree, on the same rank by all.
   void check_points() const {
     Random random(17);
     for (int trial = 0; trial < 2000; ++trial) {
@@ -160,7 +161,7 @@ template <int Dim>
 void check_trees(double fine) {
   Point<Dim> tip;
   tip.fill(0.3);
-  Check<Dim>([](const Point<Dim>&) { return 2.0; }).run();  // one leaf: most ranks have none
+  Check<Dim>([](const Point<Dim>&) { return 2.0; }).run();  // one leaf, so most ranks have none
   Check<Dim>([](const Point<Dim>&) { return 0.13; }).run();
   Check<Dim>([&](const Point<Dim>& x) { return fine + 0.5 * pnpbs::distance<Dim>(x, tip); }).run();
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * In builds that count it (PNPBS_COUNT_UNKNOWN_USES): a rank decides by nothing that it does not
- * know exactly, over steps, events and sweeps; and where ghosts reach less far than they must, that
- * is counted and reported. usage: unknown_uses [thin]: with the library that thin_halo.cpp is in */
+ * Tests, in builds with PNPBS_COUNT_UNKNOWN_USES, that a rank never decides by values that it does
+ * not know exactly, over steps, events and sweeps; and that such uses are counted and reported if
+ * the ghost layer is too thin.
+ * usage: unknown_uses [thin]  (thin: linked with the library of thin_halo.cpp) */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,7 @@ static int warns_of_ranks(pnpbs_placement placement) {
   return found;
 }
 
-/* Options: pairs of key and value, up to NULL. */
+/* options: pairs of key and value, terminated by NULL. */
 static int64_t uses_in(int32_t dim, const char* const* options) {
   double finest = dim == 2 ? 0.01 : 0.065;
   pnpbs_domain domain = unit_domain(dim);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tetrahedra that the ranks hand out are one conforming triangulation of the body, the one that
-// another library (CGAL) makes of all nodes; each comes once, from the rank that its least corner
-// belongs to. Nothing but the public interface is asked. Usage:
+// Tests that the tetrahedra returned on all ranks form one conforming triangulation of the body,
+// equal to that of CGAL for all nodes. Each is returned once, by the rank that owns its corner with
+// the smallest id. The test uses the public interface only. Usage:
 //   volume_conformity [ROUND]... [CASE]...
 #include <cstring>
 #include <string>
@@ -20,7 +20,7 @@ constexpr const char* kData = PNPBS_SOURCE_DIR "/examples/data";
 
 // ------------------------------------------------------------------ bodies ---------------------
 
-// Coordinates that lie on a surface are of neither side.
+// Returns 0 for points on a surface, which belong to neither side.
 int side_of(double within) { return within > 1e-9 ? 1 : within < -1e-9 ? -1 : 0; }
 
 double within_box(const Point& x, const Point& high) {
@@ -29,7 +29,7 @@ double within_box(const Point& x, const Point& high) {
   return least;
 }
 
-// Within the unit globe about a point, whose triangles lie up to half a percent below the sphere.
+// Returns the side of a globe whose triangles lie up to half a percent below the sphere.
 int in_globe(const Point& x, const Point& centre, double radius) {
   const double away = std::hypot(x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]) / radius;
   return away < 0.995 ? 1 : away > 1 ? -1 : 0;
@@ -45,7 +45,7 @@ Body l_block() {
           }};
 }
 
-// Nodes lie on the triangles, and chords between them inside: at most d^2 / 8 below the sphere.
+// Nodes lie on the triangles, and chords between them inside, at most d^2 / 8 below the sphere.
 Body globe(double volume) {
   return {volume, 0.01, [](const Point& x) { return in_globe(x, {0, 0, 0}, 1); }};
 }
@@ -57,8 +57,7 @@ Body cavity(double volume) {
       }};
 }
 
-// Its shape is not asked, and what its triangles cut off at a d of a third of its width is not
-// little.
+// The inside of a given body is not tested. Its tolerance is larger, as d is a third of its width.
 Body given(double volume) {
   return {volume, 0.05, [](const Point&) { return 0; }};
 }
@@ -93,7 +92,7 @@ class Job {
     require(pnpbs_placement_set_spacing_callback(p_, volume_spacing_at, &d_), "spacing");
   }
 
-  // Every rank gives some of the nodes, whoever's they will be.
+  // Every rank gives some of the nodes, independent of their future owners.
   void set_nodes(const std::vector<Point>& nodes) {
     std::vector<double> xyz;
     std::vector<std::int64_t> ids;
@@ -144,7 +143,7 @@ void run_bodies(const char* only) {
     if (std::strcmp(body.name, only) == 0) fill_and_run(body.name, body.body, body.spacing);
 }
 
-// All spheres hold eight nodes or more, and ids do not follow the rows.
+// All spheres hold eight or more nodes, and ids do not follow the rows.
 void exact_grid() {
   Job job("exact grid", volume_unit_box, VOLUME_CONSTANT(1.0 / 8));
   std::vector<Point> grid;
@@ -166,7 +165,7 @@ void adapting() {
   }
 }
 
-// More ranks than leaves: some own nothing.
+// There are more ranks than leaves, so some own nothing.
 void empty_ranks() {
   fill_and_run("few leaves", volume_unit_box, VOLUME_CONSTANT(0.5));
   fill_and_run("some leaves", volume_l_block, VOLUME_CONSTANT(0.2));

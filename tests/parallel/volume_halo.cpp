@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who owns what of a volume, and who needs it: owners, halos and sums over leaves in Morton order,
-// against brute force; where the domain fills the box, and where it does not.
+// Tests the owners, halos and prefix sums over leaves in Morton order of a volume against brute
+// force, for domains that fill the box and others.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -30,7 +30,7 @@ double spacing(const Point<3>& x) { return 0.01 + 0.08 * pnpbs::distance<3>(x, {
 
 double leaf_width(const Point<3>& x) { return 4 * spacing(x); }
 
-// Nothing of the domain is in the cell.
+// Returns whether the cell contains nothing of the domain.
 bool empty_cell(const Distribution<3>& distribution, std::int32_t cell) {
   return distribution.cells().max_spacing(cell) == 0;
 }
@@ -43,7 +43,7 @@ bool owns_something_in(const Distribution<3>& distribution, int rank, std::int32
   return distribution.owner(leaf) == rank && !empty_leaf(distribution, leaf);
 }
 
-// What a halo is to be, from the boxes of all leaves and cells.
+// The expected halo, from the boxes of all leaves and cells.
 class BruteForce {
  public:
   BruteForce(const BackgroundTree<3>& tree, const std::vector<double>& d,
@@ -68,12 +68,12 @@ class BruteForce {
   int hops(int rank, std::size_t leaf) const { return hops_[index(rank)][leaf]; }
   const std::vector<std::int32_t>& near(std::size_t leaf) const { return near_[leaf]; }
 
-  // Does the rank, which does not own the leaf, need it?
+  // Returns whether a rank that does not own the leaf needs it.
   bool needs(int rank, std::size_t leaf, int hops, double hop_share) const {
     const double way = hops * hop_share * max_reach_[leaf];
     return hops_[index(rank)][leaf] <= hops && gap_[index(rank)][leaf] <= way * way;
   }
-  // Of the leaves within so many hops of each one.
+  // Computes the largest reach of the leaves within this number of hops of each one.
   void find_max_reach(int hops) {
     max_reach_ = reach_;
     for (int hop = 0; hop < hops; ++hop) {
@@ -85,7 +85,7 @@ class BruteForce {
   }
 
  private:
-  // By how many hops each leaf is away from those of the rank.
+  // Returns the number of hops from each leaf to those of the rank.
   std::vector<int> hops_from(int rank) const {
     std::vector<int> hops(leaves_, kUnreached);
     std::vector<std::int32_t> front;
@@ -103,7 +103,7 @@ class BruteForce {
     return hops;
   }
 
-  // From each leaf to the nearest cell of the rank.
+  // Returns the squared distance from each leaf to the nearest cell of the rank.
   std::vector<double> squared_gaps_to(int rank) const {
     const BackgroundTree<3>& cells = distribution_.cells().tree();
     std::vector<double> gap(leaves_, std::numeric_limits<double>::infinity());
@@ -121,8 +121,8 @@ class BruteForce {
   std::vector<Box<3>> box_;
   std::vector<double> reach_, max_reach_;
   std::vector<std::vector<std::int32_t>> near_;
-  std::vector<std::vector<int>> hops_;    // of each rank
-  std::vector<std::vector<double>> gap_;  // of each rank
+  std::vector<std::vector<int>> hops_;    // by rank
+  std::vector<std::vector<double>> gap_;  // by rank
 };
 
 // ------------------------------------------------------------------ owners ---------------------
@@ -142,7 +142,7 @@ void check_owners(const BackgroundTree<3>& tree, const Distribution<3>& distribu
   expect(comm->same_on_all(owners), "owners of points are the same on all ranks");
 }
 
-// Each rank counts leaf + 1 nodes in each leaf of its own.
+// Each rank counts leaf + 1 nodes in each leaf that it owns.
 void check_prefix_sums(const Distribution<3>& distribution, std::int32_t leaves) {
   std::vector<std::int64_t> counts(index(leaves), 0);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
@@ -202,7 +202,8 @@ void check_reach(const Distribution<3>& distribution, const BruteForce& brute, i
   expect(distribution.unrefined_within(hops).empty(), "all cells are refined");
 }
 
-// What a rank refines first, by the spacings in the cells alone, holds what lies within a reach.
+// The cells that a rank refines first, selected by spacings in cells only, include all within a
+// reach.
 void check_cells_near_own(const Distribution<3>& distribution) {
   const BackgroundTree<3>& tree = distribution.cells().tree();
   const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
@@ -218,12 +219,12 @@ void check_cells_near_own(const Distribution<3>& distribution) {
   }
 }
 
-// The domain: all of the box, a slanted slab of it with nothing on both sides, or half of its
-// leaves, so that ways from part to part lead through empty cells.
+// Domains: the whole box, an oblique slab of it, and half of its leaves, so that paths between
+// parts lead through empty cells.
 bool in_box(const Point<3>&) { return true; }
 bool in_slab(const Point<3>& x) { return std::fabs(x[0] + 0.5 * x[1] - 0.7) < 0.17; }
 
-// Who owns something that a box touches.
+// Checks the owners of cells that a box touches.
 void check_owners_in(const Distribution<3>& distribution) {
   const BackgroundTree<3>& tree = distribution.cells().tree();
   for (std::uint64_t n = 0; n < 200; ++n) {

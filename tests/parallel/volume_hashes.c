@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Places the nodes of many small bodies and prints a line for each: the hash, the number of nodes,
- * and a hash of what is told of the elements, all of which are the same for any number of ranks and
- * threads. usage: volume_hashes DATA [CASE [key=value]...], "all" for all cases */
+ * Places the nodes of many small bodies. Prints a line for each with the hash, the number of nodes,
+ * and a hash of the statistics of the elements, none of which depends on the number of ranks and
+ * threads.
+ * usage: volume_hashes DATA [CASE [key=value]...], "all" for all cases */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 static pnpbs_context context;
 static int rank, size;
 static const char* data_folder;
-static char** settings; /* "key=value", cut in two */
+static char** settings; /* "key=value", split at the equals sign */
 static int setting_count;
 
 static void check(pnpbs_status status, const char* what) {
@@ -22,7 +23,7 @@ static void check(pnpbs_status status, const char* what) {
   MPI_Abort(MPI_COMM_WORLD, 1);
 }
 
-/* ---------------------------------------------------------------- what is told ---------- */
+/* ---------------------------------------------------------------- statistics ------------ */
 
 /* FNV-1a over the bits. */
 static uint64_t mixed(uint64_t hash, double value) {
@@ -101,7 +102,8 @@ static void place(const struct volume_case* job) {
   check(pnpbs_placement_destroy(&placement), job->name);
 }
 
-/* Finer by two towards a corner, coarser elsewhere; values at nodes, a grid; one live placement. */
+/* One live placement with a spacing refined by two towards a corner, values at nodes, and a grid.
+ */
 static void adapt(void) {
   const int64_t grid_size[] = {2, 2, 1};
   const double origin[] = {0, 0, 0}, step[] = {1, 1, 1}, values[] = {0.06, 0.1, 0.1, 0.06};
@@ -125,7 +127,8 @@ static void adapt(void) {
   check(pnpbs_placement_destroy(&placement), "adapt");
 }
 
-/* Points of a box that is larger than the body; every rank gives every size-th of them. */
+/* Begins with given points of a box larger than the body; every rank gives every size-th of them.
+ */
 static void begin_with_given_nodes(void) {
   enum { row = 20, all = row * row * row };
   struct volume_spacing spacing = VOLUME_CONSTANT(0.16);
@@ -146,7 +149,7 @@ static void begin_with_given_nodes(void) {
   free(xyz), free(ids);
 }
 
-/* By hand instead of by run: steps, population and a new partition between them. */
+/* Calls steps, population control and rebalancing directly instead of a run. */
 static void drive_by_steps(void) {
   struct volume_spacing spacing = VOLUME_GRADED(0.05, 0.1, 0, 0, 0);
   pnpbs_placement placement = placement_in(volume_l_block);
@@ -162,8 +165,8 @@ static void drive_by_steps(void) {
   check(pnpbs_placement_destroy(&placement), "steps");
 }
 
-/* Rounds with d held down where angles are small, of which the last may be in vain. In the second
- * body most nodes are corners of elements with one. */
+/* Rounds that hold d down at small angles; the last one may bring no improvement. In the second
+ * body most nodes are corners of elements with a small angle. */
 static void enlarge_angles(void) {
   static const struct {
     volume_body body;

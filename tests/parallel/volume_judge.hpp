@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Are the tetrahedra that all ranks hand out one conforming triangulation of the body, the one that
-// another library (CGAL) makes of all nodes?
+// Judges whether the tetrahedra returned on all ranks form one conforming triangulation of the
+// body, equal to that of CGAL for all nodes.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -22,11 +22,11 @@ using gathered::Ids4;
 using gathered::SpaceNode;
 using gathered::Volume;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Places = std::array<std::int64_t, 4>;  // of nodes by id, in increasing order
+using Places = std::array<std::int64_t, 4>;  // indices of nodes by id, in increasing order
 using Point = std::array<double, 3>;
 
-// What is known of the body besides: its volume and how near the triangles come to that, and where
-// its inside is: 1 inside, -1 outside, 0 too near to the surface to tell.
+// Known properties of the body: its volume and the tolerance of the triangulation's volume, and its
+// inside: 1 inside, -1 outside, 0 too near to the surface to decide.
 struct Body {
   double volume, tolerance;
   std::function<int(const Point&)> inside;
@@ -39,7 +39,7 @@ class Judge {
     for (const SpaceNode& n : all.nodes) place_[n.id] = static_cast<std::int64_t>(place_.size());
   }
 
-  // How many things are wrong.
+  // Returns the number of errors.
   int judge() {
     expect(place_.size() == all_.nodes.size(), "a node has two owners");
     if (wrong_ == 0) expect_copies();
@@ -98,7 +98,8 @@ class Judge {
     }
   }
 
-  // Each once, from the rank of its least id, of positive volume.
+  // Expects that each tetrahedron is returned once, by the rank that owns its smallest id, with a
+  // positive volume.
   void expect_tetrahedra_once() {
     std::set<Places> seen;
     for (const gathered::OwnedTetrahedron& t : all_.tetrahedra) {
@@ -114,14 +115,14 @@ class Judge {
     ours_.assign(seen.begin(), seen.end());
   }
 
-  // Begins with the least, so that it is the same whatever it began with.
+  // Returns the triangle with the smallest id first, for comparison.
   static Ids3 turned(Ids3 t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     return t;
   }
 
-  // Seen from outside, each face is one tetrahedron's, and behind it lies another tetrahedron, or
-  // nothing: then it is a triangle of the boundary.
+  // Expects that each face, seen from outside, belongs to one tetrahedron. Behind it lies another
+  // tetrahedron, or it is a triangle of the boundary.
   void expect_faces_fit() {
     std::set<Ids3> faces, boundary;
     for (const Ids3& t : all_.boundary)
@@ -146,7 +147,7 @@ class Judge {
                                          std::to_string(alone) + " faces with nothing behind");
   }
 
-  // Every edge of the boundary once each way.
+  // Expects that every edge of the boundary occurs once in each direction.
   void expect_closed_boundary() {
     std::map<std::array<std::int64_t, 2>, int> edges;
     for (const Ids3& t : all_.boundary)
@@ -191,8 +192,8 @@ class Judge {
     return CGAL::side_of_bounded_sphere(point(a), point(b), point(c), point(d), point(place));
   }
 
-  // Of the tetrahedra beside t among `others`: does a corner lie exactly on the sphere of t, and
-  // none inside?
+  // Returns whether a corner of an adjacent tetrahedron in `others` lies exactly on the sphere of t
+  // and none lies inside.
   bool tied(const Places& t, const std::vector<Places>& others) const {
     const auto in_t = [&](std::int64_t place) { return std::count(t.begin(), t.end(), place) > 0; };
     bool on_sphere = false;
@@ -208,8 +209,8 @@ class Judge {
     return on_sphere;
   }
 
-  // Not to be handed out: outside, wider than nodes that fill the body leave room for, or flat with
-  // all corners on the surface.
+  // Returns whether a tetrahedron must not be returned: it is outside, its sphere is larger than
+  // possible between nodes that fill the body, or it is flat with all corners on the surface.
   bool is_none_of_the_body(const Places& t) const {
     Point centre{};
     double least = HUGE_VAL, widest = 0;
@@ -226,7 +227,8 @@ class Judge {
     return body_.inside(centre) <= 0 || std::sqrt(square) > 1.999 * least;
   }
 
-  // The same tetrahedra; where five or more nodes lie exactly on a sphere, others on that sphere.
+  // Expects the same tetrahedra, or other ones on the same sphere where five or more nodes lie
+  // exactly on a sphere.
   void compare_with_reference() {
     std::vector<Point> nodes;
     for (const SpaceNode& n : all_.nodes) nodes.push_back(n.x);
@@ -249,7 +251,7 @@ class Judge {
   const Volume& all_;
   Body body_;
   std::string what_;
-  std::map<std::int64_t, std::int64_t> place_;  // of each id
+  std::map<std::int64_t, std::int64_t> place_;  // index of the node with each id
   std::vector<Places> ours_;
   int wrong_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes of a volume on their way between ranks: each arrives once, where its place belongs to, with
-// all its bits; and ghosts hold what their owners have, after updates, permutations and drift.
+// Tests the migration of nodes in space: each arrives once, with all its bits, on the rank that
+// owns its position. Ghosts equal their owners after updates, permutations and drift.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -19,7 +19,7 @@ using rank_checks::expect;
 
 constexpr std::int64_t kNodes = 20000;
 constexpr int kHops = 2;
-constexpr double kRadius = 1.7, kMin = 0.03;  // of the lists; spacing
+constexpr double kRadius = 1.7, kMin = 0.03;  // radius of the lists; spacing
 // Between two exchanges nodes drift less than a hop, as in a placement.
 constexpr double kDrift = 0.6 * kRadius * kMin;
 
@@ -27,14 +27,14 @@ double spacing(const Point<3>& x) { return kMin + 0.05 * pnpbs::distance<3>(x, {
 
 double leaf_width(const Point<3>& x) { return 4 * spacing(x); }
 
-// In [0, 1), from the id of a node and the number of a value.
+// Returns a pseudo-random number in [0, 1) from the id of a node and the number of a value.
 double number(std::int64_t id, int value) {
   const std::uint64_t bits =
       pnpbs::mixed(64 * static_cast<std::uint64_t>(id) + static_cast<std::uint64_t>(value));
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-// What node `id` is at a moment. Everything about it follows from these two.
+// Returns the state of node `id` at a moment, which depends on these two only.
 PackedNode node_at(std::int64_t id, int moment) {
   PackedNode node;
   node.id = id;
@@ -59,14 +59,14 @@ bool same(const PackedNode& a, const PackedNode& b) {
          a.carrier == b.carrier;
 }
 
-// All nodes of the rank, owned and ghosts, are what they are to be at the moment.
+// Expects that all owned nodes and ghosts have the state of this moment.
 void check_values(BoxNodes& box, int moment, const std::string& when) {
   for (std::int64_t i = 0; i < box.nodes().count; ++i)
     expect(same(pnpbs::packed(box.nodes(), i), node_at(box.nodes().id(i), moment)),
            when + ": all bits of a node");
 }
 
-// Every node has one owner, the one its place belongs to; it is a ghost where the halo says so.
+// Expects that every node has one owner by its position, and is a ghost on the ranks of the halo.
 void check_who_has_it(BoxNodes& box, int moment, bool with_ghosts, const std::string& when) {
   std::vector<int> wanted(kNodes, 0), found(kNodes, 0);  // 1: a ghost, 2: owned
   for (std::int64_t id = 0; id < kNodes; ++id) {
@@ -86,7 +86,7 @@ void check_who_has_it(BoxNodes& box, int moment, bool with_ghosts, const std::st
          when + ": there are ghosts");
 }
 
-// Owners go on to the next moment; their ghosts elsewhere do not, until they are told.
+// Moves owned nodes to the next moment. Their ghosts follow only at an update.
 void move_owned(BoxNodes& box, int moment) {
   pnpbs::Nodes<3>& nodes = box.nodes();
   for (std::int64_t i = 0; i < nodes.count; ++i) {
@@ -120,7 +120,7 @@ void check_nodes() {
   move_owned(box, 2);
   box.update_ghosts();
   check_values(box, 2, "after an update in another order");
-  box.exchange(kHops);  // now some have other owners
+  box.exchange(kHops);  // some nodes change owners
   check_values(box, 2, "after the second exchange");
   check_who_has_it(box, 2, true, "after the second exchange");
   move_owned(box, 3);

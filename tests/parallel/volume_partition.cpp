@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The partition of a volume: cells of an octree refined about a point, the graph that METIS cuts,
+// Tests the partition of a volume: cells of an octree refined about a point, the graph for METIS,
 // owners, and halos against brute force.
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ std::uint64_t hash_of_cells(const std::vector<PartitionCell<3>>& cells) {
   return hash;
 }
 
-// The leaves of a tree tile its root: it is enough that the cells are the leaves of one.
+// Expects that the cells are the leaves of a tree and therefore tile its root.
 void check_tiling(const std::vector<PartitionCell<3>>& list, const PartitionCells<3>& cells) {
   expect(index(cells.count()) == list.size(), "as many cells as leaves of their tree");
   std::vector<int> met(index(cells.count()), 0);
@@ -70,7 +70,8 @@ void check_tiling(const std::vector<PartitionCell<3>>& list, const PartitionCell
   expect(std::all_of(met.begin(), met.end(), [](int n) { return n == 1; }), "each cell once");
 }
 
-// Returns the largest work that a cell may have: its share, or that of a leaf.
+// Checks the work of the cells. Returns the largest work that a cell may have: its share, or that
+// of a leaf.
 std::int64_t check_work(const BackgroundTree<3>& tree, const std::vector<double>& d,
                         const PartitionCells<3>& cells) {
   const std::vector<std::int64_t> work = octree::leaf_work(tree, d);
@@ -98,7 +99,7 @@ std::int64_t check_work(const BackgroundTree<3>& tree, const std::vector<double>
 
 // ------------------------------------------------------------------ the graph ------------------
 
-// In units of a cell of depth kFine: exact.
+// A box in units of a cell of depth kFine, which is exact.
 struct IntegerBox {
   static constexpr int kFine = 12;
   std::array<std::int64_t, 3> low, high;
@@ -111,7 +112,7 @@ struct IntegerBox {
   }
 };
 
-// Area of the face in common, 0 for cells that touch in less or not at all.
+// Returns the area of the common face, 0 for cells without one.
 std::int64_t common_area(const IntegerBox& a, const IntegerBox& b) {
   std::int64_t area = 1;
   int touching = 0;
@@ -130,14 +131,14 @@ void check_graph(const PartitionCells<3>& cells, const pnpbs::CellGraph& graph) 
   const BackgroundTree<3>& tree = cells.tree();
   const double unit = std::ldexp(tree.side(), -IntegerBox::kFine);
   std::vector<IntegerBox> box;
-  std::vector<double> per_length;  // work
+  std::vector<double> per_length;  // of the work
   for (std::int32_t c = 0; c < cells.count(); ++c) {
     box.emplace_back(tree.cell(tree.leaf_cell(c)));
     per_length.push_back(std::cbrt(static_cast<double>(cells.work(c))) /
                          tree.cell_side(tree.leaf_cell(c)));
   }
   expect(graph.cell.size() == box.size(), "every cell has work, so each is a vertex");
-  // Each rank looks at some of the cells, against all.
+  // Each rank compares some of the cells with all others.
   for (std::size_t a = index(comm->rank()); a < box.size(); a += index(comm->size())) {
     std::size_t link = index(graph.offset[a]);
     for (std::size_t b = 0; b < box.size(); ++b) {
@@ -162,9 +163,9 @@ std::int64_t cut_of(const pnpbs::CellGraph& graph, const std::vector<std::int32_
   return cut / 2;
 }
 
-// The Morton order gives a cell to the part in which the middle of its work lies, so a part sticks
-// out of its equal share by half a cell at either end: its imbalance is at most 1 + ranks * largest
-// / total. What METIS does is taken if it is at most 1.1 times as bad.
+// The Morton order assigns a cell to the part in which the middle of its work lies. A part exceeds
+// its equal share by at most half a cell at either end, so its imbalance is at most 1 + ranks *
+// largest / total. The result of METIS is used if its imbalance is at most 1.1 times this.
 void check_cut(const PartitionCells<3>& cells, const pnpbs::CellGraph& graph, std::int64_t max) {
   const int ranks = comm->size();
   const std::vector<std::int32_t> owner = pnpbs::cut_by_metis(cells, ranks, 1),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Voronoi cells against cells that are cut by brute force out of a square and a cube, and what
-// holds for all of them: volumes add up to that of the elements, faces and boundary of a cell add
-// up to 0, both sides know the same face, and any number of ranks gives the bits of one. Nothing
-// but the public interface is asked. Usage: voronoi_cells
+// Tests Voronoi cells against cells cut by brute force from a square and a cube, and their
+// invariants: volumes sum up to that of the elements, faces and boundary of a cell sum up to 0,
+// both sides have the same face, and any number of ranks gives the bits of one. The test uses the
+// public interface only. Usage: voronoi_cells
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +28,7 @@ pnpbs_status unit_square(pnpbs_domain domain, const char*) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   return pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0);
 }
-// With a slit that is narrower than the spacing, a hole, and a curve inside.
+// Adds a domain with a slit narrower than the spacing, a hole, and an inner curve.
 pnpbs_status slotted_plane(pnpbs_domain domain, const char*) {
   const double outline[] = {0, 0, 1, 0, 1, 1, 0.52, 1, 0.5, 0.5, 0.48, 1, 0, 1},
                hole[] = {0.2, 0.2, 0.2, 0.4, 0.4, 0.4, 0.4, 0.2}, curve[] = {0.6, 0.3, 0.9, 0.7};
@@ -37,15 +37,16 @@ pnpbs_status slotted_plane(pnpbs_domain domain, const char*) {
   return pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 2, curve, nullptr, 0);
 }
 
-// Two nodes that are mirrored at an inner curve and closer to its middle than its ends: the face
-// between their cells lies in a side of elements.
+// Two nodes are mirrored at an inner curve and closer to its middle than its ends. The face between
+// their cells lies in a side of elements.
 pnpbs_status kite(pnpbs_domain domain, const char*) {
   const double outline[] = {0, 0, 2, -0.75, 4, 0, 2, 0.75}, curve[] = {0, 0, 4, 0};
   pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, outline, nullptr, 0);
   return pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 2, curve, nullptr, 0);
 }
 
-// The unit square or cube, or what else there is to find.
+// What can be checked: everything for the unit square or cube, or only closed cells, or the
+// measure.
 enum class Known { everything, closed_cells, measure };
 struct Case {
   const char* name;
@@ -73,7 +74,7 @@ pnpbs_placement placed(const Case& it, pnpbs_context in) {
   expect(it.body(domain, nullptr) >= 0, "body");
   expect(pnpbs_placement_create(in, domain, &placement) == PNPBS_OK, "placement");
   pnpbs_placement_set_int64(placement, "steps", it.steps);
-  if (it.known == Known::measure)  // surfaces, which lie around the origin
+  if (it.known == Known::measure)  // surfaces around the origin
     pnpbs_placement_set_spacing_constant(placement, it.d);
   else
     pnpbs_placement_set_spacing_callback(placement, growing_spacing, &finest);
@@ -130,7 +131,7 @@ Cells cells_of(pnpbs_placement placement, std::int32_t dim) {
   return cells;
 }
 
-// Of the elements, by their corners.
+// Returns the measure of the elements, from their corners.
 double measure_of_elements(pnpbs_placement placement, std::int32_t dim) {
   pnpbs_mesh mesh;
   std::int32_t corners = 0;
@@ -157,9 +158,9 @@ double measure_of_elements(pnpbs_placement placement, std::int32_t dim) {
   return sum;
 }
 
-// ------------------------------------------------------------------ by brute force -------------
+// ------------------------------------------------------------------ brute force ----------------
 
-// The nodes that are closest to one, itself left out: more than its cell has neighbours.
+// Returns the `count` nodes nearest to one, without itself; more than its cell has neighbours.
 std::vector<std::int64_t> closest(const Cells& cells, std::int64_t id, std::size_t count) {
   const Point x = cells.at(id).x;
   std::vector<std::pair<double, std::int64_t>> order;
@@ -175,7 +176,7 @@ struct Worst {
   double volume = 0, area = 0;
 };
 
-// Of all cells and faces, as shares of the cells' size.
+// Returns the largest deviations of cells and faces, relative to the cells' size.
 Worst off_brute_force(const Cells& cells, std::int32_t dim) {
   Worst worst;
   for (const auto& [id, cell] : cells) {
@@ -201,7 +202,7 @@ void check_by_brute_force(const Cells& cells, std::int32_t dim) {
   expect(worst.area < 1e-10, "areas by brute force");
 }
 
-// ------------------------------------------------------------------ what holds of all ----------
+// ------------------------------------------------------------------ invariants -----------------
 
 void check_faces(const Cells& cells) {
   for (const auto& [id, cell] : cells) {
@@ -286,7 +287,7 @@ void check_case(const Case& it) {
 
 // ------------------------------------------------------------------ errors ---------------------
 
-// What fails on one rank fails on all.
+// An error on one rank is an error on all.
 void check_errors() {
   pnpbs_placement placement;
   pnpbs_domain domain = unit_domain(2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over ranks that 64 bits do not hold, against those that each rank forms alone; and running
-// sums over cells, of which the fraction remains.
+// Tests sums over ranks beyond 64 bits against sums that each rank computes alone, and running sums
+// over cells, of which the fraction remains.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -21,7 +21,7 @@ __extension__ using Whole = __int128;
 
 constexpr int kDoublings = 90;
 
-// Of each rank: some terms, as often as 2^doublings says.
+// Terms of each rank, which are added 2^doublings times.
 double term(int rank, int k) {
   return std::ldexp(1.0 + (7 * rank + k) % 11, k - 30) * (rank % 3 == 2 ? -1 : 1);
 }
@@ -32,7 +32,7 @@ FixedPointSum sum_of_rank(int rank, int doublings) {
   return sum;
 }
 
-// In units of 2^-32.
+// Returns the sum of all ranks in units of 2^-32.
 Whole sum_of_ranks(int doublings) {
   Whole sum = 0;
   for (int rank = 0; rank < comm->size(); ++rank)
@@ -60,7 +60,7 @@ void check_sums() {
   }
 }
 
-// A running sum over cells each of which has 2^30 nodes and a part of one.
+// A running sum over cells, each of which has 2^30 nodes and a fraction.
 void check_running_sums() {
   constexpr std::int64_t kCells = 1000, kPart = 12345678901;
   constexpr std::int64_t kInCell = (std::int64_t{1} << 62) + kPart;

@@ -3,9 +3,9 @@
 // like any other tool. Usage:
 //   pnpbs-cgal-mesh IN.poly OUT.node CONSTANT SLOPE X0 Y0 X_COUNTS EDGE_BOUND LLOYD_STEPS
 //   pnpbs-cgal-mesh IN.poly OUT.node TABLE EDGE_BOUND LLOYD_STEPS
-// Edges may be EDGE_BOUND d long, d = CONSTANT + SLOPE * distance from (X0, Y0), or from the line
-// y = Y0 where X_COUNTS is 0, or as in the file TABLE (spacing_table.py); corners of triangles are
-// 20.6 degrees or more, CGAL's default bound. Prints the seconds without files.
+// Edges may be EDGE_BOUND d long. d is CONSTANT + SLOPE * distance from (X0, Y0), or from the line
+// y = Y0 if X_COUNTS is 0, or it is given by the file TABLE (spacing_table.py). Angles of triangles
+// are at least 20.6 degrees, CGAL's default bound. Prints the seconds without files.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_criteria_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
@@ -38,7 +38,7 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure>;
 using Point = Kernel::Point_2;
 
-// Values where grid lines cross, linear in each direction between them; a column for each x.
+// Values at the crossings of grid lines, with bilinear interpolation; one column for each x.
 struct Table {
   std::vector<double> x, y, values;
 
@@ -49,7 +49,7 @@ struct Table {
     return (1 - u) * ((1 - v) * left[0] + v * left[1]) + u * ((1 - v) * right[0] + v * right[1]);
   }
 
-  // Between which lines: the one before.
+  // Returns the index of the grid line before t.
   static std::size_t gap(const std::vector<double>& lines, double t) {
     const auto after = std::upper_bound(lines.begin() + 1, lines.end() - 1, t);
     return static_cast<std::size_t>(after - lines.begin() - 1);
@@ -59,8 +59,8 @@ struct Table {
 struct Spacing {
   double constant, slope;
   Point middle;
-  double x_counts;  // in the distance: 1, or 0 for that from a horizontal line
-  Table table;      // counts instead where there is one
+  double x_counts;  // 1, or 0 for the distance from a horizontal line
+  Table table;      // used instead, if not empty
 
   double at(const Point& p) const {
     if (!table.values.empty()) return table.at(p);
@@ -68,14 +68,14 @@ struct Spacing {
   }
 };
 
-// CGAL's criteria know one size for the whole domain only. These take it from a function, at the
-// triangle's centroid.
+// Criteria with a size given by a function at the triangle's centroid. CGAL's own criteria have one
+// size for the whole domain.
 class GradedCriteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
  public:
   GradedCriteria(const Spacing& spacing, double edge_bound)
       : spacing_(&spacing), edge_bound_(edge_bound) {}
 
-  // How bad a triangle is: its longest edge over what is allowed, then its least angle.
+  // Badness of a triangle: its longest edge over the permitted length, then its smallest angle.
   struct Quality {
     double excess = 0, squared_sine = 0;
     bool operator<(const Quality& other) const {  // the worse one comes first
@@ -102,7 +102,7 @@ class GradedCriteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
       std::sort(squared, squared + 3);
       const double area = CGAL::area(a, b, c);
       q.excess = std::sqrt(squared[2]) / (edge_bound_ * spacing_->at(CGAL::centroid(a, b, c)));
-      // The least angle lies between the two longest edges.
+      // The smallest angle lies between the two longest edges.
       q.squared_sine = 4 * area * area / (squared[1] * squared[2]);
       return (*this)(q);
     }
@@ -125,8 +125,8 @@ struct Input {
   std::list<Point> holes;
 };
 
-// Triangle's .poly, as compare.py writes it: numbered from 1, no comments behind the first line
-// that has none.
+// Reads Triangle's .poly format as compare.py writes it: numbered from 1, without comments after
+// the first line that is not one.
 Input read_poly(const char* name) {
   std::ifstream file(name);
   if (!file) throw std::runtime_error(std::string("cannot read ") + name);
@@ -170,7 +170,7 @@ Table read_table(const char* name) {
   return table;
 }
 
-// From what stands between the names of the files and the last two arguments.
+// Parses the arguments between the file names and the last two.
 Spacing spacing_of(int count, char** words) {
   if (count == 1) return {0, 0, Point(0, 0), 0, read_table(words[0])};
   const Spacing spacing{std::atof(words[0]),

@@ -2,9 +2,9 @@
 // pnpbs-cgal-mesh-3: CGAL's Mesh_3 as a command that the comparison of bodies runs like any other
 // tool.
 //   pnpbs-cgal-mesh-3 IN.off OUT.node OUT.ele EDGE FACET CELL DISTANCE ANGLE
-// Edges of features are EDGE long at most; FACET and CELL are the largest circumradii, DISTANCE is
-// how far triangles may be from the surface, ANGLE in degrees makes an edge a feature. CGAL
-// optimises as it does by default (perturb, exude). Prints the seconds without files.
+// EDGE is the largest length of feature edges, FACET and CELL are the largest circumradii, DISTANCE
+// is the largest distance of triangles from the surface, and ANGLE in degrees makes an edge a
+// feature. CGAL optimises with its defaults (perturb, exude). Prints the seconds without files.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which kind of body a case has, and how it lies in space.
+// Chooses the kind of a case's body and its position in space.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -34,7 +34,7 @@ std::array<Point, 3> random_rotation(Random& random, int dim) {
 
 bool may_turn(const Body& body) { return body.boxes.empty() && body.cylinders.empty(); }
 
-// A part of a closed surface is an open one.
+// Removes triangles, which makes a closed surface open.
 void cut_open(Random& random, Mesh& mesh) {
   const auto all = static_cast<double>(mesh.triangles.size());
   const auto kept = static_cast<std::size_t>(all * random.between(0.5, 0.95));

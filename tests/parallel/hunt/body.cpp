@@ -81,7 +81,7 @@ void refine(Mesh& mesh, int times) {
 
 namespace {
 
-// The distance to a box, negative inside.
+// Returns the signed distance to a box, negative inside.
 double to_box(const Point& low, const Point& high, const Point& x) {
   Point outside{};
   double most = -1e300;
@@ -144,7 +144,7 @@ pnpbs_status add_curve(const Body& body, const Curve& curve, pnpbs_domain domain
                                    nullptr, curve.corner_angle);
 }
 
-// The frame of boxes and cylinders must not turn them.
+// Boxes and cylinders are aligned with the axes, so the frame must not rotate them.
 pnpbs_status add_blocks(const Body& body, pnpbs_domain domain) {
   pnpbs_status status = PNPBS_OK;
   for (const auto& [low, high] : body.boxes)

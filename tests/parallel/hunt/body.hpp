@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A random body as data: surfaces, solids that a level set combines, or curves in the plane, in
-// units of the spacing, and the frame that turns, scales and shifts it.
+// A random body as data: surfaces, solids of a level set, or curves in the plane, in units of the
+// spacing, and the frame that rotates, scales and shifts it.
 #pragma once
 
 #include <pnpbs/pnpbs.h>
@@ -25,7 +25,7 @@ Point cross(const Point& a, const Point& b);
 double length(const Point& a);
 Point unit(const Point& a);
 
-/** x becomes scale * (rotation x) + offset. */
+/** A coordinate frame: x becomes scale * (rotation x) + offset. */
 struct Frame {
   std::array<Point, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // its rows
   double scale = 1;
@@ -42,10 +42,10 @@ struct Mesh {
   std::int32_t role = PNPBS_BOUNDARY;
 };
 
-/** A capsule (or ball) or a box of a level set; rounded or not, joined or taken away. */
+/** A capsule (or ball) or a box of a level set, rounded or not, added or subtracted. */
 struct Solid {
   bool is_box = false, taken_away = false;
-  Point a{}, b{};  // a capsule's ends; a box's corners
+  Point a{}, b{};  // ends of a capsule, or corners of a box
   double radius = 0;
 };
 
@@ -66,30 +66,30 @@ struct Body {
   std::vector<Curve> curves;
   std::vector<Point> fixed;
   std::string file;
-  // By the library's own functions; their axes are those of the coordinates.
+  // Primitives of the library, aligned with the coordinate axes.
   std::vector<std::array<Point, 2>> boxes;
   std::vector<std::array<Point, 2>> cylinders;
   std::vector<double> radii;  // of the cylinders
   Frame frame;
-  Point low{}, high{};  // its box, in its own coordinates
+  Point low{}, high{};  // bounding box in its own coordinates
 };
 
-/** Adds the body to a domain; it must outlive the placements there. */
+/** Adds the body to a domain. The body must outlive the placements in it. */
 pnpbs_status add(const Body& body, pnpbs_domain domain);
 
-/** Negative inside the solids of a level set, in the body's own coordinates. */
+/** Returns a level-set function in the body's own coordinates, negative inside the solids. */
 double level_of(const Body& body, const Point& x);
 
-/** A measure of the body's number of nodes at spacing 1: by area and volume. */
+/** Estimates the number of nodes at spacing 1 from area and volume. */
 double nodes_of(double area, double volume);
 double area_of(const Mesh& mesh);
 double volume_of(const Mesh& mesh);
-/** Scales the mesh so that it has about so many nodes at spacing 1. */
+/** Scales the mesh so that it has about this number of nodes at spacing 1. */
 void scale_to(Mesh& mesh, double nodes);
-/** Cuts every triangle in four, so many times. */
+/** Cuts every triangle in four, `times` times. */
 void refine(Mesh& mesh, int times);
 
-// Kinds of bodies. `nodes`: about how many at spacing 1.
+// The following functions return random bodies of one kind with about `nodes` nodes at spacing 1.
 Body random_tube(Random& random, double nodes);
 Body random_profile(Random& random, double nodes);
 Body random_scan(Random& random, double nodes);
@@ -98,13 +98,13 @@ Body random_blocks(Random& random, double nodes);
 Body random_plane_body(Random& random, double nodes);
 Body random_file(Random& random, const std::vector<std::string>& files);
 
-/** Body that the file describes. Throws std::runtime_error if the file cannot be read. */
+/** Returns the body that a file describes. Throws std::runtime_error if the file cannot be read. */
 Body file_body(const std::string& path);
 
-/** One of the kinds, in a random frame. */
+/** Returns a body of a random kind in a random frame. */
 Body random_body(Random& random, int dim, double nodes, const std::vector<std::string>& files);
 
-/** Closed curves in the plane that profiles and channels share: L, T, H, U, combs, plates. */
+/** Returns a closed curve in the plane for profiles and channels: L, T, H, U, combs, plates. */
 std::vector<std::array<double, 2>> random_outline(Random& random, double wall, std::string& name);
 
 }  // namespace hunt

@@ -39,7 +39,7 @@ Case replayed_case(const CaseSpec& spec) {
   made.options.insert(made.options.end(), spec.options.begin(), spec.options.end());
   if (spec.once) made.by_steps = made.adapts = false;
   made.wanted_nodes *= spec.share;
-  // Without a wanted number of nodes, the spacing decides on it.
+  // The spacing determines the number of nodes if no number is requested.
   if (made.wanted_nodes == 0) {
     const double factor = std::pow(spec.share, -1.0 / made.body.dim);
     made.spacing.base *= factor;

@@ -84,7 +84,7 @@ class CaseWriter {
         line("", mesh.triangles[t]);
   }
 
-  // The frame of a spacing is that of the body.
+  // A spacing uses the frame of the body.
   void write_spacing(const char* key, const Spacing& spacing) {
     line(key, spacing.name(), spacing.base, spacing.slope, spacing.from, spacing.directions,
          spacing.width, spacing.factor);
@@ -141,7 +141,7 @@ class CaseReader {
     return text;
   }
 
-  // The rest of the line without the blank before it.
+  // Returns the rest of the line without leading blanks.
   std::string rest() {
     std::string text;
     std::getline(line_ >> std::ws, text);
@@ -172,7 +172,7 @@ class CaseReader {
 
   bool flag() { return one_of("0", "1"); }
 
-  // Whether the word is the second of the two.
+  // Returns whether the next word is the second of the two, and fails if it is neither.
   bool one_of(const char* first, const char* second) {
     const std::string text = word();
     if (text != first && text != second)

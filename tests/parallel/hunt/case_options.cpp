@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Options of a case that decide on nodes: most cases have few or none, so that what they find is
-// what users would meet.
+// Options of a case that affect nodes. Most cases have few or none, so that failures are those that
+// users would encounter.
 #include "case.hpp"
 #include "number_text.hpp"
 

@@ -57,7 +57,7 @@ std::vector<Configuration> random_groups(Random& random, int ranks) {
   std::vector<Configuration> groups;
   for (int left = ranks; left > 0;) {
     int size = random.pick(1, std::min(left, 8));
-    // One rank alone tells of threads and of MPI, which is enough now and then.
+    // Single ranks test threads and serial contexts only, so they are rarer.
     if (size == 1 && left > 1 && random.chance(0.7)) size = 2;
     groups.push_back(random_configuration(random, size));
     left -= size;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Hunts for results that depend on ranks, threads, exchange intervals or partitions: random cases,
-// each run on one rank of one thread and on other groups of the ranks of MPI_COMM_WORLD at the same
-// time. See docs/building.md.
+// Searches for results that depend on ranks, threads, exchange intervals or partitions. Random
+// cases run on one rank with one thread and, at the same time, on other groups of ranks of
+// MPI_COMM_WORLD. See docs/building.md.
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 
@@ -57,20 +57,20 @@ class Hunt {
   }
 
  private:
-  // The number of cases that have to be compared: half of the cases. A time limit may leave few
-  // cases, and half of them may be refused by chance, so that one has to be compared.
+  // The number of cases that must be compared is half of all cases. With a time limit there may be
+  // few cases, half of which may be rejected by chance, so one is enough.
   unsigned long long required() const {
     return arguments_.seconds > 0 || counted_ == 0 ? 1 : (counted_ + 1) / 2;
   }
 
-  /** The same on all ranks. */
+  /** Returns the same value on all ranks. */
   bool time_is_over() const {
     int over = arguments_.seconds > 0 && MPI_Wtime() - begin_ > arguments_.seconds;
     MPI_Bcast(&over, 1, MPI_INT, 0, MPI_COMM_WORLD);
     return over != 0;
   }
 
-  // The reference has one; the last two ranks of a large world two and three.
+  // The reference has one thread; the last two ranks of a large world have two and three.
   void set_threads() {
     threads_.assign(static_cast<std::size_t>(size_), 1);
     if (arguments_.threads.empty() && size_ >= 6) {
@@ -95,7 +95,7 @@ class Hunt {
     ++errors_;
   }
 
-  // Makes the case on every rank; reports an error if a rank cannot. Collective over the world.
+  // Builds the case on every rank, and reports an error if a rank fails. Collective over the world.
   std::optional<Case> made_case(const CaseSpec& spec) {
     std::optional<Case> made;
     std::string why = "a rank cannot make the case " + label_of(spec) + ".";
@@ -154,8 +154,8 @@ class Hunt {
     return is_compared;
   }
 
-  // Writes the case and runs it as written: its results must be the same. Collective over the
-  // world.
+  // Writes the case and runs it from the file, which must give the same results. Collective over
+  // the world.
   void dump(const Case& job, std::string name, const std::string& hash,
             const std::vector<Configuration>& groups, const Settings& extra) {
     for (char& c : name)
@@ -227,11 +227,11 @@ class Hunt {
   int rank_ = 0, size_ = 1;
   Threads threads_;
   unsigned long long counted_ = 0, compared_ = 0, skipped_ = 0, failed_checks_ = 0, differ_ = 0;
-  unsigned long long errors_ = 0;                          // files, arguments and settings
+  unsigned long long errors_ = 0;                          // in files, arguments and settings
   unsigned long long held_down_ = 0, not_conforming_ = 0;  // first runs, on rank 0
 };
 
-// The date may change between the ranks.
+// The default seed is the date, which may change between the ranks.
 void agree_on_seed(Arguments& arguments) {
   MPI_Bcast(&arguments.spec.seed, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Numbers as text.
+// Conversion of numbers to text.
 #pragma once
 
 #include <charconv>
@@ -10,20 +10,20 @@
 
 namespace hunt {
 
-/** Short, for options. */
+/** Returns a short text, for options. */
 inline std::string text_of(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
 
-/** The shortest decimal number that reads back as the same bits. */
+/** Returns the shortest decimal number with the same bits. */
 inline std::string decimal_text(double value) {
   char text[40];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-/** To the last bit. */
+/** Returns all bits as hexadecimal floating point. */
 inline std::string exact_text(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%a", value);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Stands in for sched_yield, which Open MPI calls while a rank waits (mpi_yield_when_idle): sleeps
-// instead. With more ranks than cores, the ones that wait then leave these to the ones that
-// compute, and a message does not take a whole turn of all of them.
+// Replaces sched_yield, which Open MPI calls while a rank waits (mpi_yield_when_idle), by a sleep.
+// With more ranks than cores, waiting ranks then release the cores to those that compute, and a
+// message does not take a time slice of all of them.
 #include <sched.h>
 #include <time.h>
 

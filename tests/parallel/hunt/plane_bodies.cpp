@@ -26,7 +26,7 @@ std::vector<Flat> star(Random& random, const Flat& centre, double radius, double
   return points;
 }
 
-// A strip of constant width about a wave.
+// Returns a strip of constant width along a wave.
 std::vector<Flat> channel(Random& random, double width, double along) {
   const double waves = random.between(0.3, 3);
   const double height = std::min(random.between(0, 0.2) * along, 0.02 * along * along / waves);
@@ -47,7 +47,7 @@ std::vector<Flat> channel(Random& random, double width, double along) {
 void add_inside(Random& random, Body& body, double radius) {
   const int holes = random.pick(0, 3);
   for (int k = 0; k < holes; ++k) {
-    // One beside the other, on a row.
+    // Holes lie side by side in a row.
     const Flat centre{radius * (-0.45 + 0.3 * k), radius * random.between(-0.1, 0.1)};
     Curve curve;
     const int kind = random.pick(0, 3);

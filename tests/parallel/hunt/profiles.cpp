@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Plates and profiles with thin walls, extruded: L, T, H, U, combs and frames.
+// Extruded plates and profiles with thin walls: L, T, H, U, combs and frames.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ double turn(const Flat& a, const Flat& b, const Flat& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// Ears of a polygon that turns counter-clockwise.
+// Triangulates a counter-clockwise polygon by ear clipping.
 std::vector<std::array<std::int64_t, 3>> triangles_of(const std::vector<Flat>& outline) {
   std::vector<std::int64_t> left(outline.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<std::int64_t>(i);
@@ -37,7 +37,7 @@ std::vector<std::array<std::int64_t, 3>> triangles_of(const std::vector<Flat>& o
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
       break;
     }
-    if (left.size() == before) break;  // what is left is flat
+    if (left.size() == before) break;  // the remaining polygon is degenerate
   }
   return triangles;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Random numbers that are the same everywhere: a stream for each part of each case, so that what
-// one part draws changes nothing in the others.
+// A portable random generator. Each part of each case has a stream of its own, so that the draws of
+// one part do not affect the others.
 #pragma once
 
 #include <cmath>
@@ -19,12 +19,12 @@ class Random {
   }
 
   std::uint64_t bits() { return mixed(state_ += 0x9e3779b97f4a7c15u); }
-  /** 0 .. 1, without 1. */
+  /** Returns a number in [0, 1). */
   double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * unit(); }
-  /** Every octave alike. */
+  /** Returns a number with uniform distribution of its logarithm. */
   double scale(double low, double high) { return low * std::pow(high / low, unit()); }
-  /** low .. high, both included. */
+  /** Returns an integer in [low, high]. */
   int pick(int low, int high) {
     return low + static_cast<int>(bits() % static_cast<std::uint64_t>(high - low + 1));
   }

@@ -74,7 +74,7 @@ Sum sum_of_nodes(const Nodes& nodes, bool with_normals) {
   return sum;
 }
 
-// 0 if ghosts are what their owners have.
+// Counts coordinates of ghosts that differ from those of their owners.
 pnpbs_status count_wrong_ghosts(pnpbs_placement placement, const Nodes& nodes, Sum& wrong) {
   const std::int64_t all = nodes.own + nodes.ghosts;
   std::vector<double> told(nodes.coordinates);
@@ -100,7 +100,7 @@ pnpbs_status sum_of_lists(pnpbs_placement placement, const Nodes& nodes, Sum& su
   return PNPBS_OK;
 }
 
-// In the plane from the neighbour with the least id around, in space in the order of ids.
+// In the plane, neighbours are in cyclic order from the smallest id; in space, in the order of ids.
 pnpbs_status sum_of_stars(pnpbs_placement placement, const Nodes& nodes, Sum& sum) {
   std::int64_t size = 0;
   HUNT_TRY(pnpbs_placement_star_size(placement, &size));
@@ -127,7 +127,7 @@ pnpbs_status sum_of_stars(pnpbs_placement placement, const Nodes& nodes, Sum& su
   return PNPBS_OK;
 }
 
-// Triangles from the corner with the least id around, tetrahedra with corners by id.
+// Triangles are rotated to begin with the smallest id; corners of tetrahedra are sorted by id.
 Sum sum_of_elements(const Nodes& nodes, std::vector<std::int64_t>& corners, std::int64_t count,
                     int each, const std::vector<std::int32_t>& tags) {
   Sum sum = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Hashes over the nodes, lists, stars, elements and boundary of all ranks. Sums of a hash for each,
-// by ids alone, so that neither the order nor the owner counts.
+// Hashes of the nodes, lists, stars, elements and boundary of all ranks. They are sums of hashes by
+// ids, so they depend neither on order nor on owners.
 #pragma once
 
 #include <mpi.h>
@@ -13,7 +13,8 @@
 
 namespace hunt {
 
-/** Calls take(name, sum over this rank) for each; returns the first error of a call. Collective. */
+/** Calls take(name, sum over this rank) for each hash, and returns the first error of a call.
+ * Collective. */
 pnpbs_status for_result_hashes(
     pnpbs_placement placement,
     const std::function<void(const char* name, std::uint64_t sum)>& take);

@@ -77,7 +77,8 @@ bool add_results(pnpbs_placement placement, pnpbs_context context, MPI_Comm rank
     return collective_try(status, context, ranks, prefix + "statistics", results) && false;
   results.insert(results.end(), sums.begin(), sums.end());
   add_warnings(placement, prefix, results);
-  // Its message names the first place that a rank finds, so that the status alone counts.
+  // The message of the check names the first point that a rank finds, so only the status is
+  // compared.
   const pnpbs_status check = pnpbs_placement_check(placement);
   results.emplace_back(prefix + "check", std::to_string(check));
   const bool same = same_on_all(hash_of(packed(results)), ranks);
@@ -120,7 +121,7 @@ std::string difference(const Results& expected, const Results& found) {
     if (k >= found.size() || found[k].first != expected[k].first) {
       tell(expected[k].first, expected[k].second,
            k < found.size() ? found[k].first + " " + found[k].second : "nothing");
-      break;  // what follows is of something else
+      break;  // the following entries no longer correspond
     }
     if (found[k].first != kMessage && found[k].second != expected[k].second)
       tell(found[k].first, expected[k].second, found[k].second);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a run of a case tells that must not depend on ranks: names and values, as text.
+// The results of a run that must not depend on ranks, as names and values in text form.
 #pragma once
 
 #include <mpi.h>
@@ -14,24 +14,24 @@ namespace hunt {
 
 using Results = std::vector<std::pair<std::string, std::string>>;
 
-/** The name of an error's text. It is the same on all ranks of a run, and may name one of them and
- *  what that one met first; so it is not compared between runs. */
+/** The name of an error's text. It is the same on all ranks of a run, but may name a rank and the
+ * first error found there, so it is not compared between runs. */
 constexpr const char* kMessage = "message";
 
-/** Adds what the placement tells now, each name with the prefix. Collective. False if ranks of the
- *  communicator disagree, or a call fails. */
+/** Adds the current results of the placement with this prefix. Returns false if ranks of the
+ * communicator disagree or a call fails. Collective. */
 bool add_results(pnpbs_placement placement, pnpbs_context context, MPI_Comm ranks,
                  const std::string& prefix, Results& results);
 
-/** Whether all ranks were told the same status and, of an error, the same message; adds both.
- *  Collective. */
+/** Adds the status and, for an error, its message. Returns whether they are the same on all ranks.
+ * Collective. */
 bool collective_try(pnpbs_status status, pnpbs_context context, MPI_Comm ranks,
                     const std::string& name, Results& results);
 
 std::string packed(const Results& results);
 Results unpacked(const std::string& text);
 
-/** The names whose values differ, with the values of the first ones; "" if none does. */
+/** Returns the names with different values, with the first values; "" if there are none. */
 std::string difference(const Results& expected, const Results& found);
 
 }  // namespace hunt

@@ -42,7 +42,7 @@ class Run {
 
   bool set_options() {
     Settings all = job_.options;
-    all.emplace_back("max_nodes", "4000");  // a case is small
+    all.emplace_back("max_nodes", "4000");  // cases are small
     all.emplace_back("metis_seed", std::to_string(configuration_.metis_seed));
     if (configuration_.interval > 0)
       all.emplace_back("exchange_interval", std::to_string(configuration_.interval));
@@ -55,7 +55,7 @@ class Run {
     return went_well(status, "options");
   }
 
-  // What fails here fails in the next call, too, which the reference makes as well.
+  // An error here also occurs in the next call, which the reference makes as well.
   void rebalance() {
     if (configuration_.rebalances) pnpbs_placement_rebalance(placement_);
   }

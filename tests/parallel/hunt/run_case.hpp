@@ -10,16 +10,18 @@
 
 namespace hunt {
 
-/** What must not change a bit of the results; threads are the process's. */
+/** Parameters that must not change any bit of the results. The number of threads is that of the
+ * process. */
 struct Configuration {
   int ranks = 1;
-  int interval = 0;  // of exchanges; 0: as it is at first
+  int interval = 0;  // exchange interval; 0: the default
   int metis_seed = 1;
-  bool rebalances = false;  // by hand, between the calls
-  bool serial = false;      // a context that knows no MPI, on one rank
+  bool rebalances = false;  // calls rebalance between the other calls
+  bool serial = false;      // uses a serial context, on one rank
 };
 
-/** Every rank of `ranks` gets the results. Collective there. `extra`: options of this run alone. */
+/** Runs the case and returns the results on every rank of `ranks`. `extra`: options of this run
+ * only. Collective over `ranks`. */
 Results run_case(const Case& job, const Configuration& configuration, const Settings& extra,
                  MPI_Comm ranks);
 

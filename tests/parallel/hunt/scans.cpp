@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rough scans: spheres of triangles, drawn long, bent to bumps, with noise at every vertex. As they
-// are star-shaped, they never cross themselves.
+// Rough scans: triangulated spheres, elongated and bent with bumps, with noise at every vertex.
+// They are star-shaped and therefore never cross themselves.
 #include <cmath>
 #include <map>
 

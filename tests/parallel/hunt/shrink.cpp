@@ -7,7 +7,7 @@ namespace hunt {
 
 namespace {
 
-// Takes the trial in the failure's place if it fails.
+// Replaces the failure by the trial if that fails as well.
 bool still_fails(Failure& failure, Failure trial, const Settings& extra) {
   watch(label_of(trial.spec) + ", shrunk", "");
   const Comparison made = compare(make_case(trial.spec), {trial.configuration}, extra);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The least of a failing case that still fails.
+// Reduction of a failing case to a smaller one that still fails.
 #pragma once
 
 #include "groups.hpp"
@@ -10,11 +10,11 @@ namespace hunt {
 struct Failure {
   CaseSpec spec;
   Configuration configuration;
-  std::string difference;  // on rank 0 of the world alone
+  std::string difference;  // on rank 0 of the world only
 };
 
-/** Leaves out what it can, one thing after the other. The group comes to lie behind the reference;
- *  false if it does not fail there. Collective over the world. */
+/** Removes parts of the case one after the other as long as it fails. The group is moved directly
+ * after the reference. Returns false if the case does not fail there. Collective over the world. */
 bool shrink(Failure& failure, const Settings& extra);
 
 }  // namespace hunt

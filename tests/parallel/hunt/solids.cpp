@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bodies by level sets that join capsules, boxes and balls or take them away; and those of the
-// library's own functions: bars, rods, cavities, inner sheets, two bodies beside each other.
+// Bodies from level sets that add or subtract capsules, boxes and balls, and bodies from primitives
+// of the library: bars, rods, cavities, inner sheets, and two separate bodies.
 #include <algorithm>
 #include <cmath>
 
@@ -33,7 +33,7 @@ Solid random_solid(Random& random, const Point& at) {
   return solid;
 }
 
-// Where a solid of the union lies, so that the next one meets it, mostly.
+// Returns a point near a solid of the union, so that the next solid usually touches it.
 Point near(Random& random, const Solid& solid) {
   const double at = random.unit();
   return solid.a + at * (solid.b - solid.a) + random_point(random, 0.7 * solid.radius);

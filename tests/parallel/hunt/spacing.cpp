@@ -14,7 +14,7 @@ std::int32_t spacing_at(std::int64_t n, std::int32_t dim, const double* x, doubl
   return 0;
 }
 
-// A point of the body, or near it.
+// Returns a point of the body or near it.
 Point point_near(Random& random, const Body& body) {
   Point at{};
   if (!body.meshes.empty()) {

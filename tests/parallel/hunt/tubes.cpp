@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Tubes along smooth curves: knots, springs, loops and snakes, whose strands come near each other.
+// Tubes along smooth curves whose strands come near each other: knots, springs, loops and snakes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -51,7 +51,7 @@ Line spring(Random& random, int samples) {
   return line;
 }
 
-// A few waves in every direction.
+// Returns a curve with a few waves in every direction.
 Line loop(Random& random, int samples) {
   double wave[3][4][2];
   for (auto& direction : wave)
@@ -82,8 +82,8 @@ Line snake(Random& random, int samples) {
   return line;
 }
 
-// How wide a tube about the line may be: less than its radius of curvature, and than half of the
-// distance of strands, minus a gap.
+// Returns the largest radius of a tube about the line: less than the radius of curvature, and than
+// half the distance of strands minus a gap.
 double room_of(const Line& line, double gap) {
   const auto n = static_cast<int>(line.points.size());
   const double step = length_of(line) / n;
@@ -92,7 +92,7 @@ double room_of(const Line& line, double gap) {
     for (int j = i + 1; j < n; ++j) {
       const double along = step * (line.closed ? std::min(j - i, n - j + i) : j - i);
       const double away = length(line.points[i] - line.points[j]);
-      // A chord that is much shorter than its arc: another strand.
+      // The chord is much shorter than the arc, so it connects different strands.
       if (away < 0.6 * along) room = std::min(room, (away - gap) / 2);
     }
   for (int i = line.closed ? 0 : 1; i < (line.closed ? n : n - 1); ++i) {
@@ -125,7 +125,7 @@ Line resampled(const Line& line, int count) {
   return even;
 }
 
-// Rings about the line, without twist but for what a closed one needs.
+// Returns rings about the line, without twist except as needed to close it.
 Mesh tube(const Line& line, double radius, int around) {
   const auto n = static_cast<int>(line.points.size());
   std::vector<Point> along(n), side(n);
@@ -180,7 +180,8 @@ Body random_tube(Random& random, double nodes) {
                           : snake(random, kSamples);
   double radius = random.scale(0.25, 2.5);
   const double gap = random.scale(0.3, 2);
-  // As long as so many nodes are, or wider where the curve's own room asks for less width.
+  // The length follows from the number of nodes. If the curve has too little room, the radius is
+  // reduced.
   for (int round = 0; round < 20; ++round) {
     const double wanted = nodes / (nodes_of(2 * pi * radius, pi * radius * radius));
     const double factor = wanted / length_of(line);

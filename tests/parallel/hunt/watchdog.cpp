@@ -13,7 +13,7 @@ namespace {
 
 constexpr unsigned kSeconds = 60;
 
-// Read by the handler, so without memory that may move.
+// The signal handler reads these buffers, so their memory must not move.
 char job_text[200], what_text[200];
 
 void put(const char* text) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Tells on standard error what runs when it has not ended for long, so that a hang has a name. It
-// ends nothing.
+// Reports on standard error what runs if it takes long, so that a hang can be identified. It does
+// not end the process.
 #pragma once
 
 #include <string>
 
 namespace hunt {
 
-/** What runs now; an empty case leaves that as it is. Starts the time anew. */
+/** Sets the current activity and restarts the timer. An empty case leaves the case unchanged. */
 void watch(const std::string& job, const std::string& what);
 
 void end_watch();
