@@ -157,6 +157,7 @@ module pnpbs
     procedure :: set_spacing_file => placement_set_spacing_file
     procedure :: set_spacing_from_shape => placement_set_spacing_from_shape
     procedure :: set_spacing_at_nodes => placement_set_spacing_at_nodes
+    procedure :: add_spacing_hints => placement_add_spacing_hints
     procedure :: set_monitor => placement_set_monitor
     procedure :: set_nodes => placement_set_nodes
     procedure :: estimate => placement_estimate
@@ -1749,6 +1750,30 @@ contains
     call conclude('placement%set_spacing_at_nodes', &
                   c_placement_set_spacing_at_nodes(self%c, size(d, kind=c_int64_t), d), stat, &
                   errmsg)
+  end subroutine
+
+  !> Adds points at which the spacing is sampled as well. A procedure is sampled at some points of
+  !> each cell of a tree, so a place with a small d that is much smaller than the cells around it may
+  !> be missed: give one point in each such place. The points are used from the next initialise or
+  !> run on, until another spacing is set. Points outside a body in space are ignored. Collective;
+  !> each rank may pass other points, including none. Errors: PNPBS_ERROR_STATE without a spacing,
+  !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, PNPBS_ERROR_CALLBACK,
+  !> PNPBS_ERROR_DOMAIN.
+  !>   coordinates  (dim, n)
+  subroutine placement_add_spacing_hints(self, coordinates, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: n
+    integer(c_int) :: status
+    integer :: dim
+    n = size(coordinates, 2, kind=c_int64_t)
+    dim = dimension_of(self, given)
+    call given%check_rows('coordinates', size(coordinates, 1), dim)
+    status = c_placement_add_spacing_hints(self%c, given%capacity(n), coordinates)
+    call conclude('placement%add_spacing_hints', status, stat, errmsg, given)
   end subroutine
 
   !> Sets the monitor, or removes it if none is given. Local.

@@ -885,6 +885,16 @@ module pnpbs_c
       integer(c_int) :: c_placement_set_spacing_at_nodes
     end function
 
+    function c_placement_add_spacing_hints(placement, n, coordinates) bind(C, &
+      name="pnpbs_placement_add_spacing_hints")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*)
+      integer(c_int) :: c_placement_add_spacing_hints
+    end function
+
     function c_placement_set_monitor(placement, monitor, user) bind(C, &
       name="pnpbs_placement_set_monitor")
       import

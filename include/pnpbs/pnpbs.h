@@ -817,6 +817,20 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_from_shape(
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
                                                             const double *d);
 
+/** Adds points at which the spacing is sampled as well. A callback or formula is sampled at some
+ *  points of each cell of a tree, so a place with a small d that is much smaller than the cells
+ *  around it may be missed: give one point in each such place. The points are used from the next
+ *  pnpbs_placement_initialise or pnpbs_placement_run on, until another spacing is set. d is
+ *  evaluated there in this call; nodes need not come to lie at these points. Points outside a
+ *  body in space are ignored. Collective; each rank may pass other points, including none, and
+ * every rank stores those of all. Errors: PNPBS_ERROR_STATE without a spacing, PNPBS_ERROR_SPACING
+ * for a value that is zero, negative or not finite, PNPBS_ERROR_CALLBACK if the callback fails,
+ *  PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
+ *  @param[in] n            number of points of this rank, 0 or more
+ *  @param[in] coordinates  [n][dim], not read if n is 0 */
+PNPBS_API pnpbs_status pnpbs_placement_add_spacing_hints(pnpbs_placement placement, int64_t n,
+                                                         const double *coordinates);
+
 /** Sets the monitor, or removes it (NULL). Local. */
 PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
                                                    pnpbs_monitor_fn monitor, void *user);

@@ -193,3 +193,21 @@ pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int
     return spacing_from(results, std::move(values));
   });
 }
+
+pnpbs_status pnpbs_placement_add_spacing_hints(pnpbs_placement placement, int64_t n,
+                                               const double* coordinates) {
+  return local_change(placement, [&](Placement& p) {
+    visit_dimension(p, [&]<int Dim>(PlacementImpl<Dim>& in) {
+      std::vector<Point<Dim>> points;
+      collective_on(p, [&] {
+        given_values::require_count("n", n, 0);
+        if (n > 0) require_pointer(coordinates, "coordinates");
+        std::vector<double> charted;
+        const double* x = placed_coordinates(in.domain().embedding(), n, coordinates, charted);
+        points = given_values::read_points<Dim>("coordinates", n, x);
+      });
+      in.add_spacing_hints(points);
+    });
+    return PNPBS_OK;
+  });
+}

@@ -87,14 +87,29 @@ Outcome PlacementImpl<Dim>::prepare_level() {
   return Outcome::converged;
 }
 
+template <int Dim>
+void PlacementImpl<Dim>::require_spacing() const {
+  if (!now_.spacing.has_source())
+    throw Error(ErrorKind::state,
+                "the placement has no spacing yet: call one of the set_spacing functions first");
+}
+
+template <int Dim>
+void PlacementImpl<Dim>::add_spacing_hints(const std::vector<Point<Dim>>& points) {
+  collective_try(*comm_, [this] {
+    require_spacing();
+    domain_->check();
+  });
+  pnpbs::add_spacing_hints<Dim>(points, *comm_, *domain_, now_.spacing);
+  now_.spacing_replaced = true;
+}
+
 // Returns the settings of a new level and updates now_.closed. Checks that there is a spacing, and
 // that the domain is valid and the same on all ranks. All ranks must call it, and if one rank
 // throws, all ranks throw.
 template <int Dim>
 Settings PlacementImpl<Dim>::settings_for_new_level() {
-  if (!now_.spacing.has_source())
-    throw Error(ErrorKind::state,
-                "the placement has no spacing yet: call one of the set_spacing functions first");
+  require_spacing();
   Settings settings = present_settings();
   settings.max_bytes = bytes_allowed(*comm_, options_);
   collective_try(*comm_, [this] { domain_->check(); });

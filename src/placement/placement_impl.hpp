@@ -42,6 +42,9 @@ class PlacementImpl : public Placement {
     now_.spacing_replaced = true;
     now_.placed.held = {};
   }
+  // Adds points at which the spacing is sampled. All ranks must call it, and if one rank throws,
+  // all ranks throw and nothing changes.
+  void add_spacing_hints(const std::vector<Point<Dim>>& points);
   void set_nodes(IncomingNodes<Dim> nodes) {
     given_ = std::move(nodes);
     start_from_given_ = true;
@@ -104,6 +107,9 @@ class PlacementImpl : public Placement {
     field.set_beat([this] { monitoring_.beat(); });
     return field;
   }
+
+  // Throws Error(ErrorKind::state) if no spacing has been set. Local.
+  void require_spacing() const;
 
   // --- transactions ---
   // Runs `work`. If it throws on any rank, all ranks restore the nodes, the spacing, the schedule

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "comm/records.hpp"
 #include "level/finer_region.hpp"
 #include "method/constants.hpp"
 #include "sizing/closing_patch.hpp"
@@ -136,6 +137,26 @@ void add_undersampled_points(const UndersampledSpacing& found, const Communicato
 }
 
 template <int Dim>
+void add_spacing_hints(const std::vector<Point<Dim>>& own, const Communicator& comm,
+                       const Domain<Dim>& domain, SizingField<Dim>& spacing) {
+  std::vector<Point<Dim>> points = of_all_ranks(comm, own);
+  collective_try(comm, [&] {
+    if constexpr (Dim == 3)
+      if (domain.filled())
+        std::erase_if(points, [&](const Point<3>& x) { return !domain.index().inside(x); });
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    std::vector<double> d(points.size());
+    evaluate_spacing<Dim>(spacing, measure_of(domain), std::ssize(points), points.data(), d.data());
+    SpacingHints<Dim> hints;
+    for (std::size_t i = 0; i < points.size(); ++i) hints.in_domain.push_back({points[i], d[i]});
+    SizingField<Dim> with_hints = spacing;
+    with_hints.add_undersampled_points(hints);
+    spacing = std::move(with_hints);
+  });
+}
+
+template <int Dim>
 bool too_steep(const SteepestGrowth<Dim>& steepest) {
   return steepest.growth > kTooSteep;
 }
@@ -156,6 +177,10 @@ Warning warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_lim
 
 template class EffectiveSpacing<2>;
 template class EffectiveSpacing<3>;
+template void add_spacing_hints<2>(const std::vector<Point<2>>&, const Communicator&,
+                                   const Domain<2>&, SizingField<2>&);
+template void add_spacing_hints<3>(const std::vector<Point<3>>&, const Communicator&,
+                                   const Domain<3>&, SizingField<3>&);
 template bool too_steep(const SteepestGrowth<2>&);
 template bool too_steep(const SteepestGrowth<3>&);
 template Warning warning_of_growth(const SteepestGrowth<2>&, double);

@@ -63,6 +63,13 @@ extern template class EffectiveSpacing<3>;
 void add_undersampled_points(const UndersampledSpacing& found, const Communicator& comm,
                              const VolumeDomain& domain, SizingField<3>& spacing);
 
+// Evaluates the spacing at these points of all ranks and adds them to the points at which the tree
+// samples it. Points outside a body are ignored. The spacing is unchanged if this throws. All ranks
+// must call it, and if one rank throws, all ranks throw.
+template <int Dim>
+void add_spacing_hints(const std::vector<Point<Dim>>& own, const Communicator& comm,
+                       const Domain<Dim>& domain, SizingField<Dim>& spacing);
+
 // Returns whether the spacing grows faster than nodes can follow.
 template <int Dim>
 bool too_steep(const SteepestGrowth<Dim>& steepest);

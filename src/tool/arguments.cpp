@@ -239,6 +239,13 @@ void add_input(CLI::App& app, Arguments& arguments) {
          "--spacing it is by_depth")
       ->type_name("[NAME=]FILE[:VARIABLE][,WORD]...")
       ->group(group);
+  app.add_option("--spacing-hints", arguments.spacing_hints,
+                 "points at which d is sampled as well, one per line of the file:\n"
+                 "x,y or x,y,z, on a sphere lon,lat; one point in each place where\n"
+                 "a formula has a small d that is much smaller than the distance\n"
+                 "of the samples, which would miss it")
+      ->type_name("FILE")
+      ->group(group);
   app.add_option_function<std::string>(
          "--feature-angle",
          [&arguments](const std::string& text) {

@@ -40,6 +40,7 @@ struct Arguments {
   std::string domain;                      // a file, "-", or a primitive such as "ball(0,0,0, 1)"
   std::string spacing;                     // a formula; may be empty if there is a grid
   std::vector<std::string> spacing_grids;  // FILE or NAME=FILE
+  std::string spacing_hints;               // a file, or empty
   std::optional<DepthRequest> depth_rule;
   std::optional<double> min_spacing, max_spacing;  // bounds of a d that is not given by a formula
   std::vector<std::string> outputs;

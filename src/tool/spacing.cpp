@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/small_letters.hpp"
+#include "tool/spacing_hints.hpp"
 
 namespace pnpbs::tool {
 
@@ -47,6 +48,8 @@ Spacing::Spacing(const Arguments& arguments, int dimension, const NamedGrids& gr
     : dimension_(dimension),
       min_(arguments.min_spacing.value_or(0)),
       max_(arguments.max_spacing.value_or(0)) {
+  if (!arguments.spacing_hints.empty())
+    hints_ = read_spacing_hints(arguments.spacing_hints, dimension, arguments.sphere.has_value());
   if (arguments.spacing == "auto") return;
   file_ = spacing_file(arguments.spacing);
   if (file_) return;
@@ -110,6 +113,15 @@ void Spacing::multiply(double factor) {
 
 void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                       const Ranks& ranks) {
+  set_spacing(placement, domain, context, ranks);
+  if (hints_.empty()) return;
+  // The hints belong to the first rank, because each rank passes its own.
+  const std::int64_t numbers = ranks.is_first() ? std::ssize(hints_) : 0;
+  check(pnpbs_placement_add_spacing_hints(placement, numbers / dimension_, hints_.data()), context);
+}
+
+void Spacing::set_spacing(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
+                          const Ranks& ranks) {
   if (file_) {
     check(pnpbs_placement_set_spacing_file(placement, file_->path.c_str(), file_->field.c_str()),
           context);

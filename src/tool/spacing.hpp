@@ -63,6 +63,8 @@ class Spacing {
   static std::int32_t call_multiplied(std::int64_t n, std::int32_t dim, const double* coordinates,
                                       double* d, void* user);
 
+  void set_spacing(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
+                   const Ranks& ranks);
   Multiplied callback() const;  // neither for a file nor for auto
   const Grid* grid() const;     // that the library takes as it is, or nullptr
   pnpbs_status set_grid(pnpbs_placement placement) const;
@@ -73,6 +75,7 @@ class Spacing {
   const NamedGrid* grid_ = nullptr;         // d, if it is a grid
   std::unique_ptr<Expression> expression_;  // null if d is a grid, a file or auto
   std::optional<SpacingFile> file_;
+  std::vector<double> hints_;          // coordinates of points at which d is sampled as well
   std::optional<Multiplied> bubbles_;  // set if their spacing differs from d
 };
 

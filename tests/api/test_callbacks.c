@@ -49,6 +49,45 @@ static job probed_square(probe* it) {
   return square;
 }
 
+/* A spot of radius 0.002 with d = 0.0005 in the middle of a square where d = 0.1 elsewhere. */
+static int32_t spot_in_square(int64_t n, int32_t dim, const double* xy, double* d, void* user) {
+  int64_t i;
+  (void)dim;
+  (void)user;
+  for (i = 0; i < n; ++i)
+    d[i] = hypot(xy[2 * i] - 0.4137, xy[2 * i + 1] - 0.5519) < 0.002 ? 0.0005 : 0.1;
+  return 0;
+}
+
+static int64_t nodes_in_spot(pnpbs_placement placement) {
+  result nodes = result_of(placement);
+  int64_t i, found = 0;
+  for (i = 0; i < nodes.n; ++i)
+    found += hypot(nodes.xy[2 * i] - 0.4137, nodes.xy[2 * i + 1] - 0.5519) < 0.002;
+  result_free(&nodes);
+  return found;
+}
+
+/* The spot is narrower than the distance of the samples of d: without a hint no node is in it, with
+ * one it is filled. */
+START_TEST(hints_show_a_spot_between_the_samples) {
+  static const double hint[2] = {0.4141, 0.5517};
+  job it = square_job(1);
+  ck_assert_int_eq(pnpbs_placement_add_spacing_hints(it.placement, 1, hint), PNPBS_ERROR_STATE);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, spot_in_square, NULL));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(nodes_in_spot(it.placement), 0);
+  ck_assert_int_eq(pnpbs_placement_add_spacing_hints(it.placement, -1, hint), PNPBS_ERROR_ARGUMENT);
+  ck_assert_int_eq(pnpbs_placement_add_spacing_hints(it.placement, 1, NULL), PNPBS_ERROR_ARGUMENT);
+  MUST(pnpbs_placement_add_spacing_hints(it.placement, 0, NULL));
+  MUST(pnpbs_placement_add_spacing_hints(it.placement, 1, hint));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_gt(nodes_in_spot(it.placement), 30); /* pi r^2 / (0.866 d^2) = 58 */
+  check_placement(it.placement, 1);
+  job_end(&it);
+}
+END_TEST
+
 static void check_good(pnpbs_placement placement) { check_placement(placement, 1); }
 
 START_TEST(a_good_one) {
@@ -836,6 +875,7 @@ TEST_SUITE(test_callbacks) {
   TCase* within = tcase_create("from inside");
   TCase* curves = tcase_create("curves");
   tcase_add_test(spacing, a_good_one);
+  tcase_add_test(spacing, hints_show_a_spot_between_the_samples);
   tcase_add_loop_test(spacing, bad_everywhere, 0, COUNT_OF(bad_values));
   tcase_add_loop_test(spacing, bad_in_one_place, 0, COUNT_OF(bad_values));
   tcase_add_test(spacing, answers_with_an_error);

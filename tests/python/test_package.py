@@ -231,6 +231,29 @@ class Spacings(Case):
         self.assertEqual(len(hashes[0]), len(hashes[1]))
         np.testing.assert_allclose(hashes[0], hashes[1], atol=1e-6)
 
+    def test_hints_show_spots_between_the_samples(self):
+        """Two spots in a box, each much narrower than the distance of the samples of d; a point
+        outside the box is ignored."""
+        spots = np.array([[0.2137, 0.3519, 0.6271], [0.7711, 0.6093, 0.3377]])
+
+        def distances(x):
+            return np.linalg.norm(x[:, None] - spots, axis=2)
+
+        def spacing(x):
+            return np.where((distances(x) < 0.012).any(axis=1), 0.004, 0.2)
+
+        domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
+        placement = pnpbs.Placement(domain).set_spacing(spacing)
+        placement.run()
+        self.assertEqual(np.sum(distances(placement.nodes().points) < 0.012), 0)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            placement.add_spacing_hints(np.zeros((1, 2)))
+        placement.add_spacing_hints(np.zeros((0, 3))).add_spacing_hints([*(spots + 0.003), (9, 9, 9)])
+        placement.run()
+        inside = np.sum(distances(placement.nodes().points) < 0.012, axis=0)
+        self.assertTrue((inside > 60).all(), inside)  # 4/3 pi r^3 / (0.707 d^3) = 160
+        placement.check()
+
     def test_values_at_given_points(self):
         points = np.array([[-1, -1], [2, -1], [2, 2], [-1, 2.0]])
         d = 0.05 + 0.02 * (points[:, 0] + 1)

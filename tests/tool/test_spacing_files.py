@@ -215,6 +215,30 @@ class SpacingFiles(CommandTest):
         self.assertIn("= nan", refuse("x,y,d\n0,0,nan\n"))
         self.assertIn("two columns", refuse("x,y,X,d\n0,0,0,1\n"))
 
+    def test_hints(self):
+        """Sixty spots of 100 m with d = 4 m in a region of 320 km, as far as samples go: without
+        hints none of them has a node."""
+        spots = np.random.default_rng(3).uniform((20e3, 10e3), (300e3, 50e3), (6, 2)).round(1)
+        formula = "min(" + ",".join(f"(hypot(x-{x},y-{y})<50 ? 4 : 1000)" for x, y in spots) + ")"
+        (self.folder / "region.poly").write_text(
+            "4 2 0 0\n1 0 0\n2 320000 0\n3 320000 60000\n4 0 60000\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+        (self.folder / "hints.csv").write_text(
+            "x,y\n# the spots\n" + "".join(f"{x + 9}, {y - 9}\n" for x, y in spots))
+        nodes = []
+        for more in (), ("--spacing-hints", "hints.csv"):
+            self.place_body("region.poly", formula, *QUICK, *more, "-o", "out.csv", "--nodes-only")
+            x, _ = self.spacing_of((self.folder / "out.csv").read_bytes())
+            nodes.append([np.sum(np.linalg.norm(x - spot, axis=1) < 50) for spot in spots])
+        self.assertEqual(sum(nodes[0]), 0)
+        self.assertGreater(min(nodes[1]), 300)  # pi 50^2 / (0.866 4^2) = 567
+        for text, found in (("1,2\n3\n", "hints.csv:2: expected x and y, separated by commas, found '3'"),
+                            ("1;2\n", "hints.csv:1: expected x and y")):
+            (self.folder / "hints.csv").write_text(text)
+            self.assertIn(found, self.refuse("--domain", self.square, "--spacing", "1", "--spacing-hints",
+                                             "hints.csv", "-o", "a.csv"))
+        self.assertIn("cannot read 'none.csv'", self.refuse("--domain", self.square, "--spacing", "1",
+                                                            "--spacing-hints", "none.csv", "-o", "a.csv"))
+
 
 if __name__ == "__main__":
     unittest.main()

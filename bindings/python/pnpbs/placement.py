@@ -242,6 +242,17 @@ class Placement(Results, Fields, Meshes, Tessellation):
             finally:
                 self.set_monitor(before)
 
+    def add_spacing_hints(self, coordinates: ArrayLike) -> Placement:
+        """Adds points at which the spacing is sampled as well, the rows of `coordinates`, (n, dim).
+        A function is sampled at some points of each cell of a tree, so a place with a small d that
+        is much smaller than the cells around it may be missed: give one point in each such place.
+        The points are used from the next `run` or `initialise` on, until another spacing is set.
+        Points outside a body in space are ignored. Collective; each rank may pass other points,
+        including none: an array of shape (0, dim)."""
+        points = as_points(coordinates, self.dim, "coordinates")
+        self._call("add_spacing_hints", len(points), points)
+        return self
+
     def set_nodes(self, coordinates: ArrayLike, ids: Optional[ArrayLike] = None) -> Placement:
         """Sets inner nodes to start from instead of the initial fill: the rows of `coordinates`, on
         any ranks, with distinct global ids from 0 if `ids` are given. The library places the

@@ -403,6 +403,10 @@ pnpbs_placement_set_spacing_at_nodes(placement, n, d) =
     @ccall $(symbol(:pnpbs_placement_set_spacing_at_nodes))(
         placement::pnpbs_placement, n::Int64, d::Ptr{Cdouble})::pnpbs_status
 
+pnpbs_placement_add_spacing_hints(placement, n, coordinates) =
+    @ccall $(symbol(:pnpbs_placement_add_spacing_hints))(
+        placement::pnpbs_placement, n::Int64, coordinates::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_placement_set_monitor(placement, monitor, user) =
     @ccall $(symbol(:pnpbs_placement_set_monitor))(
         placement::pnpbs_placement, monitor::pnpbs_monitor_fn,

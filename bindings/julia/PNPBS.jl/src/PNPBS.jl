@@ -27,7 +27,7 @@ using Base: disable_sigint, reenable_sigint
 
 export Context, Domain, Placement, CompressedRows, PNPBSError
 export set!, set_spacing!, set_spacing_from_shape!, set_monitor!, set_nodes!
-export set_spacing_mesh!, set_spacing_points!, set_spacing_file!
+export set_spacing_mesh!, set_spacing_points!, set_spacing_file!, add_spacing_hints!
 export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_region!, add_fixed_nodes!
 export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!
 export add_offset!

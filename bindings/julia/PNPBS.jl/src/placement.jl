@@ -266,6 +266,22 @@ set_monitor!(placement::Placement, ::Nothing) = set_monitor!(keep_going, placeme
 keep_going(fraction, step, nodes, max_speed) = false
 
 """
+    add_spacing_hints!(placement, coordinates)
+
+Adds points at which the spacing is sampled as well, the columns of `coordinates`, `dim` x n. A
+function is sampled at some points of each cell of a tree, so a place with a small d that is much
+smaller than the cells around it may be missed: give one point in each such place. The points are
+used from the next [`run!`](@ref) or [`initialise!`](@ref) on, until another spacing is set. Points
+outside a body in space are ignored. Collective; each rank may pass other points, including none.
+"""
+function add_spacing_hints!(placement::Placement, coordinates::AbstractMatrix{<:Real})
+    points = as_points(coordinates, ndims(placement), "coordinates")
+    check(placement,
+          LibPNPBS.pnpbs_placement_add_spacing_hints(live(placement), size(points, 2), points))
+    return placement
+end
+
+"""
     set_nodes!(placement, coordinates; ids = nothing)
 
 Sets inner nodes to start from instead of the initial fill: the columns of `coordinates`, on any
