@@ -11,8 +11,7 @@ GEOGRAPHIC, PROJECTED = 2, 1
 
 def write_geotiff(path, values, west, north, step, epsg, no_data=None):
     """Writes values[row][column] with the northern row first. west and north are those of the first
-    cell's
-    corner. The code is that of a geographic system (such as 4326) or a projected one."""
+    cell's corner. The code is that of a geographic system (such as 4326) or a projected one."""
     rows, columns = values.shape
     data = np.asarray(values, "<f4").tobytes()
     kind = GEOGRAPHIC if 4000 <= epsg < 5000 else PROJECTED

@@ -39,9 +39,8 @@ def grid_arrays(grid):
 
 def read_msh(path, points):
     """Reads a Gmsh file by meshio. Returns the corners and physical groups of each kind of cells,
-    and the
-    groups' names. Corners are indices of the given points, which must equal the file's in some
-    order."""
+    and the groups' names. Corners are indices of the given points, which must equal the file's in
+    some order."""
     mesh = meshio.read(path, file_format="gmsh")
     theirs, ours = numpy.lexsort(mesh.points.T), numpy.lexsort(points.T)
     numpy.testing.assert_array_equal(mesh.points[theirs], points[ours])

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs of the command that are ended early over existing files. Afterwards all files are new, or
-none
-is, and no other file remains."""
+none is, and no other file remains."""
 
 import os
 import time

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of checkpoints by the command: A run that is stopped at any point and restarted gives the
-same
-nodes, and VTK can open the file."""
+same nodes, and VTK can open the file."""
 
 import json
 import signal
@@ -62,8 +61,7 @@ class Checkpoints(CommandTest):
 
     def restart(self, *options):
         """Restarts from step.vtkhdf, the checkpoint of a run that ended after 20 steps. Returns the
-        report and
-        its warnings."""
+        report and its warnings."""
         report = self.report("--domain", self.square, "--spacing", "0.01 + 0.02*x", "--restart",
                              "step.vtkhdf", *options, "--checkpoint", "again.vtkhdf")
         self.assertEqual(report["finished"], 1)

@@ -143,8 +143,7 @@ class OnASphere(GridsTest):
 
     def cells_of(self, table):
         """Returns the column and row of the cells whose centres surround each node, and the
-        relative position
-        between them."""
+        relative position between them."""
         lat = np.degrees(np.arcsin(table["z"] / self.radius))
         lon = np.degrees(np.arctan2(table["y"], table["x"])) % 360
         column, row = np.clip(lon - 0.5, 0, 359), np.clip(lat + 89.5, 0, 179)

@@ -234,8 +234,7 @@ class Report(CommandTest):
 
     def test_missed_spacing(self):
         """The cubic force law of the paper compresses the coarse part beside a fine line. Files are
-        written
-        nevertheless."""
+        written nevertheless."""
         self.square.write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n"
                                "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
         out, err = self.place("--report", "r.json", "-o", "a.csv", "--set", "method=paper",

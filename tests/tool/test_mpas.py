@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of MPAS grids of spheres: Their contents are consistent, and the weights of velocities
-along edges are those of
-TRiSK, which is checked by properties that no other weights have (Thuburn, Ringler, Skamarock and
-Klemp 2009). PNPBS_GEO
-says whether the command was built with GDAL."""
+along edges are those of TRiSK, which is checked by properties that no other weights have (Thuburn,
+Ringler, Skamarock and Klemp 2009). PNPBS_GEO says whether the command was built with GDAL."""
 
 import json
 import os
@@ -141,8 +139,8 @@ class MpasGrids(CommandTest):
 
     def check_weights(self, grid):
         """Checks energy conservation: The matrix is antisymmetric in the right measure. Checks
-        steady geostrophic modes: The
-        divergence of the velocities along the edges is that of those across them, by kites."""
+        steady geostrophic modes: The divergence of the velocities along the edges is that of those
+        across them, by kites."""
         edge, other, used = grid.rows_of("edgesOnEdge", "nEdgesOnEdge")
         weights = scipy.sparse.csr_matrix((grid["weightsOnEdge"][used], (edge, other)),
                                           shape=(grid.sizes["nEdges"],) * 2)

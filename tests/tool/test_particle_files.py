@@ -37,9 +37,8 @@ def read_peridigm(path):
 
 def read_lammps(path):
     """Reads a file like the LAMMPS command read_data: Header lines are identified by their last
-    words; one
-    line is skipped after the title and after the name of the section. Returns the rows and the
-    header."""
+    words; one line is skipped after the title and after the name of the section. Returns the rows
+    and the header."""
     lines = path.read_text().splitlines()[1:]
     begin = lines.index("Atoms # peri")
     head = {}
@@ -148,8 +147,7 @@ class ParticleFiles(CommandTest):
 
     def check_box(self, box, points, size):
         """Checks the box: It begins at 0. Where particles have negative coordinates, it has room
-        for them after
-        a shift."""
+        for them after a shift."""
         self.assertEqual(box.shape, (3,))
         low, high = points.min(axis=0), points.max(axis=0)
         expected = numpy.where(low < 0, high - low + 2 * size, high + size)

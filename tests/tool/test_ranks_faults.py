@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests in which every call on a file fails once. The command must end with an error and leave
-existing
-files unchanged, or work without the call. PNPBS_FAULT_STRIDE = n tests every n-th call on ranks."""
+existing files unchanged, or work without the call. PNPBS_FAULT_STRIDE = n tests every n-th call on
+ranks."""
 
 import os
 import unittest

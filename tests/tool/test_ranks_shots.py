@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests with signals at random moments of writing and with killed ranks. The command must end soon
-on
-all ranks, with all files new or none. PNPBS_SHOTS is the number of random signals (a few by
+on all ranks, with all files new or none. PNPBS_SHOTS is the number of random signals (a few by
 default)."""
 
 import os

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of the mesh files for sea and river models, .gr3 and .2dm, by readers of their definitions
-and against the Gmsh
-files and tables of the same runs. PNPBS_GEO says whether the command was built with GDAL."""
+and against the Gmsh files and tables of the same runs. PNPBS_GEO says whether the command was built
+with GDAL."""
 
 import collections
 import json

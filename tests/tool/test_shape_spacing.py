@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of spacings that use the shape of the domain, seglen and curvature(N), against the values
-for
-shapes whose segments and radii are known."""
+for shapes whose segments and radii are known."""
 
 import unittest
 
@@ -79,8 +78,7 @@ class ShapeSpacing(CommandTest):
 
     def test_curvature_of_two_circles(self):
         """Checks the distance to the two boundaries of a ring, the smaller of them for half the
-        spacing, and a factor
-        before it."""
+        spacing, and a factor before it."""
         angles = np.arange(240) * 2 * np.pi / 240
         unit = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         domain = self.write_polygons(2 * unit, unit, hole=(0, 0))

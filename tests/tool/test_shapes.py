@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of domains from geographic files, such as GeoJSON, with projections. PNPBS_GEO says whether
-the
-command was built with GDAL."""
+the command was built with GDAL."""
 
 import json
 import math
@@ -128,8 +127,7 @@ class Shapes(ShapesTest):
 
     def test_what_is_left_out_of_a_coast(self):
         """A coast whose lines do not close, with an island. Only the island would be meshed, so the
-        command
-        reports an error."""
+        command reports an error."""
         island = feature("Polygon", [closed([[18.8, 54.4], [19.2, 54.4], [19.2, 54.6]])], name="i")
         coast = feature("LineString", SQUARE[:4], name="coast")
         ask = ("--spacing", "5", "--unit", "km", "--tag-field", "name", "-o", "nodes.csv",

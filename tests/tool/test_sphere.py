@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of spheres, and of seas on them whose coasts are given in longitude and latitude. PNPBS_GEO
-says whether the
-command was built with GDAL."""
+says whether the command was built with GDAL."""
 
 import json
 import os
@@ -83,8 +82,7 @@ class WholeSphere(CommandTest):
 
     def test_views(self):
         """In a view from a point the triangles near it are the largest. A map shows all triangles,
-        and those at its ends
-        twice."""
+        and those at its ends twice."""
         for view in ("0,0", "120,50", "-70,-90"):
             triangles, size = self.triangles_in_picture("--view", view)
             areas = np.array([abs(np.linalg.det(x[1:3] - x[0])) / 2 for x in triangles])
@@ -108,15 +106,13 @@ class WholeSphere(CommandTest):
 
     def test_nodes_follow_the_spacing_beside_the_patch(self):
         """d changes in the chart along the distance that the last sweeps move nodes. Edges must be
-        compared with d at the
-        final positions. With the previous d the spacing was reported as missed because of 85 edges.
-        """
+        compared with d at the final positions. With the previous d the spacing was reported as
+        missed because of 85 edges."""
         self.placed(spacing="100")
 
     def test_nodes_are_as_dense_on_both_sides(self):
         """d in the chart grows by a factor of 100 towards the point of projection. Levels that lost
-        nodes where d grows left
-        1.3 per cent too few beside the patch."""
+        nodes where d grows left 1.3 per cent too few beside the patch."""
         nodes, _ = self.placed("--set", "topology_repairs=3", spacing="60")
         places = np.loadtxt(nodes.decode().splitlines(), delimiter=",", skiprows=1)
         header = nodes.decode().split("\n")[0].strip().split(",")

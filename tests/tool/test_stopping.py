@@ -24,8 +24,7 @@ def cpu_seconds(process):
 class Stopping(CommandTest):
     def signal_and_wait(self, process, *numbers):
         """Returns the output after the signals and the CPU seconds until the end. CPU time is used
-        as the machine may be
-        busy."""
+        as the machine may be busy."""
         before = cpu_seconds(process)
         for number in numbers:
             os.kill(process.pid, number)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of bodies with walls much thinner than the spacing: Their elements fill them, or the status
-reports
-that they do not."""
+reports that they do not."""
 
 import itertools
 import json
