@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A meshless Laplacian in an asteroid, and Poisson's equation solved with it, on any number of ranks.
-# Each node gets weights for itself and its adjacency list by least squares: of all weights that give
-# the Laplacian of polynomials up to a degree exactly, those with the least sum of squares, where far
-# nodes' weights count more (the generalized finite differences of T. Liszka, J. Orkisz, Comput.
-# Struct. 11 (1980) 83-95).
+# A meshless Laplacian in an asteroid, and Poisson's equation solved with it, on any number of
+# ranks. The weights of a node and its adjacency list come from least squares. Of all weights that
+# give the Laplacian of polynomials up to a degree exactly, they have the least sum of squares, in
+# which the weights of distant nodes count more (the generalized finite differences of T. Liszka,
+# J. Orkisz, Comput. Struct. 11 (1980) 83-95).
 #
-# What to check: with polynomials of degree m the formula is exact for them up to rounding, at every
-# node; the Laplacian of a smooth function converges with order m - 1, that is 2 inside and 1 on the
-# surface; and so does the solution of Poisson's equation, with order 2.
+# What to check: With polynomials of degree m the formula is exact for them within rounding at
+# every node. The Laplacian of a smooth function converges with order m - 1, which is 2 inside and
+# 1 on the surface. The solution of Poisson's equation converges with order 2.
 #
 #   julia asteroid_stencils.jl [FOLDER]                one process
 #   mpiexec -n 4 julia asteroid_stencils.jl [FOLDER]   with MPI.jl in the environment
 #
-# With a folder, which must be there, every rank writes its piece of the finest solution.
+# If a folder is given, which must exist, every rank writes its piece of the finest solution.
 using LinearAlgebra
 using PNPBS
 using Printf

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring
-# 0.5 <= r <= 1 with u = log r on both circles, which is then the solution everywhere. Linear finite
-# elements, built node by node: the row of a node comes from the triangles of its Delaunay star
-# alone, so every rank assembles the rows of its own nodes without a mesh file and without a
-# message. examples/c/laplace_ring is the same program in C, which tells what to check.
+# A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring 0.5
+# <= r <= 1 with u = log r on both circles, which is then the solution everywhere. The linear
+# finite element equations are assembled node by node: The row of a node comes from the triangles
+# of its Delaunay star alone. Every rank assembles the rows of its own nodes without a mesh file
+# and without a message. examples/c/laplace_ring is the same program in C, and says what to check.
 #
 #   julia laplace_ring.jl [FOLDER]                one process
 #   mpiexec -n 4 julia laplace_ring.jl [FOLDER]   with MPI.jl in the environment
 #
-# With a folder, which must be there, every rank writes its piece of the solution.
+# If a folder is given, which must exist, every rank writes its piece of the solution.
 using PNPBS
 using Printf
 

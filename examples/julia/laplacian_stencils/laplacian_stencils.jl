@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # A meshless Laplacian on the adjacency lists, and Poisson's equation solved with it, on any number
-# of ranks. Each node gets weights for itself and its list by RBF-FD: they give the Laplacian of the
-# interpolant of polyharmonic splines |x - x_j|^5 at the list's nodes and polynomials up to a degree
-# (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of polynomials in RBF-FD
+# of ranks. The weights of a node and its list come from RBF-FD: They give the Laplacian of the
+# interpolant of polyharmonic splines |x - x_j|^5 at the list's nodes and polynomials up to a
+# degree (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of polynomials in RBF-FD
 # approximations: I. Interpolation and accuracy", J. Comput. Phys. 321 (2016) 21-38).
 #
-# What to check: with polynomials of degree m the formula is exact for them up to rounding, at every
-# node; the Laplacian of a smooth function converges with order m - 1, that is 3 inside and 2 on the
-# boundary; and so does the solution of Poisson's equation, at least. It does better, with order 4,
-# for the errors of the formula differ in sign from node to node and mostly cancel.
+# What to check: With polynomials of degree m the formula is exact for them within rounding at
+# every node. The Laplacian of a smooth function converges with order m - 1, which is 3 inside and
+# 2 on the boundary. The solution of Poisson's equation converges with at least the same order. The
+# observed order is 4, because the errors of the formula differ in sign from node to node and
+# mostly cancel.
 #
 #   julia laplacian_stencils.jl [FOLDER]                one process
 #   mpiexec -n 4 julia laplacian_stencils.jl [FOLDER]   with MPI.jl in the environment
 #
-# With a folder, which must be there, every rank writes its piece of the finest solution.
+# If a folder is given, which must exist, every rank writes its piece of the finest solution.
 using LinearAlgebra
 using PNPBS
 using Printf
