@@ -253,8 +253,8 @@ START_TEST(a_grid_that_covers_the_domain) {
 }
 END_TEST
 
-/* A grid beside the domain causes a warning, unless it has only one point in that direction and so
- * is constant along it. */
+/* A grid beside the domain is rejected, unless it has only one point in that direction and so is
+ * constant along it. */
 START_TEST(a_grid_beside_the_domain) {
   const int64_t size[2] = {2, 2}, row[2] = {2, 1};
   const double origin[2] = {0, 5}, step[2] = {1, 1}, values[4] = {0.05, 0.08, 0.05, 0.08};
@@ -457,9 +457,8 @@ START_TEST(bad_starts_are_mended) {
     MUST_COMPUTE(pnpbs_placement_run(it.placement));
     nodes = result_of(it.placement);
     check_result(&nodes, 1);
-    /* Without initial inner nodes only the 68 boundary nodes exist, as population control inserts
-     * nodes beside inner nodes only. A boundary node accounts for half the area of an inner node.
-     */
+    /* Without an initial inner node none is inserted, so that only the 68 boundary nodes exist. A
+     * boundary node accounts for half the area of an inner node. */
     wanted = n == 0 ? 68 : 2 / sqrt(3) / (0.06 * 0.06) + 34;
     ck_assert_msg(fabs((double)nodes.n / wanted - 1) < 0.2, "%d nodes, %d wanted", (int)nodes.n,
                   (int)wanted);

@@ -196,7 +196,7 @@ START_TEST(the_population_forgets) {
   MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &d));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   fresh = integer_of(it.placement, "nodes");
-  for (k = 0; k < 2; ++k) { /* the first run has twice, then half as many nodes */
+  for (k = 0; k < 2; ++k) { /* starts with twice, then with half as many nodes */
     static cone other = {0.008, 0.02, 0.2, 0.7};
     other.a = k == 0 ? 0.008 : 0.018;
     MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &other));

@@ -131,7 +131,7 @@ START_TEST(bad_in_one_place) {
 END_TEST
 
 /* Lets the callback fail at call number k, for every k, by a bad value or a status. Afterwards the
- * placement must be unchanged, and a run must succeed once the callback is correct again. */
+ * placement must be valid, and a run must succeed once the callback is correct again. */
 static void fail_at_every_call(double bad, int32_t answer, pnpbs_status expected, int by_steps) {
   int64_t k, failures = 0;
   for (k = 0;; ++k) {
@@ -802,7 +802,7 @@ START_TEST(curves_fail_at_every_call) {
 }
 END_TEST
 
-/* A curve can fail in a later call than the first one. */
+/* If a curve returns NaN from call k on, for any k, the error has a message and is not internal. */
 START_TEST(curves_give_nonsense) {
   int64_t k;
   for (k = 0;; ++k) {

@@ -188,7 +188,7 @@ END_TEST
 /* ---------------------------------------------------------------- rounds ---------------- */
 
 typedef struct {
-  double fraction, stop_from; /* stops at the first call from this fraction on */
+  double fraction, stop_from; /* stops at the first call after steps from here on */
   int64_t step;
   int falls, stopped;
 } progress;

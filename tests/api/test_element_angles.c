@@ -256,7 +256,7 @@ END_TEST
 typedef struct {
   pnpbs_placement placement;
   int64_t turns;      /* calls in rounds after the first */
-  pnpbs_status saved; /* status of writing a checkpoint in the first of them */
+  pnpbs_status saved; /* status of writing a checkpoint in the second of them */
 } trial;
 
 /* Stops the run in the second round. */
@@ -292,7 +292,7 @@ START_TEST(a_stop_in_a_round_leaves_the_best_one) {
 }
 END_TEST
 
-/* Unless the user sets another angle, a warning reports angles below 2 degrees. */
+/* By default angles below 2 degrees are enlarged. With min_angle = 0 a warning reports them. */
 START_TEST(a_user_is_told) {
   job it = rough_job(0.3, 8, 0.3), enlarged = rough_job(0.3, 8, 0.3);
   MUST(pnpbs_placement_set(it.placement, "min_angle", "0"));

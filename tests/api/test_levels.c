@@ -70,8 +70,8 @@ START_TEST(fewer_where_the_boundary_is_fine) {
 }
 END_TEST
 
-/* Returns the quality of the nodes for the least spacing times `scale`. Sweeps after the bubbles
- * are off. */
+/* Returns the quality of the nodes for the least spacing times `scale`. The first row stays as the
+ * bubbles have formed it. */
 static quality_summary quality_with(double scale, const char* key, const char* value) {
   cone graded = {0.0048, 0.016, 0.5, 0.5};
   job it = graded_square(&graded);
@@ -116,8 +116,8 @@ START_TEST(defects_are_repaired) {
 END_TEST
 
 /* Repairs reduce the number of nodes with a wrong number of neighbours and of imperfect triangles
- * by a tenth in the mean of 20 sets. Without repairs levels that lose nodes on the way leave 0.018
- * of them. */
+ * by a tenth in the mean of 20 sets. Without repairs the share of imperfect triangles would be
+ * 0.018 if levels lost nodes on the way. */
 START_TEST(defects_become_fewer) {
   double with = 0, without = 0;
   int k;

@@ -120,7 +120,7 @@ class Rim:
         return self.begin[nodes] + (station - self.begin[nodes]) % self.length[nodes]
 
     def way(self, nodes, to):
-        """Returns the distance along the curve to other stations."""
+        """Returns the signed distance along the curve to other stations."""
         half = self.length[nodes] / 2
         return (to - self.station[nodes] + half) % (2 * half) - half
 
@@ -215,7 +215,7 @@ class Set:
             a, b, c = np.roll(t, -k, 1).T
             alone = quality(goal[a], self.points[b], self.points[c])
             barred[a[spoilt | (alone < least)]] = True
-            # Inner nodes that must keep away from the boundary.
+            # Inner nodes must keep away from the boundary.
             facing = self.inner[a] & ~self.inner[b] & ~self.inner[c]
             a, b, c = a[facing], self.points[b[facing]], self.points[c[facing]]
             low = np.minimum(CLEARANCE * self.d[a], height(self.points[a], b, c))
@@ -323,7 +323,7 @@ def row(name, settings, variant, nodes):
 
 
 def worst_rows(name, settings, nodes):
-    """Returns rows about the worst triangles."""
+    """Yields rows about the worst triangles."""
     triangles, rim = nodes.mesh.triangles, ~nodes.inner
     order = np.argsort(shape(nodes.points, triangles)[0], kind="stable")
     held = rim & ~nodes.rim.slides

@@ -1022,8 +1022,8 @@ class Handles(Case):
 
 class Threads(unittest.TestCase):
     def spins(self, **variables):
-        """The variable holds what GCC's OpenMP read when it was loaded. The process environment
-        must not change."""
+        """Returns the spin count that GCC's OpenMP read when it was loaded, and the variable in the
+        environment afterwards."""
         program = "import os, pnpbs; pnpbs.build_info(); print(os.environ.get('GOMP_SPINCOUNT'))"
         environment = {name: value for name, value in os.environ.items()
                        if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")}

@@ -226,7 +226,7 @@ class Files(CommandTest):
         self.assertGreaterEqual(len(re.findall("<path", picture)), triangles)
 
     def save_rough_globe(self, name):
-        """Returns a globe with bumps and dents that d = 0.4 does not resolve."""
+        """Writes a globe with bumps and dents that d = 0.4 does not resolve."""
         rows = 12
         faces = [((i + up, j + up), (i + 1, j), (i, j + 1))
                  for i in range(rows) for j in range(rows - i)

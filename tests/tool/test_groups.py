@@ -177,7 +177,7 @@ class InnerSurfaces(GroupTest):
             self.assertTrue((abs(on_sheet[:, :2] - 0.5) <= 0.2).all())
 
     def check_faces(self, mesh, triangles):
-        """Returns the faces shared by two tetrahedra, each once."""
+        """Checks that the triangles are distinct and that each is a face of two tetrahedra."""
         faces = {tuple(face) for face in numpy.sort(triangles, axis=1).tolist()}
         self.assertEqual(len(faces), len(triangles))
         counts = dict.fromkeys(faces, 0)

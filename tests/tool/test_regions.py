@@ -184,7 +184,7 @@ class FilesOfTetGen(RegionTest):
 
 
     def cube_in_cube(self, rest):
-        """A cube of side 3 contains one of side 1 in its middle. Their markers are 10 and 20."""
+        """Writes a cube of side 3 with one of side 1 in its middle. Their markers are 10 and 20."""
         corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
         sides = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
         rows = ["16 3 0 0"]

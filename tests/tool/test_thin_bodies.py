@@ -24,7 +24,7 @@ def box(low, high):
 
 class ThinBodies(CommandTest):
     def write_off(self, name, bodies, turned=None):
-        """Writes an STL file. Each body has corners, triangles, and a flag for cavities."""
+        """Writes an OFF file. Each body has corners, triangles, and a flag for cavities."""
         points, triangles = [], []
         for corners, faces, is_cavity in bodies:
             first = len(points)

@@ -389,7 +389,7 @@ inline void write_mesh(pnpbs_mesh mesh, MPI_Comm comm, std::ostream& out) {
  *  Collective. Throws std::runtime_error on all ranks for a mesh without ghost elements on several
  *  ranks, negative tags, more nodes than HYPRE_BigInt counts, and closed surfaces without a volume:
  *  MFEM ends the program where a parallel mesh has no boundary elements. For an error of PNPBS,
- * such as a dead handle, it throws where that occurs.
+ *  such as a dead handle, it throws where that occurs.
  *  @param[in] mesh  with a ghost layer or more: pnpbs_mesh_create(placement, 1, &mesh)
  *  @param[in] comm  the communicator of the mesh's context */
 inline DistributedMesh make_mesh(pnpbs_mesh mesh, MPI_Comm comm) {

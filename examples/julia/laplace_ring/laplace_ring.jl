@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring 0.5
-# <= r <= 1 with u = log r on both circles, which is then the solution everywhere. The linear
+# A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring
+# 0.5 <= r <= 1 with u = log r on both circles, which is then the solution everywhere. The linear
 # finite element equations are assembled node by node: The row of a node comes from the triangles
 # of its Delaunay star alone. Every rank assembles the rows of its own nodes without a mesh file
 # and without a message. examples/c/laplace_ring is the same program in C, and says what to check.

@@ -84,8 +84,8 @@ class Body:
 
 
 def below_triangle(points, corners):
-    """Marks the points that lie above or below a triangle. The ends of a side are taken in one
-    order, so that both of its triangles compute the same sign for a point beside it."""
+    """Returns which points lie below a triangle. The ends of a side are taken in one order, so that
+    both of its triangles compute the same sign for a point beside it."""
     x, y = points[:, 0], points[:, 1]
     within = np.zeros(len(points), bool)
     for a, b in zip(corners, np.roll(corners, -1, 0)):

@@ -45,9 +45,9 @@ class Domain:
         return sorted(found, key=lambda loop: -abs(loop_area(self.vertices[loop])))
 
     def contains(self, points):
-        """Applies the even-odd rule to many points at once. Each segment toggles the points to its
-        left in the strip of heights that it spans. With points sorted by height a strip is a slice.
-        """
+        """Returns whether many points are inside, by the even-odd rule. Each segment toggles the
+        points to its left in the strip of heights that it spans. With points sorted by height a
+        strip is a slice."""
         order = np.argsort(points[:, 1], kind="stable")
         x, y = points[order].T
         inside = np.zeros(len(points), bool)

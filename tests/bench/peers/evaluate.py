@@ -103,8 +103,9 @@ class Mesh:
 
 
 def flat_on_boundary(points, triangles, domain):
-    """Marks degenerate triangles between nodes in a straight row of the boundary. Rounding gives
-    them a tiny height, and they are no part of a mesh. Flat triangles elsewhere are kept."""
+    """Returns which triangles are degenerate between nodes in a straight row of the boundary.
+    Rounding gives them a tiny height, and they are no part of a mesh. Flat triangles elsewhere are
+    kept."""
     corners = points[triangles]
     sides = np.hypot(*(corners - np.roll(corners, 1, 1)).transpose(2, 0, 1))
     longest = sides.max(1)

@@ -41,8 +41,8 @@ def edges_of(points, on_boundary, case):
 
 
 def followed(points, edges, length, on_boundary, case):
-    """Returns the edge lengths over the mean d at their ends, and the edges for which this ratio
-    differs most from 1."""
+    """Returns measures of edge lengths over the mean d at their ends, and the edge for which this
+    ratio differs most from 1."""
     d = case.spacing(points)[edges].mean(1)
     ratio = length / d
     at_boundary = on_boundary[edges].all(1)
@@ -70,7 +70,7 @@ def band_means(d, ratio):
 
 
 def sizes(points, edges, length, on_boundary, piece, case):
-    """Returns sizes of nodes, which are the mean lengths of their edges."""
+    """Returns measures of the nodes' sizes, which are the mean lengths of their edges."""
     count = np.bincount(edges.ravel(), minlength=len(points))
     size = np.bincount(edges.ravel(), np.repeat(length, 2), len(points)) / np.maximum(count, 1)
     growth = np.abs(size[edges[:, 0]] - size[edges[:, 1]]) / length
@@ -154,7 +154,7 @@ def gaps(case):
 
 
 def way_ahead(origin, ahead, own, pieces, inward):
-    """Returns the distance to the nearest of all pieces if it faces the ray's own piece, else
+    """Returns the distance along a ray to the nearest of all pieces if this piece faces the ray, else
     infinity."""
     a, sides = pieces[:, 0], pieces[:, 1:] - pieces[:, :1]
     matrix = np.concatenate([sides, np.broadcast_to(-ahead, (len(pieces), 1, len(ahead)))], 1)

@@ -46,7 +46,8 @@ class VolumeCase:
         return NODES_PER_CUBE * self.body.volume() * np.mean(self.spacing(grid) ** -3)
 
     def boundary_nodes(self):
-        """Integrates over the surface with evenly distributed points on each triangle."""
+        """Returns half the number of nodes on the surface, with evenly distributed points on each
+        triangle for the integral of 1 / d^2."""
         share = (np.arange(40) + 0.5) / 40
         u, v = (w.ravel()[:, None] for w in np.meshgrid(np.sqrt(share), share))
         a, b, c = self.body.vertices[self.body.triangles()].transpose(1, 0, 2)

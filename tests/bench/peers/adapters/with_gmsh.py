@@ -64,8 +64,8 @@ def field_from_loop(case, curves):
 
 
 def read_nodes(file, dimension):
-    """Yields number and coordinates of each node in a file of format 2.2. The file is then at the
-    elements."""
+    """Returns number and coordinates of each node in a file of format 2.2. The elements are next in
+    the file."""
     for line in file:
         if line.startswith("$Nodes"):
             break
