@@ -199,7 +199,7 @@ static int32_t binary_ramp(int64_t n, int32_t dim, const double* x, double* d, v
   return 0;
 }
 
-/* Interpolation of one value is exact to the bit, and d is constant beyond the grid. */
+/* A grid of equal values gives bitwise the same nodes as a constant callback. */
 START_TEST(a_grid_of_one_value) {
   const int64_t size[2] = {2, 1};
   const double origin[2] = {0.25, 0.5}, step[2] = {0.5, 1}, values[2] = {0.0625, 0.0625};

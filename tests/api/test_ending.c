@@ -64,7 +64,7 @@ static void destroy_job(job* it) {
 enum { ASKING = 3 };
 static atomic_int ready, ended;
 
-/* Makes queries until they fail. */
+/* Makes queries until Kokkos has ended. They may fail then. */
 static void* ask(void* unused) {
   job it = square_with_nodes("2", NULL);
   int64_t n = 0;

@@ -46,7 +46,7 @@ static int is_inside(const result* r, const char* bounds, double x, double y) {
   return inside;
 }
 
-/* Marks the boundary edges that have a gap of a star beside them. */
+/* Returns which boundary edges have a gap of a star beside them. */
 static char* bounding_edges(const result* r) {
   char* bounds = calloc((size_t)r->edges + 1, 1);
   int64_t e, k;

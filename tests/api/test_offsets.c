@@ -36,8 +36,8 @@ typedef struct {
 static const plane_body plane_bodies[] = {
     {add_square, 1, 4, 4, 0}, {add_l, 3, 8, 5, 1}, {add_square_with_hole, 0.84, 5.6, 4, 4}};
 
-/* Returns the area of the points inside that are within h of the boundary, or of those outside for
- * h > 0. It consists of straight strips, which overlap or are joined by arcs at corners. */
+/* Returns the area of the body enlarged by h, or reduced by -h for h < 0. The difference consists
+ * of straight strips, which overlap or are joined by arcs at corners. */
 static double area_within(const plane_body* it, double h) {
   const int sharp = h < 0 ? it->convex : it->reentrant, round = h < 0 ? it->reentrant : it->convex;
   const double strips = it->around * fabs(h) - sharp * h * h + round * PI / 4 * h * h;

@@ -429,7 +429,7 @@ static const char* last_warning(pnpbs_placement placement) {
   return text;
 }
 
-/* After one step far too few nodes for d remain, and nothing compensates for this. */
+/* Without steps the given nodes remain, which are far too few for d. */
 START_TEST(missed_spacing_is_told) {
   job it = square_job(1);
   double xy[2 * 400];

@@ -73,7 +73,7 @@ static void centre(const elements* e, int64_t k, double* x) {
   }
 }
 
-/* Checks that the distributed mesh has the same tags, whatever its order. */
+/* Checks that the distributed mesh has the same number of elements with the tag. */
 static void check_mesh(const job* it, const elements* e, int32_t tag) {
   pnpbs_mesh mesh;
   int64_t n, k, with_tag = 0, expected = 0;
@@ -138,7 +138,7 @@ START_TEST(strips_and_a_disc) {
 }
 END_TEST
 
-/* Only three nodes lie on the disc. */
+/* Only three nodes lie on the circle. */
 START_TEST(disc_that_d_does_not_resolve) {
   const double middle[2] = {0, 0}, r = 0.3;
   job it = job_begin();

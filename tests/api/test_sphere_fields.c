@@ -628,8 +628,8 @@ START_TEST(points_all_over_the_sphere) {
 }
 END_TEST
 
-/* The points cover a part of the sphere, and then one set stands for all of it. The length of the
- * coordinates has no effect. */
+/* The points cover a part of the sphere. Then a single point defines d on all of it. The length of
+ * the coordinates has no effect. */
 START_TEST(points_in_a_part) {
   double degrees[2 * 50], x[3 * 50], d[50];
   job it = globe_from(20, -30);

@@ -194,7 +194,7 @@ static void check_again(const job* it, double d) {
   volume_free(&v);
 }
 
-/* The spacing becomes finer and then coarser. d is given by values at the current nodes. */
+/* The spacing becomes finer and then coarser. At last d is given by values at the current nodes. */
 START_TEST(another_spacing) {
   job it = surfaces_job(surface_halves, 0.2);
   double* d;

@@ -149,7 +149,7 @@ START_TEST(misspelt_options) {
 }
 END_TEST
 
-/* The same values are accepted by a placement. */
+/* A placement accepts the same options except `threads`. */
 START_TEST(options_of_a_placement) {
   job it = square_job(1);
   const option row = option_at(_i);

@@ -624,7 +624,8 @@ START_TEST(fills_count_as_inserted) {
 }
 END_TEST
 
-/* The given nodes form a cubic lattice, half of which lies outside. The nodes keep their ids. */
+/* The given nodes form a cubic lattice, more than half of which lies outside. The nodes keep their
+ * ids. */
 START_TEST(given_nodes) {
   enum { ROW = 12, ALL = ROW * ROW * ROW };
   double* xyz = malloc(3 * ALL * sizeof *xyz);
@@ -698,7 +699,7 @@ static int64_t id_at(const volume* v, double x, double y, double z) {
   return -1;
 }
 
-/* d is halved in a corner and larger elsewhere. */
+/* d becomes smaller in a corner and larger elsewhere. */
 START_TEST(another_spacing) {
   struct volume_spacing corner = VOLUME_GRADED(0.07, 0.08, 1, 1, 1);
   job it = box_job(0.1);
