@@ -26,7 +26,7 @@ from PIL import Image
 
 
 class Piece:
-    """One file: points [n, 2], triangles [m, 3], fields {name: [n]}, rank."""
+    """A piece from one file: points [n, 2], triangles [m, 3], fields {name: [n]}, rank."""
 
     def __init__(self, path):
         number = re.search(r"(\d+)\.vtk$", path)
@@ -67,7 +67,7 @@ class Piece:
             self.next()
         elif keyword == "SCALARS":
             name, _ = self.next(), self.next()
-            if self.next() != "LOOKUP_TABLE":  # the number of components may stand before
+            if self.next() != "LOOKUP_TABLE":  # the number of components may precede it
                 self.next()
             self.next()
             self.fields[name] = self.numbers(len(self.points))
@@ -76,7 +76,7 @@ class Piece:
 
 
 def colours_of_ranks(pieces):
-    """A scale with one colour for each rank."""
+    """Returns a colour scale with one colour for each rank."""
     ranks = max(piece.rank for piece in pieces) + 1
     colours = plt.get_cmap("tab10" if ranks <= 10 else "tab20")
     scale = ListedColormap([colours(r % colours.N) for r in range(ranks)])
@@ -87,7 +87,8 @@ def colours_of_field(pieces, field, limits, log):
     values = np.concatenate([piece.fields[field][np.unique(piece.triangles)] for piece in pieces])
     low, high = limits or (values.min(), values.max())
     if log:
-        low = max(low, 1e-4 * high)  # what is smaller shows as this; zero has no logarithm
+        # Smaller values have the same colour, as zero has no logarithm.
+        low = max(low, 1e-4 * high)
         return plt.get_cmap("viridis"), LogNorm(low, high)
     return plt.get_cmap("viridis"), Normalize(low, high)
 

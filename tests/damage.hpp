@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files damaged at random, the same for the same seed with every standard library.
+// Random damage to files. The result depends on the seed only and not on the standard library.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-// How much damage, and which, is asked for by hand.
+// Returns the integer in an environment variable, or `otherwise` if it is not set. Users can choose
+// the amount and the seed of the damage with it.
 inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
   return text ? std::strtoull(text, nullptr, 10) : otherwise;
@@ -27,14 +28,14 @@ class Damage {
     return text;
   }
 
-  // The same for a file that is no text.
+  // Returns the bytes of a binary file with damage.
   std::string to_bytes(std::string bytes) {
     for (std::size_t hits = 1 + below(6) / 4; hits > 0; --hits) bytes = hit_bytes(std::move(bytes));
     return bytes;
   }
 
  private:
-  // Not std::uniform_int_distribution: its numbers differ between standard libraries.
+  // The numbers of std::uniform_int_distribution differ between standard libraries.
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
 
   std::string hit(std::string text) {
@@ -80,12 +81,13 @@ class Damage {
     }
   }
 
-  // Of the numbers that four bytes can be: integers and floats, infinite ones and none.
+  // Replaces four bytes by an extreme integer or float, an infinity or NaN.
   std::string with_an_extreme(std::string bytes, std::size_t begin) {
     static constexpr std::array<std::uint32_t, 9> extremes{
         0, 1, 0x7fffffff, 0x80000000, 0xffffffff, 0x7f800000, 0xff800000, 0x7fc00000, 0x7f7fffff};
     std::uint32_t bits = extremes[below(extremes.size())];
-    if (below(4) == 0) begin = bytes.size() > 80 ? 80 : 0;  // where an STL has its count
+    // Position of the count in an STL file.
+    if (below(4) == 0) begin = bytes.size() > 80 ? 80 : 0;
     for (std::size_t k = begin; k < std::min(begin + 4, bytes.size()); ++k, bits >>= 8)
       bytes[k] = static_cast<char>(bits & 0xff);
     return bytes;
@@ -150,7 +152,7 @@ class Damage {
     return text.replace(begin, end - begin, words[below(words.size())]);
   }
 
-  // Mostly harmless to the format, but not to the geometry.
+  // This is mostly valid for the format, but not for the geometry.
   std::string with_a_digit_replaced(std::string text) {
     const std::size_t at = text.find_first_of("0123456789", below(text.size()));
     if (at != std::string::npos) text[at] = static_cast<char>('0' + below(10));

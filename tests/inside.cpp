@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nothing: its precompiled header is what tests of the inside use (CMakeLists.txt).
+// This file is empty. Internal tests use its precompiled header (CMakeLists.txt).

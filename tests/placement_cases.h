@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * The cases that the programs over MPI_COMM_WORLD share: graded-square, uniform-square,
- * jump-square, steep-square (by a fifth of the distance), ring (a disk with a hole, from which d
- * grows, and with inner curves), even-cube, graded-cube (1:10 from a corner), or a .poly file
- * (graded), with spacings that a scale multiplies; of the steep one, that at the point. */
+ * jump-square, steep-square (slope 0.2), ring (a disk with a hole, from which d grows, and with
+ * inner curves), even-cube, graded-cube (1:10 from a corner), or a .poly file (graded). A scale
+ * multiplies the spacings; in the steep case it multiplies the spacing at the point. */
 #ifndef PNPBS_PLACEMENT_CASES_H
 #define PNPBS_PLACEMENT_CASES_H
 
@@ -13,7 +13,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Grows from a point on, in space from one with z = 0; something else right of a line. */
+/* A spacing that grows from a point, in space from one with z = 0. Right of a line it has another
+ * value. */
 struct case_spacing {
   double constant, slope, x, y, line, beyond;
 };
@@ -49,8 +50,8 @@ static void case_add_ring(pnpbs_context context, pnpbs_domain domain) {
   case_check(context, pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 3, hook, NULL, 0), "hook");
 }
 
-/* A placement of the case, with the options in `settings` ("key=value", cut in two). `spacing` must
- * stay as long as the placement. */
+/* Creates a placement of the case with the options in `settings`. Each is "key=value", which this
+ * function splits in place. `spacing` must outlive the placement. */
 static pnpbs_placement case_placement(pnpbs_context context, const char* name, double scale,
                                       int count, char** settings, struct case_spacing* spacing) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};

@@ -2,8 +2,9 @@
 # The tests that the configurations of scripts/test.sh select, as regular expressions of their names. A
 # test's selections are labels of ctest, and the target pnpbs-<selection>-tests builds what they run.
 
-# What finds most faults in the shortest time: every module, every language, one and several ranks, the
-# documentation's commands, the record of the binary interface, exported symbols, an installed copy.
+# The tests that find most faults in the shortest time. They cover every module, every language, one
+# and several ranks, the documentation's commands, the record of the binary interface, the exported
+# symbols, and an installed copy.
 set(PNPBS_TESTS_OF_quick
     # kernels and data structures
     available_memory best_round boundary_topology cell_quality cholesky defects sized_tree domain_rule
@@ -43,7 +44,7 @@ set(PNPBS_TESTS_OF_quick
     docs_page_mpi docs_page_place_nodes docs_page_readme
     packaging_recipes)
 
-# What a build without MPI, on a shared Kokkos and with the static library can change.
+# The tests of what a build without MPI, on a shared Kokkos and with the static library, can change.
 set(PNPBS_TESTS_OF_no-mpi linkage_.* install_.* api_arguments api_contexts api_files api_first_contexts
                           api_handles api_small api_threads api_volumes geo_reading fortran_library
                           fortran_placement fortran_stop julia_installed julia_package python_package python_wheel)

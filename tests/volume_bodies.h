@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Bodies of each kind, and spacings in them, that the tests of placements in space share.
- */
+ * Bodies of each kind, and spacings in them, that the tests of placements in space share. */
 #ifndef PNPBS_VOLUME_BODIES_H
 #define PNPBS_VOLUME_BODIES_H
 
@@ -12,13 +11,13 @@
 
 /* ---------------------------------------------------------------- bodies ---------------- */
 
-/* `data` is the folder of the examples' bodies. */
+/* Adds a body to the domain. `data` is the folder of the examples' bodies. */
 typedef pnpbs_status (*volume_body)(pnpbs_domain domain, const char* data);
 
 enum { VOLUME_MAX_TRIANGLES = 64 };
 
-/* Four corners each, counter-clockwise as seen from outside; three of them for a triangle, the
- * fourth again the first. */
+/* Adds quadrilaterals with four corners each, counter-clockwise seen from outside. A triangle
+ * repeats its first corner as the fourth. */
 static inline pnpbs_status volume_add_quads(pnpbs_domain domain, int32_t role, int64_t vertices,
                                             const double* xyz, int quads, const int (*corners)[4]) {
   int64_t triangles[VOLUME_MAX_TRIANGLES][3];
@@ -39,7 +38,7 @@ static inline pnpbs_status volume_unit_box(pnpbs_domain domain, const char* data
   return pnpbs_domain_add_box(domain, low, high, 1);
 }
 
-/* The unit box around a thin slot of nothing. */
+/* The unit box around a thin cavity. */
 static inline pnpbs_status volume_slotted(pnpbs_domain domain, const char* data) {
   const double low[] = {0.48, 0.3, 0.3}, high[] = {0.52, 0.7, 0.7};
   const pnpbs_status status = volume_unit_box(domain, data);
@@ -54,7 +53,7 @@ static inline pnpbs_status volume_unit_ball(pnpbs_domain domain, const char* dat
 
 enum { GLOBE_ROWS = 12, GLOBE_TRIANGLES = 8 * GLOBE_ROWS * GLOBE_ROWS };
 
-/* On the sphere above place (i, j) of a side of an octahedron. */
+/* Computes the point of the sphere above point (i, j) of a side of an octahedron. */
 static inline void volume_globe_corner(const double* centre, double radius, int octant, int i,
                                        int j, double* xyz) {
   const double side[] = {(double)i, (double)j, (double)(GLOBE_ROWS - i - j)};
@@ -64,7 +63,7 @@ static inline void volume_globe_corner(const double* centre, double radius, int 
     xyz[k] = centre[k] + (octant >> k & 1 ? -1 : 1) * radius * side[k] / length;
 }
 
-/* A coarse globe: an octahedron of which every side is cut into small triangles. The lower half
+/* Adds a coarse globe: an octahedron whose sides are divided into small triangles. The lower half
  * has a tag of its own. */
 static inline pnpbs_status volume_add_halves(pnpbs_domain domain, const double* centre,
                                              double radius, int32_t upper, int32_t lower) {
@@ -97,8 +96,9 @@ static inline pnpbs_status volume_globe(pnpbs_domain domain, const char* data) {
   return volume_add_globe(domain, centre, 1);
 }
 
-/* The corners of the triangles of a globe with bumps and dents, the deeper and narrower the larger
- * these two are; returns how many there are. Room is for 3 * GLOBE_TRIANGLES. */
+/* Computes the corners of the triangles of a globe with bumps and dents, whose depth and number
+ * grow with the first two arguments. Returns the number of corners. xyz has room for 3 *
+ * GLOBE_TRIANGLES. */
 static inline int64_t volume_rough_globe_corners(double depth, double waves, double (*xyz)[3]) {
   static const double centre[] = {0, 0, 0};
   int octant, i, j, up, k;
@@ -128,7 +128,7 @@ static inline pnpbs_status volume_add_rough_globe(pnpbs_domain domain, double de
   return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, n, xyz[0], n / 3, corners[0], NULL, 40);
 }
 
-/* Where angles are small at d = 0.4, nearly everywhere. */
+/* A globe with small angles nearly everywhere at d = 0.4. */
 static inline pnpbs_status volume_rough_globe(pnpbs_domain domain, const char* data) {
   (void)data;
   return volume_add_rough_globe(domain, 0.5, 8);
@@ -152,14 +152,14 @@ static inline pnpbs_status volume_l_block(pnpbs_domain domain, const char* data)
   return volume_add_quads(domain, PNPBS_BOUNDARY, 12, xyz[0], 14, sides);
 }
 
-/* The unit box around a globe of nothing. */
+/* The unit box around a spherical cavity. */
 static inline pnpbs_status volume_cavity(pnpbs_domain domain, const char* data) {
   const double centre[] = {0.45, 0.5, 0.55};
   const pnpbs_status status = volume_unit_box(domain, data);
   return status < 0 ? status : volume_add_globe(domain, centre, 0.25);
 }
 
-/* Two unit boxes side by side, and the wall between them. */
+/* Two unit boxes side by side with the wall between them. */
 static inline pnpbs_status volume_two_halves(pnpbs_domain domain, const char* data) {
   const double around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const int sides[10][4] = {{0, 1, 5, 4}, {1, 2, 6, 5},  {2, 3, 7, 6},   {3, 0, 4, 7},
@@ -179,8 +179,8 @@ static inline pnpbs_status volume_two_halves(pnpbs_domain domain, const char* da
   return status < 0 ? status : volume_add_quads(domain, PNPBS_INNER, 4, xyz[4], 1, wall);
 }
 
-/* A ring about the z axis, by the distance to it. Its box is so that no plane of it is a lattice
- * plane. */
+/* A ring about the z axis as a level set of the distance to it. The planes of its box are not
+ * lattice planes. */
 static inline int32_t volume_ring_at(int64_t n, int32_t dim, const double* x, double* f,
                                      void* user) {
   int64_t i;
@@ -217,7 +217,7 @@ static inline pnpbs_status volume_eros(pnpbs_domain domain, const char* data) {
 
 /* ---------------------------------------------------------------- surfaces alone -------- */
 
-/* Nodes on the equator, where the tags meet. */
+/* A sphere as a surface of two halves. Nodes lie on the equator, where the tags meet. */
 static inline pnpbs_status surface_halves(pnpbs_domain domain, const char* data) {
   const double centre[] = {0, 0, 0};
   const pnpbs_status status = pnpbs_domain_set_filled(domain, 0);
@@ -258,7 +258,7 @@ static inline pnpbs_status surface_terrain(pnpbs_domain domain, const char* data
                                   40);
 }
 
-/* A skin with creases. */
+/* The surface of the L-shaped block, with creases. */
 static inline pnpbs_status surface_l_block(pnpbs_domain domain, const char* data) {
   const pnpbs_status status = pnpbs_domain_set_filled(domain, 0);
   return status < 0 ? status : volume_l_block(domain, data);
@@ -270,8 +270,9 @@ static inline pnpbs_status surface_kleopatra(pnpbs_domain domain, const char* da
 
 /* ---------------------------------------------------------------- spacings -------------- */
 
-/* Grows from a point, a line or a plane: a coordinate of it that is nan does not count. Something
- * else beyond an x. From + - * / and square roots alone, which have the same bits everywhere. */
+/* A spacing that grows from a point, a line or a plane: Coordinates of `from` that are nan do not
+ * count. Beyond an x it has another value. It uses only + - * / and square roots, which have the
+ * same bits everywhere. */
 struct volume_spacing {
   double constant, slope, from[3];
   double beyond_x, there;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Small placements in space that the tests share: bodies of each kind, with constant and graded
- * spacing.
- */
+ * spacing. */
 #ifndef PNPBS_VOLUME_CASES_H
 #define PNPBS_VOLUME_CASES_H
 
@@ -14,7 +13,7 @@ struct volume_case {
   struct volume_spacing spacing;
 };
 
-/* Up to some 10 000 nodes each; graded ones from 1 to 5. */
+/* Each case has up to about 10 000 nodes. d of the graded ones varies by a factor of 5. */
 static const struct volume_case volume_cases[] = {
     {"box", volume_unit_box, VOLUME_CONSTANT(0.07)},
     {"box-graded", volume_unit_box, VOLUME_GRADED(0.022, 0.1, 0.5, 0.5, 0.5)},
@@ -33,7 +32,7 @@ static const struct volume_case volume_cases[] = {
     {"kleopatra-graded", volume_kleopatra, VOLUME_GRADED(2, 0.08, 100, 0, 0)},
     {"eros", volume_eros, VOLUME_CONSTANT(0.05)},
     {"eros-graded", volume_eros, VOLUME_GRADED(0.018, 0.08, 0, 0.1, 0)},
-    {"slotted", volume_slotted, VOLUME_CONSTANT(0.12)}, /* coarser than the slot is wide */
+    {"slotted", volume_slotted, VOLUME_CONSTANT(0.12)}, /* d is larger than the width of the slot */
     {"surface-halves", surface_halves, VOLUME_CONSTANT(0.05)},
     {"surface-terrain", surface_terrain, VOLUME_GRADED(0.02, 0.03, 0.5, 0, 0)},
     {"surface-l-block", surface_l_block, VOLUME_CONSTANT(0.05)},

@@ -1320,8 +1320,8 @@ contains
                   errmsg)
   end subroutine
 
-  ! Minus infinity, for which Fortran has no literal, for the numbers that stand for it. This is a
-  ! function of its own because a procedure that uses the module saves and restores the
+  ! Returns minus infinity, for which Fortran has no literal, for the numbers that stand for it.
+  ! This is a separate function because a procedure that uses the module saves and restores the
   ! floating-point status, which must not happen around callbacks.
   function lower_limit(low)
     use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_value
@@ -1422,7 +1422,7 @@ contains
     call conclude('domain%shape_spacing', status, stat, errmsg, given)
   end subroutine
 
-  ! Refuses places of another dimension, and as many values as there are not places.
+  ! Rejects points of another dimension, and values whose number differs from that of the points.
   subroutine check_places(self, coordinates, values, name, given)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -1611,7 +1611,7 @@ contains
     call conclude('placement%set_spacing_grid', status, stat, errmsg, given)
   end subroutine
 
-  ! Refuses values of another dimension, and grids that do not say where all their points are.
+  ! Rejects values of another dimension, and grids whose origin or step has the wrong size.
   subroutine check_grid(self, origins, steps, rank_of_values, given)
     class(pnpbs_placement), intent(in) :: self
     integer, intent(in) :: origins, steps, rank_of_values
@@ -1696,7 +1696,7 @@ contains
     call conclude('placement%set_spacing_file', status, stat, errmsg)
   end subroutine
 
-  ! Refuses points of another dimension, and values that are not theirs.
+  ! Rejects points of another dimension, and values whose number differs from that of the points.
   subroutine check_field(self, coordinates, d, given)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:), d(:)
@@ -3004,7 +3004,8 @@ contains
     integer, intent(in) :: components
     type(arguments), intent(inout) :: given
     integer(c_int32_t) :: dim, right
-    if (c_transfer_sizes(self%c, dim, right) < 0) return ! which the call that follows finds, too
+    ! The call that follows returns this error.
+    if (c_transfer_sizes(self%c, dim, right) < 0) return
     call given%check_rows('values', components, int(right))
   end subroutine
 
@@ -3868,8 +3869,8 @@ contains
     if (present(feature_angle)) value = feature_angle
   end function
 
-  ! The dimension of a domain or placement. That a handle is dead counts more than what is wrong
-  ! with arrays.
+  ! Returns the dimension of a domain or placement. A dead handle takes precedence over errors in
+  ! arrays.
   function dimension_of(object, given) result(dim)
     class(*), intent(in) :: object
     type(arguments), intent(inout) :: given
@@ -3888,7 +3889,7 @@ contains
     dim = found
   end function
 
-  ! 2 for triangles, also on a sphere.
+  ! Returns the dimension of the triangles or tetrahedra: 2 for triangles, also on a sphere.
   function extent_of_elements(placement, given) result(extent)
     class(pnpbs_placement), intent(in) :: placement
     type(arguments), intent(inout) :: given
@@ -3899,7 +3900,8 @@ contains
     if (radius > 0) extent = 2
   end function
 
-  ! 0 if the placement is dead, which the call that follows finds, too.
+  ! Returns the number of nodes, or 0 if the placement is dead; the call that follows returns this
+  ! error.
   function nodes_of(placement) result(nodes)
     type(c_ptr), intent(in) :: placement
     integer(c_int64_t) :: nodes

@@ -10,12 +10,12 @@ module pnpbs_calls
   private
   public :: arguments, texts, conclude, text_of, c_text, count_from_one, integer_of, pointer_of
 
-  !> The room in an absent array.
+  !> The number of elements that is assumed for an absent array.
   integer(c_int64_t), parameter :: unlimited = huge(0_c_int64_t)
 
   !> The arguments of one call, and the first error in them. On several ranks the call must be made
-  !> even after an error, or the other ranks would wait forever: it is made with a capacity of -1,
-  !> which the library rejects on all of them.
+  !> even after an error, or the other ranks would wait forever. It is then made with a capacity of
+  !> -1, which the library rejects on all of them.
   type :: arguments
     private
     integer(c_int) :: status = PNPBS_OK
@@ -42,7 +42,8 @@ module pnpbs_calls
     procedure, private :: check_neighbours_in_memory
   end type
 
-  !> Texts for C, without trailing blanks, by their addresses. A variable of it is a target.
+  !> Texts for C without trailing blanks, and their addresses. A variable of this type must be a
+  !> target.
   type :: texts
     type(c_ptr), allocatable :: addresses(:)
     character(kind=c_char), allocatable, private :: characters(:)
@@ -50,7 +51,7 @@ module pnpbs_calls
     procedure :: put
   end type
 
-  ! The address of arrays without elements: present, but without room.
+  ! The address that stands for arrays without elements, which are present but empty.
   integer(c_int64_t), target, save :: nothing = 0
 
   !> Converts indices and offsets of C, from 0, to those of Fortran, from 1.
@@ -72,10 +73,10 @@ contains
 
   ! ------------------------------------------------------------ status ------------------------
 
-  !> Concludes every call of a procedure. With stat the program continues: stat is set to the
-  !> status, and errmsg, if present, to the message of an error (otherwise it is unchanged). Without
-  !> stat, an error stops the program, and the message begins with the procedure's name. The message
-  !> of an error is the last one of libpnpbs, or said, the last one of another library.
+  !> Ends every call of a procedure. With stat the program continues: stat is set to the status, and
+  !> errmsg, if present, to the message of an error (otherwise it is unchanged). Without stat an
+  !> error stops the program, and the message begins with the procedure's name. The message of an
+  !> error is the last one of libpnpbs, or `said`, the last one of another library.
   subroutine conclude(procedure_name, status, stat, errmsg, given, said)
     character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
@@ -107,7 +108,8 @@ contains
     end if
   end subroutine
 
-  ! stat is of either kind, for code compiled with eight-byte default integers.
+  ! Sets stat, an integer of four or eight bytes, as code may be compiled with eight-byte default
+  ! integers.
   subroutine tell(procedure_name, status, stat)
     character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
@@ -122,7 +124,7 @@ contains
     end select
   end subroutine
 
-  ! Not "stop <text>", which ends with status 0.
+  ! Prints a message and ends the program with status 1. "stop <text>" would end it with status 0.
   subroutine give_up(message)
     character(len=*), intent(in) :: message
     write (error_unit, '(2a)') 'pnpbs: ', message
@@ -131,7 +133,7 @@ contains
 
   ! ------------------------------------------------------------ texts -------------------------
 
-  !> Copies a text of the library.
+  !> Copies a C string of the library.
   function text_of(c) result(text)
     type(c_ptr), intent(in) :: c
     character(len=:), allocatable :: text
@@ -204,7 +206,7 @@ contains
 
   ! ------------------------------------------------------------ arguments ---------------------
 
-  !> Records an error; the first one is kept.
+  !> Records an error; only the first one is kept.
   subroutine refuse(self, status, message)
     class(arguments), intent(inout) :: self
     integer(c_int), intent(in) :: status
@@ -364,7 +366,7 @@ contains
       call self%check_neighbours_in_memory(name, address, c_loc(array(1, 2)), 8 * rows)
   end subroutine
 
-  ! Pairs of points, (rows, 2, room).
+  ! Places pairs of points, whose shape is (rows, 2, room).
   subroutine place_real_pairs(self, name, array, rows, address, room)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -441,7 +443,7 @@ contains
     call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
   end subroutine
 
-  ! C sees only contiguous arrays.
+  ! Rejects an array that is not contiguous, as C needs contiguous arrays.
   subroutine check_neighbours_in_memory(self, name, first, second, bytes)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name

@@ -424,7 +424,7 @@ contains
     call conclude('grid%' // called, status, stat, errmsg, given, pnpbs_geo_last_error())
   end subroutine
 
-  ! By one of the functions of C between degrees and x, y.
+  ! Converts coordinates by one of the C functions between degrees and x, y.
   subroutine converted(called, convert, self, coordinates, stat, errmsg)
     character(len=*), intent(in) :: called
     procedure(c_geo_to_degrees) :: convert
@@ -450,7 +450,7 @@ contains
     call conclude('shapes%' // called, status, stat, errmsg, given, pnpbs_geo_last_error())
   end subroutine
 
-  ! Absent arguments are '' in C.
+  ! Returns a text for C, which is empty if the argument is absent.
   function given_text(text) result(c)
     character(len=*), intent(in), optional :: text
     character(kind=c_char, len=:), allocatable :: c

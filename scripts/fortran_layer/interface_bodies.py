@@ -7,7 +7,7 @@ from declarations import description, result_type, with_fortran_shapes
 
 
 def declaration_lines(declarations):
-    """Returns one line per declaration; consecutive ones that differ only in their names share a
+    """Yields one line per declaration; consecutive ones that differ only in their names share a
     line."""
     groups = []
     for one in declarations:

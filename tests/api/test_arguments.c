@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Bad arguments, one by one: the status, a message that names the argument and its value, outputs
- * as they were, and objects that are as good as before.
- */
+ * Tests of invalid arguments, one by one. A call must return the right status and a message that
+ * names the argument and its value. Outputs and objects must stay unchanged. */
 #include <limits.h>
 
 #include "api_support.h"
@@ -10,7 +9,7 @@
 #define N NAN
 #define I HUGE_VAL
 
-static job it; /* what the calls are made on */
+static job it; /* the objects that the calls use */
 static int32_t curve_answer;
 static double curve_x;
 
@@ -25,7 +24,7 @@ static int32_t curve(int64_t n, int32_t dim, const double* t, double* xy, void* 
   return curve_answer;
 }
 
-/* Where outputs go; see check_outputs. */
+/* Memory for the outputs of the calls; see check_outputs. */
 static union {
   double reals[64];
   int64_t integers[64];
@@ -59,7 +58,7 @@ static void refuse(const row* r, pnpbs_status status) {
   ck_assert_msg(strstr(MESSAGE(), r->first) != NULL && strstr(MESSAGE(), r->second) != NULL,
                 "line %d: %s: no \"%s\" or no \"%s\" in the message \"%s\"", r->line, r->text,
                 r->first, r->second, MESSAGE());
-  /* The context has the same message. */
+  /* The context holds the same message as the thread. */
   ck_assert_str_eq(pnpbs_last_error(it.context), MESSAGE());
   check_outputs(r->text);
 }
@@ -71,7 +70,7 @@ static void refuse(const row* r, pnpbs_status status) {
     refuse(&r, (call));                                                   \
   } while (0)
 
-/* Those without a context. */
+/* Checks a failing call that involves no context. */
 #define REFUSE_ANYWHERE(status, first, second, call)      \
   do {                                                    \
     prepare_outputs();                                    \
@@ -88,7 +87,7 @@ static void set_up(void) {
 
 static void tear_down(void) {
   double area = 0;
-  /* Nothing has changed by all the errors. */
+  /* None of the errors has changed the objects. */
   MUST(pnpbs_domain_measure(it.domain, &area));
   ck_assert_double_eq(area, 1);
   check_placement(it.placement, 1);
@@ -404,7 +403,7 @@ START_TEST(given_nodes) {
   REFUSE(ARGUMENT, "coordinates[1]", "inf", pnpbs_placement_set_nodes(p, 2, bad, NULL));
   REFUSE(ARGUMENT, "ids[1]", "-8", pnpbs_placement_set_nodes(p, 2, xy, below));
   REFUSE(ARGUMENT, "ids", "7", pnpbs_placement_set_nodes(p, 2, xy, same));
-  /* No number would be left for new nodes. */
+  /* An id of this size would leave no ids for new nodes. */
   REFUSE(ARGUMENT, "ids[1]", "9223372036854775807", pnpbs_placement_set_nodes(p, 2, xy, last));
 }
 END_TEST
@@ -513,7 +512,7 @@ END_TEST
 
 /* ---------------------------------------------------------------- states ---------------- */
 
-/* Before there are nodes, and before there is a spacing. */
+/* Calls that need nodes fail before there are any, and runs fail before a spacing is set. */
 START_TEST(nothing_yet) {
   job empty = square_job(1);
   pnpbs_placement p = empty.placement;
@@ -581,7 +580,7 @@ START_TEST(domains_that_are_none) {
 }
 END_TEST
 
-/* The message of a context stays its own. */
+/* Each context keeps its own last message. */
 START_TEST(last_errors) {
   job one = square_job(1), other = square_job(1);
   char first[200];
@@ -593,7 +592,7 @@ START_TEST(last_errors) {
   ck_assert_str_eq(pnpbs_last_error(one.context), first);
   ck_assert_ptr_nonnull(strstr(pnpbs_last_error(other.context), "d = -1"));
   ck_assert_str_eq(pnpbs_last_error(NULL), pnpbs_last_error(other.context));
-  /* A success does not wipe it out. */
+  /* A successful call does not delete the message. */
   MUST(pnpbs_placement_set_spacing_constant(other.placement, 1));
   ck_assert_ptr_nonnull(strstr(pnpbs_last_error(other.context), "d = -1"));
   job_end(&one);
@@ -636,7 +635,7 @@ START_TEST(versions) {
 }
 END_TEST
 
-/* No MPI runs here, so there is none to take a communicator from. */
+/* MPI is not initialised in this test, so a communicator is rejected. */
 START_TEST(no_mpi) {
   pnpbs_context context = (pnpbs_context)(void*)&context;
   const pnpbs_status expected =

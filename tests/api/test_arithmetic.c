@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Hosts that round, trap or flush their own way get the same nodes, and their way back; their
- * callbacks compute by their own rules.
- */
+ * Tests of hosts that change the rounding mode, floating-point traps or flush-to-zero mode. They
+ * get the same nodes and their own mode back, and callbacks run in the mode of the host. */
 #define _GNU_SOURCE
 #include <fenv.h>
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * d is followed wherever it comes from: the mean edge is d in every band of d, not only over all.
- * A force that leaves stress crushes what is coarse beside a fine line to half of its d, which a
- * mean over all edges, or a spacing that grows from a point, does not show.
- */
+ * Tests that the mean edge length equals d in every band of d, whatever the spacing's source. A
+ * force that leaves residual stress compresses the coarse part beside a fine line to half of its d.
+ * Neither a mean over all edges nor a spacing that grows from a point shows this. */
 #include "api_support.h"
 
 typedef struct {
@@ -34,7 +33,8 @@ static int32_t graded_spacing(int64_t n, int32_t dim, const double* xyz, double*
 
 enum { BANDS = 8, FEWEST = 200 };
 
-/* Over the edges of all triangles with an end inside; those within the domain come twice. */
+/* Compares the mean of edge length over d with 1 in each band. It counts the edges of all triangles
+ * that have an inner end, so that edges inside the domain count twice. */
 static void expect_bands_at_d(const result* r, const graded* g, double tolerance) {
   double sum[BANDS] = {0}, count[BANDS] = {0};
   const double width = log(g->coarse / g->fine) / BANDS;
@@ -72,7 +72,7 @@ START_TEST(the_mean_edge_is_d_in_every_band) {
     MUST_COMPUTE(pnpbs_placement_run(it.placement));
     r = result_of(it.placement);
     check_result(&r, 1);
-    expect_bands_at_d(&r, &cases[k], 0.015); /* 0.01, and what some hundred edges scatter */
+    expect_bands_at_d(&r, &cases[k], 0.015); /* 0.01, plus the scatter of some hundred edges */
     result_free(&r);
     job_end(&it);
   }
@@ -88,8 +88,8 @@ static int32_t jump(int64_t n, int32_t dim, const double* xyz, double* d, void* 
   return 0;
 }
 
-/* Nodes that d asks for in the unit square, 2 / sqrt(3) per d^2, where it jumps at x = 0.503 and
- * grows by g beside it. */
+/* Returns the number of nodes that d demands in the unit square, which is 2 / sqrt(3) per d^2. d
+ * jumps at x = 0.503 and grows with slope g beside it. */
 static double nodes_beside_jump(double fine, double g) {
   const double far = fine + g * (1 - 0.503);
   return 2 / sqrt(3.) * (0.503 / (fine * fine) + (1 / fine - 1 / far) / g);
@@ -107,7 +107,7 @@ static int warnings_with(pnpbs_placement placement, const char* words) {
   return found;
 }
 
-/* The x of the place that the warning tells. */
+/* Returns the x coordinate of the point that the warning names. */
 static double steep_at(pnpbs_placement placement) {
   int32_t warnings = 0, k;
   double x = NAN;
@@ -121,8 +121,8 @@ static double steep_at(pnpbs_placement placement) {
   return x;
 }
 
-/* Nodes cannot follow a jump, so by default d grows beside it as they can follow, and a warning
- * tells the place. */
+/* Nodes cannot follow a jump of d. By default the growth of d is limited beside it, and a warning
+ * names the point. */
 START_TEST(a_jump_is_limited) {
   static double fine[] = {0.01, 0.004};
   job it = square_job(1);
@@ -149,7 +149,7 @@ START_TEST(a_jump_is_limited) {
 }
 END_TEST
 
-/* Another limit is the user's request, and none, too: the warning says what that means. */
+/* The user can set another growth limit, or none. The warning explains the effect. */
 START_TEST(a_jump_as_the_user_wants_it) {
   static double fine = 0.01;
   job it = square_job(1);
@@ -169,7 +169,7 @@ START_TEST(a_jump_as_the_user_wants_it) {
 }
 END_TEST
 
-/* What grows slowly stays as it is given, to the last bit. */
+/* A spacing that grows slowly is used unchanged, to the last bit. */
 START_TEST(slow_growth_is_not_limited) {
   static graded d = {0.004, 0.29, 0.08, from_line};
   hash_text hashes[2];
@@ -187,7 +187,7 @@ START_TEST(slow_growth_is_not_limited) {
 }
 END_TEST
 
-/* However far from it the first nodes are, the number of nodes is that of a run of its own. */
+/* The final number of nodes does not depend on the number of initial nodes. */
 START_TEST(the_population_forgets) {
   static cone d = {0.012, 0.03, 0.5, 0.5};
   int64_t fresh, after;
@@ -196,7 +196,7 @@ START_TEST(the_population_forgets) {
   MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &d));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   fresh = integer_of(it.placement, "nodes");
-  for (k = 0; k < 2; ++k) { /* twice as many nodes before, then half as many */
+  for (k = 0; k < 2; ++k) { /* starts with twice, then with half as many nodes */
     static cone other = {0.008, 0.02, 0.2, 0.7};
     other.a = k == 0 ? 0.008 : 0.018;
     MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &other));

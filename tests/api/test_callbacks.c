@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Callbacks: what they are asked, what happens when they fail or give nonsense, when the monitor
- * stops, and what may be called from inside.
- */
+ * Tests of callbacks: their arguments, the effect of failures and invalid values, stops by the
+ * monitor, and the calls that are allowed from inside. */
 #include "api_support.h"
 
 /* ---------------------------------------------------------------- spacing callbacks ----- */
 
 typedef struct {
-  double d, growth;    /* the answer, d (1 + growth x), but for */
-  double bad;          /* this one, */
-  int32_t answer;      /* returning this, */
-  int64_t bad_from;    /* from this call on, counted from 0, */
-  double x, y, radius; /* if this is 0 or near this point */
+  double d, growth;    /* it returns d (1 + growth x), except */
+  double bad;          /* this value */
+  int32_t answer;      /* and this status */
+  int64_t bad_from;    /* from this call on, counted from 0 */
+  double x, y, radius; /* if radius is 0 or the point is near */
   int64_t calls, points;
-  int64_t longest; /* batch */
+  int64_t longest; /* largest batch */
   int32_t dim;
 } probe;
 
@@ -98,16 +97,16 @@ START_TEST(a_good_one) {
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   ck_assert_int_gt(asked.calls, 0);
   ck_assert_int_gt(asked.points, 100);
-  ck_assert_int_gt(asked.longest, 10); /* batches, not points */
+  ck_assert_int_gt(asked.longest, 10); /* it is called for batches of points */
   ck_assert_int_eq(asked.dim, 2);
-  /* Copying results out asks for nothing. */
+  /* Copying results does not call the callback. */
   calls = asked.calls;
   nodes = result_of(it.placement);
   MUST(pnpbs_placement_adjacency_size(it.placement, &entries));
   real_of(it.placement, "d_error.mean");
   ck_assert_int_eq(asked.calls, calls);
   result_free(&nodes);
-  /* It means the same as the constant. */
+  /* A callback that returns a constant gives the same nodes as the constant spacing. */
   MUST(pnpbs_placement_set(plain.placement, "steps", "45"));
   MUST(pnpbs_placement_set_spacing_constant(plain.placement, 0.1));
   MUST_COMPUTE(pnpbs_placement_run(plain.placement));
@@ -117,7 +116,7 @@ START_TEST(a_good_one) {
 }
 END_TEST
 
-/* Bad values, and two parts of the message about each. */
+/* Invalid values, each with two parts of the expected message. */
 static const struct {
   double value;
   const char* words[2];
@@ -128,7 +127,7 @@ static const struct {
     {1e-9, {"1e-09", "nodes"}},
 };
 
-/* The point that the message names, "... at (x, y) ...". */
+/* Reads the point that the message names as "... at (x, y) ...". */
 static void read_point(double* x, double* y) {
   const char* at = strstr(MESSAGE(), " at (");
   ck_assert_msg(at != NULL && sscanf(at, " at (%lf, %lf)", x, y) == 2, "no point in \"%s\"",
@@ -170,8 +169,8 @@ START_TEST(bad_in_one_place) {
 }
 END_TEST
 
-/* Fails at call number k, for every k, in different ways; afterwards the placement is as sound as
- * if nothing had happened, and goes on when the callback is mended. */
+/* Lets the callback fail at call number k, for every k, by a bad value or a status. Afterwards the
+ * placement must be valid, and a run must succeed once the callback is correct again. */
 static void fail_at_every_call(double bad, int32_t answer, pnpbs_status expected, int by_steps) {
   int64_t k, failures = 0;
   for (k = 0;; ++k) {
@@ -212,8 +211,8 @@ END_TEST
 START_TEST(answers_with_nothing_but_zeros) { fail_at_every_call(0, 0, PNPBS_ERROR_SPACING, 1); }
 END_TEST
 
-/* A run, an initialise that fails at its call number k unless k < 0, and steps. Returns whether it
- * failed. */
+/* Makes a run, an initialisation that fails at its call number k unless k < 0, and steps. Returns
+ * whether it failed. */
 static int steps_after_failure(int64_t k, hash_text* hash) {
   probe asked = good_probe(0.012);
   job it;
@@ -234,7 +233,7 @@ static int steps_after_failure(int64_t k, hash_text* hash) {
   return status < 0;
 }
 
-/* As if it had not been tried, wherever it fails: on coarser levels, too. */
+/* An initialisation that fails leaves no trace, also where it fails on a coarser level. */
 START_TEST(a_failed_initialise_leaves_all_as_it_was) {
   hash_text expected, hash;
   int64_t k = 0;
@@ -263,7 +262,7 @@ START_TEST(the_error_is_passed_on) {
 }
 END_TEST
 
-/* An error changes nothing: what was there before is still there, whichever call it was. */
+/* A failing call on a placement with nodes leaves them unchanged, whichever call it is. */
 START_TEST(a_failure_on_a_live_placement) {
   probe asked = good_probe(0.1), bad = good_probe(0.1);
   job it = probed_square(&asked);
@@ -292,7 +291,7 @@ END_TEST
 
 typedef struct {
   double d;
-  double (*outside)(double x, double y); /* how far outside the domain, < 0 inside */
+  double (*outside)(double x, double y); /* distance outside the domain, < 0 inside */
   double farthest;
   int64_t points, strangers;
 } watcher;
@@ -350,7 +349,8 @@ START_TEST(asked_inside_an_ell) {
 }
 END_TEST
 
-/* A hole's boundary edges run inside the true hole, by d^2 / 8 R: never farther. */
+/* Boundary edges at a hole run inside the true hole by at most d^2 / 8 R. The callback is evaluated
+ * no farther outside the domain. */
 START_TEST(asked_inside_a_ring) {
   watcher seen = {0.07, outside_ring, -1, 0, 0};
   job it = job_begin();
@@ -412,7 +412,7 @@ START_TEST(it_is_told_to_the_end) {
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_step(it.placement, 60));
   ck_assert_int_ge(watch.calls, 3);
   ck_assert_double_eq(watch.last_fraction, 1);
-  /* No longer. */
+  /* A monitor that has been removed is not called. */
   watch.calls = 0;
   MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(it.placement));
@@ -431,7 +431,7 @@ static int32_t monitor_of_the_fill(double fraction, int64_t step, int64_t nodes,
   return 1;
 }
 
-/* Long before the first step, where millions of nodes are laid. */
+/* The monitor can stop the creation of millions of initial nodes, long before the first step. */
 START_TEST(it_stops_the_first_nodes) {
   job it = square_job(1);
   int64_t nodes = -1;
@@ -446,7 +446,7 @@ START_TEST(it_stops_the_first_nodes) {
   ck_assert_int_eq(nodes, 0);
   MUST(pnpbs_placement_get_string(it.placement, "stop_reason", &text));
   ck_assert_str_eq(text, "monitor");
-  /* It goes on to be usable. */
+  /* The placement can be used afterwards. */
   MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
   ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
@@ -455,7 +455,7 @@ START_TEST(it_stops_the_first_nodes) {
 }
 END_TEST
 
-/* Between the events, where these are far apart. */
+/* The monitor can stop a run between its events, where these are far apart. */
 START_TEST(it_stops_between_events) {
   monitor watch;
   job it = watched_square(&watch);
@@ -484,13 +484,13 @@ START_TEST(it_stops) {
   MUST(pnpbs_placement_get_string(it.placement, "stop_reason", &text));
   ck_assert_str_eq(text, "monitor");
   check_good(it.placement);
-  /* And goes on, to the end this time. */
+  /* The next run continues to the end. */
   watch.stop_at = 1000000;
   watch.last_fraction = 0;
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(it.placement));
   ck_assert_int_eq(integer_of(it.placement, "steps"), steps + 100);
   check_good(it.placement);
-  /* Steps are stopped as well. */
+  /* The monitor also stops pnpbs_placement_step. */
   watch.stop_at = 0;
   watch.last_fraction = 0;
   MUST_BE(PNPBS_STOPPED, pnpbs_placement_step(it.placement, 1000));
@@ -501,7 +501,7 @@ END_TEST
 
 /* ---------------------------------------------------------------- calls from inside ----- */
 
-static job inside; /* the job whose callback is running */
+static job inside; /* the job whose callback runs */
 static int times_inside, quiet;
 static int64_t batches_inside;
 
@@ -518,7 +518,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   return 0;
 }
 
-/* Everything that changes, computes or destroys. */
+/* Makes the calls that change, compute or destroy. All must be refused. */
 static void try_what_is_not_allowed(void) {
   static const double xy[8] = {0.4, 0.4, 0.6, 0.4, 0.6, 0.6, 0.4, 0.6};
   static const int64_t ends[8] = {0, 1, 1, 2, 2, 3, 3, 0}, size[2] = {1, 1};
@@ -544,7 +544,7 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_domain_parse_poly(d, "0", 1, "text"));
   REFUSED(pnpbs_domain_destroy(&inside.domain));
   REFUSED(pnpbs_context_destroy(&inside.context));
-  if (p == NULL) { /* while the domain is being made: to check it would ask its curves */
+  if (p == NULL) { /* the domain is incomplete, and a check would call its curves again */
     REFUSED(pnpbs_domain_check(d));
     return;
   }
@@ -594,7 +594,8 @@ static void try_what_is_not_allowed(void) {
   ck_assert(isnan(real));
 }
 
-/* Questions. Nodes come in the order of their ids, and as they were told to be. */
+/* Makes queries, which must succeed. Nodes are in the order of their ids and have the requested
+ * state. */
 static void try_what_is_allowed(void) {
   int32_t number = 0;
   const char *name = NULL, *text = NULL;
@@ -672,7 +673,7 @@ static int32_t curious_curve(int64_t n, int32_t dim, const double* t, double* xy
   return small_curve(n, dim, t, xy, user);
 }
 
-/* A run in which the callbacks look around gives what one gives in which they do not. */
+/* A run whose callbacks make queries gives the same nodes as one whose callbacks make none. */
 START_TEST(only_questions_from_inside) {
   hash_text with, without;
   int k;
@@ -697,7 +698,7 @@ START_TEST(only_questions_from_inside) {
 }
 END_TEST
 
-/* Nodes asked for from a callback leave nothing stale behind. */
+/* A query of nodes from a callback leaves no outdated copy behind. */
 START_TEST(nodes_after_nodes_from_inside) {
   job plain = square_job(1);
   result asked, not_asked;
@@ -709,7 +710,7 @@ START_TEST(nodes_after_nodes_from_inside) {
     job* it = k == 0 ? &inside : &plain;
     MUST(pnpbs_placement_set_spacing_callback(it->placement, cone_spacing, &slope));
     if (k == 0) MUST(pnpbs_placement_set_monitor(it->placement, curious_monitor, NULL));
-    MUST_COMPUTE(pnpbs_placement_step(it->placement, 39)); /* an event, and steps after it */
+    MUST_COMPUTE(pnpbs_placement_step(it->placement, 39)); /* one event and steps after it */
   }
   asked = result_of(inside.placement);
   not_asked = result_of(plain.placement);
@@ -745,7 +746,7 @@ START_TEST(only_questions_from_inside_a_curve) {
 }
 END_TEST
 
-/* Another context is not in use, so all is allowed there. */
+/* Calls on another context, which is not in use, are all allowed. */
 static int32_t busy_spacing(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
   (void)dim, (void)xyz;
   if (batches_inside++ == 0) {
@@ -775,8 +776,8 @@ END_TEST
 typedef struct {
   int64_t calls, bad_from;
   int32_t answer;
-  double offset;      /* of the points, when bad */
-  double least, most; /* parameters asked */
+  double offset;      /* error of the points from call bad_from on */
+  double least, most; /* range of parameters */
 } curve_probe;
 
 static int32_t probing_curve(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
@@ -807,7 +808,7 @@ START_TEST(curves_fail_at_every_call) {
     add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 1, 1, 1);
     status = pnpbs_domain_add_curve(it.domain, PNPBS_BOUNDARY, probing_curve, &asked, 0, 2 * PI, 3);
     if (status != PNPBS_OK) {
-      /* The domain is as it was. */
+      /* The domain is unchanged. */
       ck_assert_int_eq(status, PNPBS_ERROR_CALLBACK);
       ck_assert_ptr_nonnull(strstr(MESSAGE(), "77"));
       MUST(pnpbs_domain_measure(it.domain, &area));
@@ -840,7 +841,7 @@ START_TEST(curves_fail_at_every_call) {
 }
 END_TEST
 
-/* A curve that gives nonsense later than it was looked at first. */
+/* If a curve returns NaN from call k on, for any k, the error has a message and is not internal. */
 START_TEST(curves_give_nonsense) {
   int64_t k;
   for (k = 0;; ++k) {

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Bodies that are rough beside d: the boundary of the tetrahedra is one closed surface all the
- * same, like the body's, and where it is not, the run and the check say so.
- */
+ * Tests of bodies that are rough relative to d. The boundary of the tetrahedra must be a closed
+ * surface like the body's; where it is not, the run and the check must report it. */
 #include "volume_support.h"
 
 /* ---------------------------------------------------------------- bodies ---------------- */
 
-/* A cube with a slit from above, so wide and deep, with its tip above x. */
+/* Adds a cube with a slit from above of the given width and depth. The tip of the slit is at x. */
 static void add_slit_cube(pnpbs_domain domain, double width, double depth, double x) {
   enum { kSides = 7 };
   const double outline[kSides][2] = {{x, 1 - depth}, {x - width / 2, 1}, {0, 1}, {0, 0}, {1, 0},
@@ -20,7 +19,7 @@ static void add_slit_cube(pnpbs_domain domain, double width, double depth, doubl
     xyz[k][1] = outline[k % kSides][1];
     xyz[k][2] = k / kSides;
   }
-  for (k = 0; k < kSides; ++k) { /* the tip sees all of the outline */
+  for (k = 0; k < kSides; ++k) { /* all of the outline is visible from the tip */
     const int64_t next = (k + 1) % kSides,
                   side[2][3] = {{k, next, next + kSides}, {k, next + kSides, k + kSides}},
                   ends[2][3] = {{0, next, k}, {kSides, k + kSides, next + kSides}};
@@ -41,8 +40,8 @@ static int by_ends(const void* a, const void* b) {
   return p[0] != q[0] ? (p[0] < q[0] ? -1 : 1) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Edges of the boundary's triangles, by their ends; each must have two triangles. Returns how many
- * have not. */
+/* Lists the edges of the boundary triangles. Returns the number of edges that do not have exactly
+ * two triangles. */
 static int64_t open_edges(const volume* v, int64_t* edges) {
   int64_t(*ends)[2] = malloc((size_t)(3 * v->triangles) * sizeof *ends);
   int64_t t, e = 0, wrong = 0;
@@ -66,8 +65,9 @@ static int64_t open_edges(const volume* v, int64_t* edges) {
   return wrong;
 }
 
-/* Nodes of the boundary: all that lie on the surface, and no other. Its triangles are like a
- * sphere: two at each edge, and the characteristic, which is less where two sheets share a node. */
+/* Checks that all nodes on the surface, and no others, belong to the boundary. Its triangles must
+ * have two at each edge, and the Euler characteristic must be a sphere's. It is smaller where two
+ * sheets share a node. */
 static void check_closed(const volume* v) {
   char* on_boundary = calloc((size_t)v->n, 1);
   int64_t i, t, edges, nodes = 0;
@@ -90,7 +90,8 @@ static void check_is_closed(const job* it) {
   volume_free(&v);
 }
 
-/* Bodies that are rough beside d need not follow it. */
+/* Runs the placement and checks the boundary. The run may report a missed spacing, as bodies that
+ * are rough relative to d need not follow it. */
 static void run_and_check_closed(const job* it) {
   const pnpbs_status status = pnpbs_placement_run(it->placement);
   ck_assert_msg(status >= 0 && status != PNPBS_STOPPED && status != PNPBS_NOT_CONFORMING,
@@ -128,7 +129,7 @@ START_TEST(torn_bodies_are_told) {
 }
 END_TEST
 
-/* What that message advises: without what d does not resolve, the body is whole as d is given. */
+/* The body closes with its geometry repaired to the resolution of d, as the message advises. */
 START_TEST(repaired_to_the_spacing_it_closes) {
   const double d = 0.4;
   job it = repaired_job(0.7, 6.5, d, d);
@@ -149,8 +150,8 @@ START_TEST(torn_bodies_are_mended) {
 }
 END_TEST
 
-/* Where the walls of a slit are nearer to each other than d, other elements are chosen until the
- * boundary closes, and no node has to come. */
+/* The walls of a slit are nearer to each other than d. Other elements are chosen until the boundary
+ * is closed, and no node is inserted. */
 START_TEST(a_slit_closes) {
   const double half_angle = 8.4428 / 2 * 3.14159265358979 / 180, depth = 0.5497;
   job it = {NULL, NULL, NULL};
@@ -165,7 +166,7 @@ START_TEST(a_slit_closes) {
 }
 END_TEST
 
-/* The same where the surface is rough. */
+/* The boundary of a body with a rough surface is closed in the same way. */
 START_TEST(a_rough_body_closes_at_once) {
   job it = rough_job(0.4, 8, 0.3);
   MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
@@ -174,7 +175,7 @@ START_TEST(a_rough_body_closes_at_once) {
 }
 END_TEST
 
-/* And where nodes from inside are in the way, which leave. */
+/* Inner nodes that prevent a closed boundary are removed. */
 START_TEST(blocking_nodes_leave) {
   job it = rough_job(0.5, 6.5, 0.32);
   MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
@@ -187,7 +188,7 @@ END_TEST
 /* ---------------------------------------------------------------- rounds ---------------- */
 
 typedef struct {
-  double fraction, stop_from; /* after the first steps from there on, and at no other call */
+  double fraction, stop_from; /* stops at the first call after steps from here on */
   int64_t step;
   int falls, stopped;
 } progress;
@@ -204,9 +205,8 @@ static int32_t follow(double fraction, int64_t step, int64_t nodes, double speed
   return 1;
 }
 
-/* A run that holds d down where the body is torn does not fall back in what it tells of its
- * progress, and is stopped where the monitor asks for it, in whichever part: the next run goes on
- * from there. */
+/* A run that reduces d at gaps of the boundary reports increasing progress. The monitor can stop it
+ * in any part, and the next run continues from there. */
 START_TEST(rounds_are_monitored) {
   static const double stops[] = {2, 0.9, 0.9001, 0.91};
   progress seen = {0, stops[_i], 0, 0, 0};
@@ -227,7 +227,7 @@ START_TEST(rounds_are_monitored) {
 }
 END_TEST
 
-/* What a run tells of the nodes it began with holds for all of its rounds. */
+/* The number of given nodes that a run drops holds for all of its rounds. */
 START_TEST(rounds_keep_what_was_left_out) {
   static const double xyz[] = {0, 0, 0, 9, 9, 9};
   job it = unresolved_job();
@@ -239,7 +239,7 @@ START_TEST(rounds_keep_what_was_left_out) {
 }
 END_TEST
 
-/* By how much d grows between any two nodes, per unit of length. */
+/* Returns the largest growth of d between two nodes per unit of length. */
 static double steepest(const volume* v) {
   double growth = 0;
   int64_t i, j;
@@ -249,7 +249,8 @@ static double steepest(const volume* v) {
   return growth;
 }
 
-/* From where it is held down d grows as nodes can follow, even if nothing else limits it. */
+/* Around the points where d is reduced it grows as slowly as nodes can follow, even without a
+ * growth limit. */
 START_TEST(held_spacing_grows_gently) {
   job it = unresolved_job();
   volume v;
@@ -280,8 +281,8 @@ static double finest(const volume* v) {
   return least;
 }
 
-/* The triangles of a level set say nothing of what is smaller than its resolution. (In
-   more rounds this body comes out whole.) */
+/* The triangles of a level set do not represent details below its resolution. With more rounds this
+ * body's boundary would be closed. */
 START_TEST(held_spacing_ends_at_the_resolution) {
   static const double low[] = {-2, -2, -2}, high[] = {2, 2, 2};
   job it = {NULL, NULL, NULL};
@@ -312,7 +313,7 @@ TEST_SUITE(test_closing) {
   tcase_add_test(tests, blocking_nodes_leave);
   tcase_add_test(tests, torn_bodies_are_told);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, repaired_to_the_spacing_it_closes);
-  /* Sanitizers see in rounds_are_monitored what they would see in these two. */
+  /* rounds_are_monitored covers these two tests for sanitizers. */
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, torn_bodies_are_mended);
   tcase_add_loop_test(tests, rounds_are_monitored, 0, WHEN_SANITIZED(2, 4));
   tcase_add_test(tests, rounds_keep_what_was_left_out);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What a run would come to, and runs that would need more memory than there is.
- */
+ * Tests of the estimate of nodes and memory, and of runs that would need more memory than is
+ * available. */
 #include "volume_support.h"
 
 static job lake_job(void) {
@@ -15,7 +15,7 @@ static void expect_nodes(job* it, double tolerance) {
   int64_t nodes, bytes, placed;
   double seconds;
   MUST(pnpbs_placement_estimate(it->placement, &nodes, &bytes, &seconds));
-  ck_assert_int_eq(integer_of(it->placement, "nodes"), 0); /* none has been made */
+  ck_assert_int_eq(integer_of(it->placement, "nodes"), 0); /* the estimate creates no nodes */
   ck_assert_int_ge(pnpbs_placement_run(it->placement), PNPBS_OK);
   placed = integer_of(it->placement, "nodes");
   ck_assert_msg(fabs((double)nodes / (double)placed - 1) < tolerance, "%d expected, %d placed",
@@ -40,8 +40,8 @@ START_TEST(near_what_comes) {
 }
 END_TEST
 
-/* In space: even and graded, from the body's middle, a line through it, a point on a facet far
- * larger than d there, and a whole side. */
+/* In space the spacing is uniform, or grows from the middle of the body, from a line through it,
+ * from a point on a facet far larger than d there, or from a whole side. */
 START_TEST(near_what_comes_in_space) {
   static const struct {
     volume_body body;
@@ -58,7 +58,7 @@ START_TEST(near_what_comes_in_space) {
 }
 END_TEST
 
-/* Of more nodes than could be placed, at once; the nodes there are stay. */
+/* The estimate of more nodes than could be placed returns at once. The current nodes stay. */
 START_TEST(of_a_hundred_billion_nodes) {
   job it = square_job(1);
   int64_t nodes, bytes;
@@ -84,7 +84,7 @@ START_TEST(what_is_missing) {
 }
 END_TEST
 
-/* A share of what there is, such that there is too little. */
+/* The memory limit is a share of the available memory that is too small for the run. */
 START_TEST(too_little_memory) {
   job it = square_job(1);
   hash_text before;

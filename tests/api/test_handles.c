@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Handles: every function answers a handle that is not live, or of another kind, with an error;
- * objects may be destroyed in any order and keep what they need alive.
- */
+ * Tests of handles. Every function must return an error for a handle that is not live or of another
+ * kind. Objects may be destroyed in any order and keep alive what they need. */
 #include "api_support.h"
 #include "volume_bodies.h"
 
-/* Where the calls below would put their outputs. An error must not touch them. */
+/* Memory for the outputs of the calls below. A failing call must not change it. */
 static union {
   double reals[64];
   int64_t integers[64];
@@ -21,7 +20,7 @@ static union {
 
 static void prepare_outputs(void) {
   memset(&out, 0x5a, sizeof out);
-  memset(out.bytes, 0, sizeof(void*)); /* handles come back NULL */
+  memset(out.bytes, 0, sizeof(void*)); /* output handles become NULL */
 }
 
 static void check_outputs(const char* name) {
@@ -58,8 +57,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
 
 /* ---------------------------------------------------------------- every call ------------ */
 
-/* X(function, its arguments), such that a live handle, of the dimension it is for, would be taken.
- * Those that create or destroy are left to tests of their own. */
+/* X(function, its arguments): the calls would accept a live handle of the right dimension.
+ * Functions that create or destroy have tests of their own. */
 #define CONTEXT_CALLS(X)                          \
   X(context_set, (handle, "steps", "10"))         \
   X(context_set_int64, (handle, "steps", 10))     \
@@ -184,10 +183,10 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(particles_add_output_field, (handle, "mass", 1, 1, grid))                                   \
   X(particles_write, (handle, 0, NULL, NULL))
 
-/* Where fields are carried to. */
+/* The placement that fields are transferred to. */
 static pnpbs_placement target;
 
-/* Each call as a function of something that may be no handle at all. */
+/* Defines each call as a function of a pointer that may not be a valid handle. */
 #define CALL_IT(Handle, name, arguments)            \
   static pnpbs_status call_##name(void* anything) { \
     const Handle handle = (Handle)anything;         \
@@ -204,7 +203,7 @@ PLACEMENT_CALLS(CALL_PLACEMENT)
 TRANSFER_CALLS(CALL_TRANSFER)
 PARTICLES_CALLS(CALL_PARTICLES)
 
-/* What these functions take first. */
+/* The kind of handle that a function takes as its first argument. */
 typedef enum { CONTEXT, DOMAIN, PLACEMENT, TRANSFER, PARTICLES } kind;
 
 static const struct {
@@ -220,7 +219,8 @@ static const struct {
     CONTEXT_CALLS(ROW_CONTEXT) DOMAIN_CALLS(ROW_DOMAIN) PLACEMENT_CALLS(ROW_PLACEMENT)
         TRANSFER_CALLS(ROW_TRANSFER) PARTICLES_CALLS(ROW_PARTICLES)};
 
-/* Nothing that the header declares is missing above, but for what creates and destroys. */
+/* The lists above contain all functions that the header declares, except those that create and
+ * destroy. */
 START_TEST(every_function_is_here) {
   FILE* header = fopen(PNPBS_SOURCE_DIR "/include/pnpbs/pnpbs.h", "r");
   char line[200];
@@ -242,7 +242,7 @@ START_TEST(every_function_is_here) {
     ck_assert_msg(i < COUNT_OF(calls), "%s is not tested", name);
   }
   fclose(header);
-  ck_assert_int_eq(found + 2, COUNT_OF(calls)); /* and pnpbs_domain_create and .._create_sphere */
+  ck_assert_int_eq(found + 2, COUNT_OF(calls)); /* plus pnpbs_domain_create and .._create_sphere */
 }
 END_TEST
 
@@ -252,7 +252,7 @@ static void must_be_refused(int row, void* handle, const char* what) {
   pnpbs_status status;
   const char* kinds[] = {"context", "domain", "placement", "transfer", "particles"};
   prepare_outputs();
-  MUST_BE(PNPBS_ERROR_ARGUMENT, pnpbs_option_count(NULL)); /* leaves another message behind */
+  MUST_BE(PNPBS_ERROR_ARGUMENT, pnpbs_option_count(NULL)); /* sets another message */
   status = calls[row].call(handle);
   ck_assert_msg(status == PNPBS_ERROR_HANDLE, "%s of %s: status %d", calls[row].name, what,
                 (int)status);
@@ -261,7 +261,7 @@ static void must_be_refused(int row, void* handle, const char* what) {
   check_outputs(calls[row].name);
 }
 
-/* Of the nodes of a job, which are placed if there are none. */
+/* Creates a transfer from the nodes of a job, which are placed if there are none. */
 static pnpbs_transfer some_transfer(const job* it) {
   double values[300] = {0};
   pnpbs_transfer transfer = NULL;
@@ -277,7 +277,7 @@ static pnpbs_transfer some_transfer(const job* it) {
   return transfer;
 }
 
-/* A square around that of a job, by half of the 0.3 that its nodes are apart. */
+/* Creates a square around that of a job. The margin is 0.15, half the distance of its nodes. */
 static pnpbs_domain body_around(const job* it) {
   static const double corners[8] = {-0.15, -0.15, 1.15, -0.15, 1.15, 1.15, -0.15, 1.15};
   pnpbs_domain body = NULL;
@@ -286,7 +286,7 @@ static pnpbs_domain body_around(const job* it) {
   return body;
 }
 
-/* Of the nodes of some_transfer. */
+/* Creates particles from the nodes of some_transfer. */
 static pnpbs_particles some_particles(const job* it) {
   pnpbs_domain body = body_around(it);
   pnpbs_particles particles = NULL;
@@ -352,7 +352,8 @@ START_TEST(placements_of_nothing) {
 }
 END_TEST
 
-/* One thread uses a context at a time: a domain of another one could be in use elsewhere. */
+/* A placement in a domain of another context is refused, as another thread could use that context.
+ */
 START_TEST(a_domain_of_another_context) {
   job one = square_job(1), other = square_job(1);
   pnpbs_placement placement = NULL;
@@ -364,7 +365,7 @@ START_TEST(a_domain_of_another_context) {
 }
 END_TEST
 
-/* It needs a placement that is live, of the same context. */
+/* A transfer needs a live placement of the same context. */
 START_TEST(transfers_to_nothing) {
   job one = square_job(1), other = square_job(1);
   pnpbs_transfer transfer = some_transfer(&one), elsewhere = some_transfer(&other);
@@ -379,7 +380,7 @@ START_TEST(transfers_to_nothing) {
   ck_assert_ptr_null(transfer);
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_transfer_create(one.placement, 0, 1, &value, NULL),
             "transfer", "NULL");
-  /* What it was made from may go, and even its context. */
+  /* The transfer outlives the placement it was created from and even the context. */
   job_end(&other);
   value = 1;
   MUST(pnpbs_transfer_at_points(elsewhere, 1, xy, &value));
@@ -389,10 +390,10 @@ START_TEST(transfers_to_nothing) {
 }
 END_TEST
 
-/* They need a placement and a body that are live, of the same context. */
+/* Particles need a live placement and a live body of the same context. */
 START_TEST(particles_of_nothing) {
   job one = square_job(1), other = square_job(1);
-  pnpbs_transfer transfer = some_transfer(&one); /* places the nodes */
+  pnpbs_transfer transfer = some_transfer(&one); /* this places the nodes */
   pnpbs_domain body = body_around(&one), elsewhere = body_around(&other);
   pnpbs_particles particles = NULL;
   int64_t count = 0;
@@ -408,7 +409,7 @@ START_TEST(particles_of_nothing) {
   ck_assert_ptr_null(particles);
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_particles_create(one.placement, body, NULL), "particles",
             "NULL");
-  /* What they were made from may go, and even its context. */
+  /* The particles outlive the placement and body they were created from and even the context. */
   MUST(pnpbs_particles_create(one.placement, body, &particles));
   MUST(pnpbs_transfer_destroy(&transfer));
   MUST(pnpbs_domain_destroy(&body));
@@ -449,7 +450,7 @@ START_TEST(destroying_twice) {
   ck_assert_ptr_null(it.context);
   ck_assert_ptr_null(it.domain);
   ck_assert_ptr_null(it.placement);
-  job_end(&it); /* of NULL, by now */
+  job_end(&it); /* its handles are NULL by now */
   MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_context_destroy(&copy.context), "context", "destroyed");
   MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_domain_destroy(&copy.domain), "domain", "destroyed");
   MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_placement_destroy(&copy.placement), "placement", "destroyed");
@@ -468,7 +469,7 @@ START_TEST(destroying_another_kind) {
 }
 END_TEST
 
-/* Handles are not used again, so an old one never means a new object. */
+/* Handle values are not reused, so that an old handle never refers to a new object. */
 START_TEST(handles_are_new) {
   job old = square_job(1);
   const job copy = old;
@@ -488,7 +489,7 @@ static void destroy_one(job* it, int which) {
   if (which == 2) MUST(pnpbs_placement_destroy(&it->placement));
 }
 
-/* What is left goes on working, and its messages are still to be had. */
+/* Uses the objects that remain. They must work, and their messages must be available. */
 static void use_what_is_left(const job* it) {
   int64_t nodes = 0;
   if (it->context != NULL) MUST(pnpbs_context_set(it->context, "steps", "25"));
@@ -515,7 +516,7 @@ START_TEST(any_order) {
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   for (k = 0; k < 3; ++k) {
     destroy_one(&it, orders[_i][k]);
-    /* A placement whose parents are gone computes as before. */
+    /* A placement whose parents are destroyed computes as before. */
     if (it.placement != NULL && it.domain == NULL) {
       MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.15));
       MUST_COMPUTE(pnpbs_placement_run(it.placement));
@@ -523,7 +524,7 @@ START_TEST(any_order) {
     }
     use_what_is_left(&it);
   }
-  job_end(&it); /* all of them NULL */
+  job_end(&it); /* all handles are NULL */
 }
 END_TEST
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Coarser levels: when there are any, that they can be watched and stopped, that they help.
- */
+ * Tests of coarser levels: when they are used, that they can be monitored and stopped, and that
+ * they improve the result. */
 #include "api_support.h"
 
 static job graded_square(cone* d) {
@@ -11,7 +11,7 @@ static job graded_square(cone* d) {
 }
 
 START_TEST(as_many_as_pay) {
-  static cone graded = {0.0048, 0.016, 0.5, 0.5}; /* some 10 000 nodes */
+  static cone graded = {0.0048, 0.016, 0.5, 0.5}; /* about 10 000 nodes */
   static cone few = {0.06, 0.2, 0.5, 0.5};
   static cone steep = {0.002, 0.3, 0.5, 0.5};
   static const struct {
@@ -36,7 +36,7 @@ START_TEST(as_many_as_pay) {
 }
 END_TEST
 
-/* A constant d has its one lattice. */
+/* A constant d uses a single lattice and no coarser level. */
 START_TEST(none_for_constant_spacing) {
   job it = square_job(1);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.008));
@@ -47,8 +47,8 @@ START_TEST(none_for_constant_spacing) {
 }
 END_TEST
 
-/* Small holes have their corners on every level: 36 of them, twelve nodes each, are few among 2500
- * nodes, but many among 600. */
+/* The corners of small holes are nodes on every level. The 36 holes with twelve nodes each are few
+ * among 2500 nodes, but many among 600. */
 START_TEST(fewer_where_the_boundary_is_fine) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
   enum { ROW = 6, CORNERS = 12 };
@@ -70,7 +70,8 @@ START_TEST(fewer_where_the_boundary_is_fine) {
 }
 END_TEST
 
-/* Of a set with so many times the least spacing; as the bubbles have made its first row. */
+/* Returns the quality of the nodes for the least spacing times `scale`. The first row stays as the
+ * bubbles have formed it. */
 static quality_summary quality_with(double scale, const char* key, const char* value) {
   cone graded = {0.0048, 0.016, 0.5, 0.5};
   job it = graded_square(&graded);
@@ -95,7 +96,7 @@ START_TEST(more_effort_is_better) {
 }
 END_TEST
 
-/* Of five sets, the least quality. */
+/* Returns the least quality of five node sets. */
 static double least_quality_with(const char* key, const char* value) {
   double least = 1;
   int k;
@@ -114,8 +115,9 @@ START_TEST(defects_are_repaired) {
 }
 END_TEST
 
-/* Nodes with the wrong number of neighbours become fewer, and so do imperfect triangles: by a tenth
-   in the mean of 20 sets. Levels that lose nodes on the way leave 0.018 of them without repairs. */
+/* Repairs reduce the number of nodes with a wrong number of neighbours and of imperfect triangles
+ * by a tenth in the mean of 20 sets. Without repairs the share of imperfect triangles would be
+ * 0.018 if levels lost nodes on the way. */
 START_TEST(defects_become_fewer) {
   double with = 0, without = 0;
   int k;
@@ -142,7 +144,7 @@ static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_sp
   (void)max_speed;
   ck_assert_msg(fraction >= it->last_fraction && fraction <= 1, "the fraction went from %g to %g",
                 it->last_fraction, fraction);
-  /* From level to level there are more. */
+  /* Each level has more nodes than the one before. */
   ck_assert_msg((double)nodes > 0.95 * (double)it->most_nodes, "%d nodes after %d", (int)nodes,
                 (int)it->most_nodes);
   it->last_fraction = fraction;
@@ -150,8 +152,8 @@ static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_sp
   return it->calls++ == it->stop_at;
 }
 
-/* Stopped on a coarser level, there are nodes of the spacing asked for nevertheless; and the next
- * run goes on from them. */
+/* A run that is stopped on a coarser level still has nodes at the wanted spacing. The next run
+ * continues from them. */
 START_TEST(they_can_be_stopped) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
   watcher seen = {0, 1, 0, 0};
@@ -177,7 +179,7 @@ START_TEST(they_can_be_stopped) {
 }
 END_TEST
 
-/* d fails while a coarser level asks for it: the placement is as it was. */
+/* The spacing callback fails on a coarser level. The placement stays unchanged. */
 typedef struct {
   int calls, fail_at;
 } failing;
@@ -209,7 +211,7 @@ static figures figures_of(pnpbs_placement placement) {
   return f;
 }
 
-/* Of what has failed, the figures tell nothing. */
+/* After a failure the statistics do not include the failed run. */
 START_TEST(a_failure_tells_nothing) {
   failing f = {0, -1};
   job it = square_job(1);
@@ -234,7 +236,8 @@ START_TEST(a_failure_tells_nothing) {
 }
 END_TEST
 
-/* What initialises first says so if the monitor stops that, and goes no further. */
+/* A call that initialises first returns the stopped status if the monitor stops the initialisation.
+ */
 START_TEST(adjustments_can_be_stopped) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
   watcher seen = {0, 1, 0, 0};

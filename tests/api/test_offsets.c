@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Bodies at a distance from others: areas and volumes by Steiner's formula, d by a callback, nodes
- * in them and the volumes that these stand for, bad input.
- */
+ * Tests of bodies at a distance from other bodies: areas and volumes by Steiner's formula, d by a
+ * callback, particles with their volumes, invalid input. */
 #include "volume_support.h"
 
 /* ---------------------------------------------------------------- in the plane ---------- */
@@ -27,7 +26,8 @@ static void add_square_with_hole(pnpbs_domain domain) {
   add_rectangle(domain, PNPBS_BOUNDARY, 0.3, 0.3, 0.7, 0.7, 2);
 }
 
-/* A body in the plane: right corners that stick out, and others; its length around. */
+/* A body in the plane with the numbers of its convex and reentrant right-angled corners and its
+ * perimeter. */
 typedef struct {
   void (*add)(pnpbs_domain domain);
   double area, around;
@@ -36,8 +36,8 @@ typedef struct {
 static const plane_body plane_bodies[] = {
     {add_square, 1, 4, 4, 0}, {add_l, 3, 8, 5, 1}, {add_square_with_hole, 0.84, 5.6, 4, 4}};
 
-/* All that is within h of the inside, or of the outside: straight strips, which lie over each other
- * or meet in arcs at corners. */
+/* Returns the area of the body enlarged by h, or reduced by -h for h < 0. The difference consists
+ * of straight strips, which overlap or are joined by arcs at corners. */
 static double area_within(const plane_body* it, double h) {
   const int sharp = h < 0 ? it->convex : it->reentrant, round = h < 0 ? it->reentrant : it->convex;
   const double strips = it->around * fabs(h) - sharp * h * h + round * PI / 4 * h * h;
@@ -60,7 +60,8 @@ START_TEST(areas_by_steiner) {
       pnpbs_domain offset;
       MUST(pnpbs_domain_create(context, 2, &offset));
       MUST(pnpbs_domain_add_offset(offset, body, limits[a], limits[b], NULL, NULL, 0.02, 7));
-      /* Arcs become chords no longer than sqrt(2) times the resolution; without arcs, exact. */
+      /* Chords no longer than sqrt(2) times the resolution replace arcs. Without arcs the area is
+       * exact. */
       ck_assert_double_eq_tol(measure_of(offset), area, 5e-4);
       if (from->reentrant == 0 && limits[b] < 0)
         ck_assert_double_eq_tol(measure_of(offset), area, 1e-9);
@@ -71,7 +72,7 @@ START_TEST(areas_by_steiner) {
 }
 END_TEST
 
-/* Two domains in the plane, both empty. */
+/* Two empty domains in the plane. */
 typedef struct {
   pnpbs_context context;
   pnpbs_domain body, inset;
@@ -91,7 +92,7 @@ static void pair_end(pair* it) {
   MUST(pnpbs_context_destroy(&it->context));
 }
 
-/* The four corners of the inset are corners of its boundary, all with the tag. */
+/* The four corners of the inset are corners of its boundary and have the tag. */
 START_TEST(corners_are_kept) {
   double segments[400][4];
   int32_t tags[400];
@@ -120,7 +121,7 @@ static int has_vertex(pnpbs_domain domain, double x, double y) {
   return 0;
 }
 
-/* Where an arc ends, too: of half a disc. */
+/* The ends of the arc of half a disc are corners of the inset too. */
 START_TEST(corners_of_curves_are_kept) {
   const double centre[2] = {0, 0}, chord[4] = {-1, 0, 1, 0}, h = 0.15;
   const double corner = sqrt((1 - h) * (1 - h) - h * h);
@@ -135,7 +136,8 @@ END_TEST
 
 static int32_t constant(int64_t n, int32_t dim, const double* x, double* d, void* user);
 
-/* Of a square beside another one: smaller than twice the resolution, or than half of d. */
+/* A small square beside another one is left out if its size is below twice the resolution or half
+ * of d. */
 START_TEST(tiny_pieces_are_left_out) {
   const struct {
     double side, d, depth, resolution;
@@ -158,7 +160,8 @@ START_TEST(tiny_pieces_are_left_out) {
 }
 END_TEST
 
-/* Many bays become ponds of their own, some no wider than the resolution. */
+/* In an inset of the lake many bays become separate ponds, some of them no wider than the
+ * resolution. */
 START_TEST(insets_of_a_lake) {
   pnpbs_domain lake;
   pnpbs_context context;
@@ -180,7 +183,7 @@ START_TEST(insets_of_a_lake) {
 }
 END_TEST
 
-/* With a d that grows, the boundary is where the distance is so much of d there. */
+/* With a growing d the boundary of the inset is at a distance proportional to the local d. */
 START_TEST(depth_follows_the_spacing) {
   cone grows = {0.02, 0.1, 0, 0};
   double segments[2000][4];
@@ -236,8 +239,8 @@ static int32_t larger_bubbles(int64_t n, int32_t dim, const double* x, double* d
   return 0;
 }
 
-/* As many as the body's measure asks for, none on its wall, and with volumes that add up to it,
- * each near d^dim. In the plane, then in space. */
+/* The number of particles follows from the body's measure. None lies on its wall. The volumes are
+ * near d^dim and their sum is the measure. The test runs in the plane and in space. */
 START_TEST(particles_stand_for_the_body) {
   const int dim = _i + 2;
   const double corner[3] = {0, 0, 0}, other[3] = {1, 1, 1};
@@ -260,7 +263,7 @@ START_TEST(particles_stand_for_the_body) {
   MUST(pnpbs_placement_set_spacing_callback(it.placement, larger_bubbles, &grows));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   MUST(pnpbs_particles_create(it.placement, body, &particles));
-  MUST(pnpbs_domain_destroy(&body)); /* the particles keep nothing of it */
+  MUST(pnpbs_domain_destroy(&body)); /* the particles keep no reference to it */
   MUST(pnpbs_particles_sizes(particles, NULL, &n, NULL));
   x = malloc((size_t)n * 3 * sizeof *x);
   volumes = malloc((size_t)n * sizeof *volumes);
@@ -272,7 +275,7 @@ START_TEST(particles_stand_for_the_body) {
     cone_spacing(1, dim, x + dim * i, &d, &grows);
     share = volumes[i] / pow(d, dim);
     for (k = 0; k < dim; ++k) nearest = fmin(nearest, fmin(x[dim * i + k], 1 - x[dim * i + k]));
-    /* Some were pushed along the wall, to where d is another. */
+    /* Some particles were pushed along the wall to a point where d differs. */
     ck_assert_double_ge(nearest, (dim == 2 ? 0.42 : 0.46) * d * (1 - 0.01));
     ck_assert(share > 0.5 && share < 1.6);
     sum += volumes[i];
@@ -290,7 +293,7 @@ END_TEST
 typedef struct {
   int calls;
   double last;
-  int32_t stop; /* at the end */
+  int32_t stop; /* 1 to stop at the end */
 } watcher;
 
 static int32_t watch(double fraction, int64_t step, int64_t nodes, double speed, void* user) {
@@ -311,8 +314,8 @@ static int lines_of(const char* path) {
   return lines;
 }
 
-/* Files of particles: the placement's monitor sees and stops them, they outlive it, and take fields
- * of which each has a name of its own. */
+/* The placement's monitor is called for particle files and can stop them. Particles outlive the
+ * placement and accept fields with unique names. */
 START_TEST(particle_files) {
   const char *csv[] = {"test_offsets.csv"}, *ele[] = {"test_offsets.ele"};
   double *masses, d = 0.1;
@@ -413,7 +416,7 @@ START_TEST(bad_input) {
   REFUSED(DOMAIN, "from -infinity to -6 d", "negative at none", box, box, -INFINITY, -6, constant,
           &d, 0, 1);
 #undef REFUSED
-  /* All as it was. */
+  /* All objects are unchanged. */
   ck_assert_double_eq(measure_of(to), 1);
   ck_assert_double_eq(measure_of(box), 1);
   MUST(pnpbs_domain_destroy(&to));
@@ -426,7 +429,7 @@ START_TEST(bad_input) {
 }
 END_TEST
 
-/* The body must be around the nodes, and full of them. */
+/* The body must contain all nodes, and the nodes must fill it. */
 START_TEST(bad_bodies) {
   job it = square_job(1);
   pnpbs_domain body;

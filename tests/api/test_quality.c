@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What is told of the elements: quality, angles, edge length over d, by bands of d; against the
- * same found from the triangles copied out.
- */
+ * Tests of the statistics of elements: quality, angles, and edge length over d, by bands of d. They
+ * are compared with values computed from the copied triangles. */
 #include "api_support.h"
 
 #define BANDS 8
@@ -48,8 +47,8 @@ static void check_triangles(pnpbs_placement placement, const result* it) {
   free(qualities);
 }
 
-/* On which side of the edge from a to b is the circumcentre of (a, b, c)? That of c: > 0. Half of
- * the cotangent of the angle at c. */
+/* Returns on which side of the edge from a to b the circumcentre of (a, b, c) lies: > 0 on the side
+ * of c. The value is half the cotangent of the angle at c. */
 static double side_of_circumcentre(const double* a, const double* b, const double* c) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
   const double bb = bx * bx + by * by, cc = cx * cx + cy * cy, twice = 2 * (bx * cy - by * cx);
@@ -79,8 +78,9 @@ static void check_circumcentres(pnpbs_placement placement, const result* it, int
 
 /* ---------------------------------------------------------------- Voronoi cells --------- */
 
-/* A corner of a cell, in a triangle of its node: from the node, with the last corner of the
- * triangle, which the next triangle has as well. */
+/* A corner of a Voronoi cell, which lies in a triangle of the cell's node. It has the angle and
+ * position relative to the node, and the last corner of the triangle, which the next triangle
+ * shares. */
 typedef struct {
   double angle, x, y;
   int64_t shared;
@@ -108,7 +108,7 @@ static void add_corner(cell* to, const double* a, const double* b, const double*
   it->shared = shared;
 }
 
-/* Of the nodes that no curve has; the others' are of no use. */
+/* Computes the Voronoi cells. Only those of nodes that lie on no curve are valid. */
 static cell* cells_of(const result* it) {
   cell* cells = calloc((size_t)it->n, sizeof *cells);
   int64_t t, i, k;
@@ -170,7 +170,8 @@ static double deviation_of(const sums* it) {
   return sqrt(fmax(0, it->squares / it->n - mean_of(it) * mean_of(it)));
 }
 
-/* Edges of the triangles, each once: inner ones come in both directions. */
+/* Checks the statistics of edges. Each edge counts once, although two triangles contain an inner
+ * edge. */
 static void check_edges(pnpbs_placement placement, const result* it) {
   const bands told = bands_of(placement);
   sums all = {0, 0, 0}, in_band[BANDS];
@@ -203,7 +204,7 @@ typedef struct {
 } measured;
 
 static void add_measured(measured bands[BANDS + 1], int64_t band, double value, int smaller) {
-  const int64_t both[2] = {band, BANDS}; /* and all together */
+  const int64_t both[2] = {band, BANDS}; /* the band, and all bands together */
   int k;
   for (k = 0; k < 2; ++k) {
     measured* it = &bands[both[k]];
@@ -236,7 +237,8 @@ static void check_measure(pnpbs_placement placement, const char* name, const ban
   }
 }
 
-/* Edges are met at both ends, and count at the one with the lesser place. */
+/* Checks the statistics of cells. An edge appears at both ends and counts at the one with the
+ * smaller index. */
 static void check_cells(pnpbs_placement placement, const result* it) {
   const bands limits = bands_of(placement);
   measured ratios[BANDS + 1], areas[BANDS + 1], offsets[BANDS + 1];
@@ -300,7 +302,8 @@ START_TEST(as_by_brute_force) {
 }
 END_TEST
 
-/* Centroidal sweeps bring nodes to the centroids of their cells, and leave the topology good. */
+/* Centroidal sweeps move nodes towards the centroids of their cells and preserve a good topology.
+ */
 START_TEST(centroidal_sweeps) {
   const char* sweeps[3] = {"0", "10", "40"};
   double mean[3], max[3];
@@ -352,7 +355,7 @@ START_TEST(bands_share_out_d) {
 }
 END_TEST
 
-/* Nodes are asked about as they are, after steps and before a run. */
+/* Statistics describe the current nodes, also after steps and before a run. */
 START_TEST(before_a_run) {
   cone d = {0.012, 0.03, 0, 0};
   job it = graded_job(&d);
@@ -371,7 +374,7 @@ START_TEST(before_a_run) {
   check_cells(it.placement, &found);
   check_circumcentres(it.placement, &found, 10);
   result_free(&found);
-  MUST_COMPUTE(pnpbs_placement_step(it.placement, 1)); /* what was found is found anew */
+  MUST_COMPUTE(pnpbs_placement_step(it.placement, 1)); /* the statistics are computed again */
   found = result_of(it.placement);
   check_triangles(it.placement, &found);
   result_free(&found);
@@ -426,7 +429,7 @@ static const char* last_warning(pnpbs_placement placement) {
   return text;
 }
 
-/* One step of nodes that are far too few for d: nothing makes up for them. */
+/* Without steps the given nodes remain, which are far too few for d. */
 START_TEST(missed_spacing_is_told) {
   job it = square_job(1);
   double xy[2 * 400];
@@ -449,7 +452,7 @@ START_TEST(missed_spacing_is_told) {
   ck_assert_int_eq(count, 1);
   MUST_BE(PNPBS_SPACING_MISSED, pnpbs_placement_run(it.placement));
   MUST(pnpbs_placement_warning_count(it.placement, &count));
-  ck_assert_int_eq(count, 1); /* of the last run */
+  ck_assert_int_eq(count, 1); /* the count includes the last run only */
   MUST(pnpbs_placement_set_int64(it.placement, "steps", 300));
   MUST(pnpbs_placement_run(it.placement));
   MUST(pnpbs_placement_warning_count(it.placement, &count));
@@ -458,7 +461,7 @@ START_TEST(missed_spacing_is_told) {
 }
 END_TEST
 
-/* The same without sweeps and repairs, whose stars would be there anyway. */
+/* Without sweeps and repairs, which would compute the stars anyway, the result is the same. */
 START_TEST(missed_without_sweeps) {
   job it = square_job(1);
   const double xy[] = {0.5, 0.5};
@@ -472,8 +475,8 @@ START_TEST(missed_without_sweeps) {
 }
 END_TEST
 
-/* A domain of short edges has no place for nodes at d: what the user's corners decide, and what
- * few edges seem to tell, is no miss. */
+/* In a domain with short edges nodes at distance d do not fit. Distances that the user's corners
+ * determine, and means over few edges, do not count as a missed spacing. */
 START_TEST(corners_are_no_miss) {
   job it = job_begin();
   add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 10, 0.1, 1);
@@ -488,7 +491,7 @@ START_TEST(corners_are_no_miss) {
 }
 END_TEST
 
-/* Stars restored from those of the run, and those from lists that were made after them. */
+/* Checks that stars from a run equal those computed after adjacency lists. */
 static void check_stars_before_and_after_lists(pnpbs_placement placement) {
   result before = result_of(placement);
   const int64_t rebuilds = integer_of(placement, "rebuilds");

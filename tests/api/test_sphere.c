@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Domains on a sphere: nodes on it, triangles that cover what the coasts bound, d along it, and
- * what is refused.
- */
+ * Tests of domains on a sphere: Nodes lie on it, triangles cover the region that the coasts bound,
+ * d is measured along it, and invalid input is rejected. */
 #include "api_support.h"
 
 static const double R = 6371.22;
@@ -16,7 +15,7 @@ static pnpbs_domain sphere_of(pnpbs_context context, double longitude, double la
   return domain;
 }
 
-/* A ring of n vertices on a parallel. */
+/* Adds a ring of n vertices on a parallel. */
 static void add_parallel(pnpbs_domain domain, int n, double latitude, double corner_angle,
                          int32_t role) {
   double* degrees = malloc((size_t)n * 2 * sizeof *degrees);
@@ -66,8 +65,8 @@ static void results_free(results* r) {
   free(r->corners);
 }
 
-/* The area of the triangles on the sphere, all of which must turn left seen from outside: by the
- * formula of Van Oosterom and Strackee (1983). */
+/* Returns the area of the triangles on the sphere by the formula of Van Oosterom and Strackee
+ * (1983). All triangles must be counter-clockwise seen from outside. */
 static double area_on_sphere(const results* r) {
   double area = 0;
   int64_t t;
@@ -126,7 +125,7 @@ START_TEST(nodes_fill_what_coasts_bound) {
     ck_assert_double_eq_tol(r.d[i] / (120 + 0.1 * fabs(x[2])), 1, 1e-12);
   }
   ck_assert_double_eq_tol(area_on_sphere(&r) / whole, 1, 2e-3);
-  /* Euler: a disc. */
+  /* The triangles form a disc, whose Euler characteristic is 1. */
   MUST(pnpbs_placement_get_boundary_edges(it.placement, 0, &edges, NULL, NULL));
   ck_assert_int_eq(r.nodes - (3 * r.triangles + edges) / 2 + r.triangles, 1);
   ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.985);
@@ -137,7 +136,8 @@ START_TEST(nodes_fill_what_coasts_bound) {
 }
 END_TEST
 
-/* One sea from two points of view: as many nodes for the same d, to what chance makes of it. */
+/* The same sea projected from two points has the same number of nodes, apart from random
+ * differences. */
 START_TEST(it_hardly_matters_from_where_it_is_seen) {
   int64_t nodes[2];
   int k;
@@ -170,7 +170,8 @@ START_TEST(distances_are_along_the_sphere) {
 }
 END_TEST
 
-/* Fine beside the coast, where a length in the projection is 13 times that on the sphere. */
+/* The spacing is fine beside the coast, where a length in the projection is 13 times that on the
+ * sphere. */
 static const double PIT = -0.87;
 
 static int32_t pit_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
@@ -195,7 +196,8 @@ START_TEST(growth_is_limited_along_the_sphere) {
     const double most = 60 + 0.2 * (way > 0 ? way : 0);
     if (most > 850) continue;
     ++limited;
-    /* A third too large beside a line of fine d: growth_limit.hpp. */
+    /* Beside a line of fine d the growth limit may leave d a third too large; see growth_limit.hpp.
+     */
     ck_assert_msg(r.d[i] < 1.34 * most + 5 && r.d[i] > 0.97 * most,
                   "d = %g, %g along the sphere: %g is the limit", r.d[i], way, most);
   }
@@ -205,7 +207,7 @@ START_TEST(growth_is_limited_along_the_sphere) {
 }
 END_TEST
 
-/* What comes back is what went in: from nodes, and from values at them. */
+/* Nodes and values at nodes that the library returns can be its input again. */
 START_TEST(nodes_and_values_are_taken_back) {
   job it = sea_job();
   results r;
@@ -241,7 +243,7 @@ START_TEST(nodes_and_values_are_taken_back) {
 }
 END_TEST
 
-/* A mesh in parts has three coordinates, and its facets on the coast are the boundary edges. */
+/* A distributed mesh has three coordinates, and its facets on the coast are the boundary edges. */
 START_TEST(meshes) {
   job it = sea_job();
   pnpbs_mesh mesh;
@@ -304,8 +306,8 @@ static void cells_free(cells* c) {
   free(c->areas), free(c->distances), free(c->normals);
 }
 
-/* Faces are on the great circle between two nodes, as long on both sides, and lengths are along the
- * sphere. */
+/* Checks that faces lie on the great circle between two nodes, have the same length from both
+ * sides, and that lengths are along the sphere. */
 static void check_faces(const results* r, const cells* c) {
   int64_t i, k, m;
   int a;
@@ -333,8 +335,9 @@ static double sum_of(int64_t n, const double* values) {
   return sum;
 }
 
-/* The cells cover what the triangles cover, and the lengths of their shares of the coast add up to
- * it. A regular cell has the area of a hexagon, and so has its share of the faces. */
+/* The cells cover the same area as the triangles, and the lengths of their shares of the coast sum
+ * to the coast's. A regular cell has the area of a hexagon, and its faces have the hexagon's
+ * length. */
 START_TEST(voronoi_cells) {
   job it = sea_job();
   double coast = 0, boundary = 0, hexagons = 0;
@@ -369,10 +372,10 @@ START_TEST(voronoi_cells) {
       const double* b = c.boundary + 3 * i;
       const double length = hypot(hypot(b[0], b[1]), b[2]);
       boundary += length;
-      /* Away from the domain, which lies in the north. */
+      /* The normal points away from the domain, which lies in the north. */
       if (length > 0) ck_assert_double_lt(b[2], 0);
     }
-    /* Less where the coast turns at a node. */
+    /* The sum is smaller where the coast turns at a node. */
     ck_assert_double_ge(coast * (1 + 1e-12), boundary);
     ck_assert_double_ge(boundary, 0.99 * coast);
     for (i = 0; i < c.nodes; ++i)
@@ -392,7 +395,7 @@ START_TEST(voronoi_cells) {
 END_TEST
 
 static void check_is_closed(const results* r) {
-  ck_assert_int_eq(r->triangles, 2 * (r->nodes - 2)); /* Euler */
+  ck_assert_int_eq(r->triangles, 2 * (r->nodes - 2)); /* Euler's formula */
   ck_assert_double_eq_tol(area_on_sphere(r) / (4 * PI * R * R), 1, 1e-12);
 }
 
@@ -410,8 +413,8 @@ static int32_t gentle_spacing(int64_t n, int32_t dim, const double* x, double* d
   return 0;
 }
 
-/* Without a curve: the triangles cover all of it once, and nothing tells where the point is that
- * it is projected from. */
+/* Without a curve the triangles cover the whole sphere once, and nothing in the result reveals the
+ * point of projection. */
 START_TEST(nothing_bounds_a_whole_sphere) {
   job it = globe_job(55, -82);
   double measure, outside[3], furthest = -2;
@@ -452,7 +455,7 @@ START_TEST(nothing_bounds_a_whole_sphere) {
 }
 END_TEST
 
-/* Whatever closed it for one spacing is laid anew for another. */
+/* The nodes that close the sphere at the point of projection are placed anew for a new spacing. */
 START_TEST(whole_spheres_follow_a_new_spacing) {
   job it = globe_job(10, 40);
   double *values, at[3], value, degrees[2] = {10, 40};
@@ -480,7 +483,7 @@ START_TEST(whole_spheres_follow_a_new_spacing) {
     ck_assert_double_eq_tol((double)r.nodes / (double)expected, 1, 0.04);
     results_free(&r);
   }
-  /* Values at nodes tell something of the point, too. */
+  /* Values at nodes define a value at the point of projection too. */
   r = results_of(it.placement);
   values = malloc((size_t)r.nodes * sizeof *values);
   ck_assert(values);
@@ -488,7 +491,8 @@ START_TEST(whole_spheres_follow_a_new_spacing) {
   MUST(pnpbs_transfer_create(it.placement, r.nodes, 1, values, &transfer));
   MUST(pnpbs_sphere_points(1, 1, degrees, at));
   MUST(pnpbs_transfer_at_points(transfer, 1, at, &value));
-  /* By its triangle, which lies that deep under the sphere at most. */
+  /* The value comes from the triangle around the point, whose distance from the sphere this
+   * tolerance bounds. */
   ck_assert_double_eq_tol(value, R * at[2], 350.0 * 350.0 / (6 * R));
   MUST(pnpbs_transfer_destroy(&transfer));
   free(values);
@@ -508,8 +512,8 @@ static int32_t spacing_from_point(int64_t n, int32_t dim, const double* x, doubl
   return 0;
 }
 
-/* By half and more across what is laid first: there is no gap beside it. The estimate is told
- * before anything else is. */
+/* d grows by half and more across the nodes that are placed first. There is no gap beside them. The
+ * first call on the placement is the estimate. */
 START_TEST(whole_spheres_are_closed_where_the_spacing_grows) {
   job it = globe_job(10, 40);
   double at[3];
@@ -543,8 +547,8 @@ static int32_t steep_spacing(int64_t n, int32_t dim, const double* x, double* d,
   return 0;
 }
 
-/* Where d is so steep that the triangle around the point has edges far longer than d, until its
- * growth is limited. */
+/* d is so steep that the triangle around the point would have edges far longer than d. The growth
+ * limit prevents this. */
 START_TEST(whole_spheres_are_closed_where_the_spacing_is_steep) {
   job it = globe_job(20, -30);
   const double degrees[2] = {20, -30};
@@ -563,7 +567,7 @@ START_TEST(whole_spheres_are_closed_where_the_spacing_is_steep) {
 }
 END_TEST
 
-/* Whatever the size of d is that is to be multiplied. */
+/* The number of nodes does not depend on the magnitude of the d that is scaled. */
 START_TEST(whole_spheres_have_as_many_nodes_as_are_wanted) {
   double d;
   for (d = 1; d < 1e7; d *= 100) {
@@ -604,7 +608,8 @@ START_TEST(whole_spheres_have_curves_and_fixed_nodes_inside) {
 }
 END_TEST
 
-/* What is laid first is wider on coarser levels: there are none that reach a curve. */
+/* The region of the nodes placed first is wider on coarser levels. Levels on which it would reach a
+ * curve are not used. */
 START_TEST(whole_spheres_have_curves_beside_what_is_laid_first) {
   job it = globe_job(0, -90);
   results r;
@@ -621,8 +626,8 @@ START_TEST(whole_spheres_have_curves_beside_what_is_laid_first) {
 }
 END_TEST
 
-/* Neither the number of fixed nodes that are laid first nor how d grows there in the projection
- * keeps a sphere from having as many as there are nodes for. */
+/* Neither the number of fixed nodes placed first nor the growth of d in the projection prevents
+ * coarser levels, if there are enough nodes for them. */
 START_TEST(whole_spheres_have_coarser_levels) {
   job it = globe_job(20, -30);
   job_place(&it);
@@ -657,8 +662,8 @@ START_TEST(what_whole_spheres_refuse) {
 }
 END_TEST
 
-/* The ends of the segments of a coast follow each other along the great circles between its
- * vertices, on the sphere; a whole sphere has none. */
+/* The segments of a coast join each other on the sphere, along the great circles between its
+ * vertices. A whole sphere has none. */
 START_TEST(segments_of_a_coast) {
   static const double degrees[6] = {-10, 30, 60, 50, 40, -20}, outside[3] = {-1, 0, 0};
   const int32_t given[3] = {4, 5, 6};
@@ -693,7 +698,7 @@ START_TEST(segments_of_a_coast) {
       ck_assert_double_eq_tol(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / R, 1, 1e-14);
       ck_assert_double_eq_tol((n[0] * x[0] + n[1] * x[1] + n[2] * x[2]) / (size * R), 0, 1e-12);
     }
-    /* Which is the next one's begin. */
+    /* The end of the segment is the begin of the next one. */
     if (s + 1 < count && tags[s + 1] == tags[s])
       ck_assert(memcmp(segments + 6 * s + 3, segments + 6 * s + 6, 3 * sizeof *segments) == 0);
   }
@@ -737,7 +742,7 @@ START_TEST(bad_input) {
   MUST_FAIL(PNPBS_ERROR_ARGUMENT,
             pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 3, x, NULL, 0), "vertex 0",
             "outside of the domain");
-  /* Over the pole that it is seen from; and past it. */
+  /* The first curve passes through the point of projection, the second beside it. */
   MUST_FAIL(PNPBS_ERROR_ARGUMENT,
             pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 3, over_pole, NULL, 0),
             "vertex 0 (1, 0, -1) [longitude 0, latitude -45]", "lies on the curve");
@@ -751,7 +756,7 @@ START_TEST(bad_input) {
             "vertices 0 (-1, 0, 0) [longitude 180, latitude 0] and 1 (1, 0, 0)");
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, zero, 1, 0, 1, 1),
             "sphere", "plane");
-  /* Places in messages are longitude and latitude. */
+  /* Points in messages are longitude and latitude. */
   add_parallel(it.domain, 4, -40, 0, PNPBS_BOUNDARY);
   add_parallel(it.domain, 6, -44, 0, PNPBS_BOUNDARY);
   MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "cross at (longitude ",

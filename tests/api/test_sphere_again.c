@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Runs again and again on a whole sphere: what is laid around the point of its chart stays in
- * steps, and the nodes come to rest.
- */
+ * Tests of repeated runs on a whole sphere: The nodes around the point of projection keep their
+ * positions in steps, and the nodes come to rest. */
 #include "api_support.h"
 
 static const double R = 6371.22;
@@ -19,7 +18,7 @@ static job globe_job(double d) {
   return it;
 }
 
-/* By id: the nodes, and how far each is from the point along the sphere. */
+/* The nodes by id, and the distance of each from the point of projection along the sphere. */
 typedef struct {
   int64_t n;
   double *x, *away;
@@ -57,7 +56,7 @@ static void nodes_free(nodes_by_id* nodes) {
   free(nodes->away);
 }
 
-/* Up to 12 d, some 500 nodes; the last finish has moved those beyond 6 d. */
+/* Checks about 500 nodes within 12 d. The last finish has moved those beyond 6 d. */
 START_TEST(steps_move_none_of_those_laid_first) {
   const double d = 300;
   job it = globe_job(d);
@@ -88,8 +87,8 @@ START_TEST(steps_move_none_of_those_laid_first) {
 }
 END_TEST
 
-/* The first run again settles the population; if the bubbles went to the point, some would be
- * deleted there in each. */
+/* The second run settles the population. If bubbles moved towards the point, each run would delete
+ * some there. */
 START_TEST(runs_again_delete_hardly_any) {
   job it = globe_job(300);
   int64_t before, after;

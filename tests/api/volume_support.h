@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What the tests of placements in space share: bodies, and results copied out and summed up.
+ * Support code of the tests of placements in space: bodies, and copies of results with their sums.
  */
 #ifndef PNPBS_TESTS_VOLUME_SUPPORT_H
 #define PNPBS_TESTS_VOLUME_SUPPORT_H
@@ -10,16 +10,18 @@
 
 #define DATA PNPBS_SOURCE_DIR "/examples/data"
 
-job body_job(volume_body body); /* a placement in the body */
-job box_job(double d);          /* in the unit box */
+job body_job(volume_body body); /* creates a placement in the body */
+job box_job(double d);          /* creates one in the unit box with this d */
 
-/* In a globe with bumps and dents, the deeper and narrower the larger these two are. */
+/* Creates a job in a globe with bumps and dents, whose depth and number grow with the first two
+ * arguments. */
 job rough_job(double depth, double waves, double d);
-job repaired_job(double depth, double waves, double d, double resolution); /* 0: not repaired */
+/* resolution 0 means no repair */
+job repaired_job(double depth, double waves, double d, double resolution);
 
-/* d does not resolve it: whatever is done with the elements, its boundary is torn. */
+/* Creates a job in a body that d does not resolve: no choice of elements closes its boundary. */
 job unresolved_job(void);
-/* A small sphere, filled with nothing, on which triangles do not join. */
+/* Creates a job on a small sphere without a volume, on which triangles do not join. */
 job unresolved_surface_job(void);
 
 int warnings_with(pnpbs_placement placement, const char* words);
@@ -36,19 +38,20 @@ void volume_free(volume* v);
 
 double distance(const double* a, const double* b);
 
-/* Of the tetrahedra, each of which must be of positive volume. */
+/* Returns the total volume of the tetrahedra. Each must have a positive volume. */
 double volume_sum(const volume* v);
 
-/* Of the triangles of the boundary with a tag (0: with any), and what all of them enclose. */
+/* Returns the area of the boundary triangles with a tag (0: any), and the volume that all of them
+ * enclose. */
 double boundary_area(const volume* v, int32_t tag, double* enclosed);
 
-/* The nearest pair over the mean of its d. */
+/* Returns the smallest distance between two nodes relative to the mean of their d. */
 double nearest_pair(const volume* v);
 
-/* The library's own check, and the volume by plain sums. */
+/* Runs the library's own check, and compares the volume with a plain sum. */
 void check_body(const job* it, double tolerance);
 
-/* The same while bubbles still move: until they have, tetrahedra may have no volume. */
+/* Runs the same check during the movement of bubbles, when tetrahedra may have no volume. */
 void check_stopped_body(const job* it, double tolerance);
 
 #endif

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command that made a page, as others can give it: folders of one machine say nothing to them."""
+"""The command that made a page, without the folders of the machine."""
 import shlex
 import sys
 
 
 def shown_command(program, hidden, files=()):
-    """As it was given, with words for the values of the options in `hidden`, and FILE... for the files."""
+    """Returns the command with words instead of the values of the options in `hidden`, and FILE...
+    for the files."""
     shown, rest, files = [program], iter(sys.argv[1:]), {str(file) for file in files}
     for word in rest:
         option, equals, _ = word.partition("=")

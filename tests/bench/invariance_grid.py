@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The promise, on the whole grid: one and the same nodes for any number of ranks and threads, any
-exchange interval and any partition, uniform and graded. Writes a Markdown table with the hash,
-the seconds and the most nodes that a rank holds (its ghosts included); exit status 1 if any hash
-differs from that of one rank and thread, or a run fails. docs/benchmarks.md tells how to read it."""
+"""Checks that the nodes are the same for any number of ranks and threads, exchange interval and
+partition.
+
+It runs the whole grid of these, uniform and graded. It writes a Markdown table with the hash, the
+seconds and the most nodes that a rank holds (its ghosts included). The exit status is 1 if any hash
+differs from that of one rank and thread, or if a run fails. docs/benchmarks.md explains the table.
+"""
 import argparse
 import itertools
 import sys
@@ -18,7 +21,7 @@ from tables import table_head, table_row  # noqa: E402
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "examples" / "data"
 
-# What place_on_ranks takes as its case, and the nodes it places there with its scale 1.
+# The cases by the name that place_on_ranks uses, with the number of nodes at scale 1.
 CASES = {
     "graded-square": ("graded-square", 118468),
     "uniform-square": ("uniform-square", 100673),
@@ -53,7 +56,7 @@ def arguments():
 
 
 def place(args, case, ranks, threads, interval, seed):
-    """The fields of the line that place_on_ranks prints."""
+    """Returns the fields of the line that place_on_ranks prints."""
     name, nodes_at_scale_1 = CASES[case]
     scale = (nodes_at_scale_1 / args.nodes) ** 0.5
     options = [f"exchange_interval={interval}", f"metis_seed={seed}", *args.set]
@@ -65,7 +68,7 @@ def place(args, case, ranks, threads, interval, seed):
 
 
 class CaseResult:
-    """Of one case: the run on one rank and thread, and the rows of all others beside it."""
+    """The results of one case: the run on one rank and thread, and the rows of all other runs."""
 
     def __init__(self, case):
         self.case, self.reference, self.why_none = case, None, ""
@@ -96,7 +99,7 @@ def run_case(args, case, grid, progress):
     progress.begin(f"{case} on 1 x 1")
     try:
         result.reference = place(args, case, 1, 1, 5, 1)
-    except Failed as failed:  # without it there is nothing to compare with
+    except Failed as failed:  # the other runs have nothing to be compared with
         result.why_none = failed
         progress.end(1 + len(grid))
         return result
@@ -123,7 +126,8 @@ def page(results):
 
 def main():
     args = arguments()
-    # One rank has no partition and nothing to exchange, but must not care either.
+    # One rank has no partition and no exchange, but its nodes must not depend on these settings
+    # either.
     grid = list(itertools.product(args.ranks, args.threads, args.intervals, args.seeds))
     progress = Progress(len(args.cases) * (len(grid) + 1))
     results = [run_case(args, case, grid, progress) for case in args.cases]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the figures were taken on."""
+"""Describes the machine of the measurements."""
 import os
 import platform
 from datetime import date
@@ -45,7 +45,7 @@ def system():
 
 
 def load():
-    """What others did with the machine in the minute before; a benchmark wants less than 1."""
+    """Returns the load of the machine in the last minute. A benchmark needs less than 1."""
     try:
         return round(os.getloadavg()[0], 2)
     except OSError:

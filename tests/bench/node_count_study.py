@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""How near runs come to a wanted number of nodes (`pnpbs --nodes`), over domains and spacings.
-
+"""Measures the error of `pnpbs --nodes` over domains and spacings.
   tests/bench/node_count_study.py [--program build/release/bin/pnpbs] [--nodes 300,3000,20000]
                                   [--cases lake,box]
 
-Prints for each case the nodes placed over those wanted, less one, in percent, and the seconds taken.
+Prints for each case the relative error of the number of nodes in percent, and the seconds taken.
 """
 
 import argparse

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Node sets for meshless methods (docs/guide/particles.md), by the measures of van der Sande and Fornberg
-(arXiv 1906.00636): covering radius, the largest distance of a point of the domain to the nearest node,
-and mesh ratio, the covering radius over the least distance of two nodes. On the unit square with d = 0.025
-and the unit cube with d = 0.05: the nodes as they are placed, the same pushed apart as particles are, and
-the lattice.
+"""Measures node sets for meshless methods (docs/guide/particles.md).
+
+The measures are those of van der Sande and Fornberg (arXiv 1906.00636): covering radius, the
+largest distance of a point of the domain to the nearest node, and mesh ratio, the covering radius
+over the least distance of two nodes. The sets fill the unit square with d = 0.025 and the unit cube
+with d = 0.05: placed nodes, the same nodes after the repulsion of particles, and the lattice.
 
   tests/bench/node_sets_study.py [--library build/release/lib/libpnpbs.so]
 
@@ -24,7 +25,9 @@ from scipy.spatial import Voronoi, cKDTree  # noqa: E402
 from tables import grouped, table_head, table_row  # noqa: E402
 
 CASES = ("square", 2, 0.025), ("cube", 3, 0.05)
-WIDER = 0.4  # d, of the body in which nodes become particles: then those on the boundary stay on it
+# In units of d: margin of the body in which nodes become particles, so that boundary nodes stay on
+# the boundary.
+WIDER = 0.4
 
 
 def box(pnpbs, context, dim, by=0.0):
@@ -35,7 +38,8 @@ def box(pnpbs, context, dim, by=0.0):
 
 
 def mirrored(points):
-    """With their images beyond each side, so that Voronoi cells end at it."""
+    """Returns the points with their mirror images beyond each side, so that Voronoi cells end at
+    the sides."""
     images = [points]
     for axis in range(points.shape[1]):
         for side in 0, 1:

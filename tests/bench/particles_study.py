@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What SPH and peridynamics measure of particles (docs/guide/particles.md): how many there are, their
-volumes, their closest pairs and their kernel sums, on bodies with constant and graded d, and the same of
-a lattice that the body cuts.
+"""Measures particles for SPH and peridynamics (docs/guide/particles.md).
+
+The measures are their number, their volumes, their closest pairs and their kernel sums, on bodies
+with constant and graded d. The same measures are given for a lattice that the body cuts.
 
   tests/bench/particles_study.py [--library build/release/lib/libpnpbs.so] [--cases square,cube]
                                  [--scale 2] [--output tables.md]
@@ -33,11 +34,11 @@ from scipy.spatial import cKDTree  # noqa: E402
 from tables import give, grouped, table_head, table_row  # noqa: E402
 
 DATA = ROOT / "examples" / "data"
-NEAR = 0.7  # d; pairs that are closer are counted
+NEAR = 0.7  # in units of d; closer pairs are counted
 TOLERANCE = 0.01  # of a kernel sum
-SMOOTHING = 1.2, 1.5, 2.0  # h / d
-NEIGHBOURS = 8  # among which the closest pairs are sought
-FEWEST = 100  # particles with full support, for a row of kernel sums
+SMOOTHING = 1.2, 1.5, 2.0  # values of h / d
+NEIGHBOURS = 8  # number of neighbours in the search for closest pairs
+FEWEST = 100  # least number of particles with full support in a row of kernel sums
 AT_ONCE = 2000  # particles whose kernel sums are evaluated together, for memory
 
 
@@ -62,11 +63,11 @@ def from_corner(x):
 
 @dataclasses.dataclass
 class Case:
-    shown: str  # d, as a reader would write it
+    shown: str  # d as a reader would write it
     dim: int
-    add: object  # what the body is, to an empty domain
+    add: object  # a function that adds the body to an empty domain
     spacing: object  # a number, or a function of points (n, dim)
-    contains: object = None  # of a body in space that is no file
+    contains: object = None  # only for a body in space that does not come from a file
     file: str = ""
 
     def d(self, points, scale):
@@ -110,12 +111,13 @@ class Particles:
     volumes: np.ndarray
     d: np.ndarray
     seconds: float = math.nan
-    left_out: int = 0  # nodes that are none
+    left_out: int = 0  # nodes that give no particle
     moved: int = 0
 
 
 def constants(dim):
-    """Those of `pnpbs --nodes-at centers`: depth of the outermost, and distance of bubbles, over d."""
+    """Returns the depth of the outermost particles and the distance of bubbles of `pnpbs --nodes-at
+    centers`, in units of d."""
     source = (ROOT / "src" / "tool" / "centred_nodes.hpp").read_text()
     depth, bubbles = re.findall(r"CentredNodes\{([\d.]+), ([\d.]+)\}", source)[dim - 2]
     return float(depth), float(bubbles)
@@ -146,7 +148,8 @@ def contains(case, body, points):
 
 
 def lattice(case, body, scale):
-    """Half a spacing from the low sides of the body's box, as one would cut a body out by hand."""
+    """Returns a lattice that begins half a spacing from the low sides of the body's box, cut by the
+    body."""
     d = scale * case.spacing
     low, high = body.bounds()
     axes = [np.arange(a + d / 2, b, d) for a, b in zip(low, high)]
@@ -157,23 +160,24 @@ def lattice(case, body, scale):
 
 # ------------------------------------------------------------------ kernels -----------------------
 
-# Wendland, Piecewise polynomial, positive definite and compactly supported radial functions of minimal
-# degree, Adv. Comput. Math. 4 (1995) 389-396: psi_{3,1} and psi_{3,3}, of r over the support's radius H.
-# Factors for an integral of 1 in the plane and in space: Dehnen and Aly, Improving convergence in
-# smoothed particle hydrodynamics simulations without pairing instability, MNRAS 425 (2012) 1068-1082,
-# table 1. H is 2 h for both, as in PySPH and TrixiParticles.jl; Dehnen and Aly themselves have another h.
+# The functions psi_{3,1} and psi_{3,3} of r over the radius H of the support are from Wendland,
+# Piecewise polynomial, positive definite and compactly supported radial functions of minimal
+# degree, Adv. Comput. Math. 4 (1995) 389-396. The factors for an integral of 1 in the plane and in
+# space are from Dehnen and Aly, Improving convergence in smoothed particle hydrodynamics
+# simulations without pairing instability, MNRAS 425 (2012) 1068-1082, table 1. H is 2 h for both,
+# as in PySPH and TrixiParticles.jl. Dehnen and Aly define h differently.
 SUPPORT = 2  # H / h
 
 
 @dataclasses.dataclass
 class Kernel:
     factors: dict  # by dimension, times H^dim
-    value: object  # of s = r / H, up to 1, without the factor
+    value: object  # function of s = r / H up to 1, without the factor
     slope: object  # its derivative
 
     def sums(self, dim, volumes, offsets, distances, support, rows, count):
-        """Sums of V W and V grad W: pairs have their particle in rows, which has `support`, and to it
-        the other has the offset."""
+        """Returns the sums of V W and V grad W. `rows` has the particle of each pair, `support` the
+        radius of its kernel, and `offsets` the vector to the other particle."""
         s = distances / support
         weights = self.factors[dim] * volumes / support ** dim
         values = np.bincount(rows, weights * self.value(s), count)
@@ -199,7 +203,7 @@ class Sums:
 
 
 def kernel_sums(particles, wanted, ratio):
-    """By kernel, of the particles with these numbers, with h = ratio d."""
+    """Returns the sums by kernel for the particles with these indices, with h = ratio d."""
     dim = particles.points.shape[1]
     tree, found = cKDTree(particles.points), {name: [] for name in KERNELS}
     for start in range(0, len(wanted), AT_ONCE):
@@ -218,7 +222,7 @@ def kernel_sums(particles, wanted, ratio):
 
 
 def endless_lattice(dim):
-    """As much of one as the kernel of its point 0 reaches."""
+    """Returns as much of a lattice as the kernel of its point 0 covers."""
     reach = math.ceil(SUPPORT * max(SMOOTHING))
     axes = [np.arange(-reach, reach + 1.0)] * dim
     points = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, dim)
@@ -237,12 +241,12 @@ SUM_TITLES = ["case", "h over d", "particles",
 
 
 def pairs(particles):
-    """Distances of close pairs, each once, over the mean d of both."""
+    """Returns the distances of close pairs, each once, divided by the mean d of both."""
     distances, others = cKDTree(particles.points).query(particles.points, NEIGHBOURS + 1)
     here = np.arange(len(others))[:, None]
     once = (here < others) & (others < len(others))
     mean = 0.5 * (particles.d[:, None] + particles.d[np.where(once, others, 0)])
-    # A pair that is near is among the nearest of both.
+    # Both particles of a close pair are among the nearest neighbours of each other.
     return (distances / mean)[once]
 
 
@@ -304,7 +308,7 @@ def arguments():
 
 
 def measured(pnpbs, args):
-    """The lines of both tables."""
+    """Returns the lines of both tables."""
     lines, sums, progress = [], [], Progress(len(args.cases))
     with pnpbs.Context() as context:
         for name in args.cases:

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Running the benchmark programs, alone or on ranks."""
+"""Runs the benchmark programs, alone or on ranks."""
 import os
 import subprocess
 
 
 class Failed(Exception):
-    """A run that gave no result; tells why."""
+    """A run that gave no result; the text says why."""
 
 
 def text_of(command, threads, time_limit):
-    """What it prints. Nothing is read from standard input."""
+    """Returns the output of a command. Its standard input is empty."""
     environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive")
     try:
         done = subprocess.run([str(word) for word in command], env=environment,
@@ -23,7 +23,8 @@ def text_of(command, threads, time_limit):
 
 
 def first_words(text):
-    """The first paragraph in one line. Open MPI draws rules around what it has to say."""
+    """Returns the first paragraph of an error in one line, without the rules that Open MPI draws
+    around it."""
     said = []
     for line in text.splitlines():
         line = line.strip()
@@ -35,13 +36,14 @@ def first_words(text):
 
 
 def on_ranks(mpiexec, ranks, program, *arguments):
-    """The command that runs a program on so many ranks, which may be more than cores."""
+    """Returns the command that runs a program on this number of ranks, which may exceed the number
+    of cores."""
     return [mpiexec, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
             "-np", ranks, program, *arguments]
 
 
 def line_of_ranks(mpiexec, ranks, threads, time_limit, program, *arguments):
-    """The pairs of words that a program prints on so many ranks."""
+    """Returns the pairs of words that a program prints on this number of ranks."""
     text = text_of(on_ranks(mpiexec, ranks, program, *arguments), threads, time_limit)
     words = text.split()
     if len(words) < 2:

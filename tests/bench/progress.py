@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far a long benchmark is."""
+"""Shows the progress of a long benchmark."""
 import sys
 import time
 
 
 class Progress:
-    """A bar on a terminal, tqdm's if it is there; else a line for each job."""
+    """A progress bar on a terminal, by tqdm if it is installed. Otherwise it prints a line for each
+    job."""
 
     WIDTH = 30
 
@@ -36,7 +37,7 @@ class Progress:
         return f", about {left / 60:.0f} min left"
 
     def end(self, jobs=1):
-        """So many are done, or need not be done any more."""
+        """Counts this number of jobs as done or skipped."""
         self.done += jobs
         if self.bar is not None:
             self.bar.update(jobs)

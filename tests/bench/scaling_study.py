@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A scaling study that needs no big machine: distributes placements over many ranks, oversubscribed,
-and takes no step; tells what each rank holds and sends, against what a law of surface to volume
-predicts, and what a model of the time per step makes of it on a cluster. Small whole runs, coarser
-levels included, tell what a rank sends in all, and a second model what a large one would take.
-Writes Markdown tables and, with --plot, a picture. docs/scaling.md tells how to read it."""
+"""Studies scaling without a big machine. It distributes placements over many oversubscribed ranks
+and takes no step. It compares what each rank holds and sends with the prediction of a law of
+surface to volume, and estimates the time per step on a cluster with a model. Small whole runs,
+coarser levels included, give what a rank sends in total, and a second model the time of a large
+run. Writes Markdown tables and, with --plot, a picture. docs/scaling.md explains the results."""
 import argparse
 import json
 import math
@@ -20,33 +20,32 @@ from tables import grouped  # noqa: E402
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "examples" / "data"
 
-# What decomposition takes as its case, the nodes it places there with its scale 1, and what to
-# call it.
+# The cases by the name that decomposition uses, with the number of nodes at scale 1 and the title.
 CASES = {
     "graded-square": ("graded-square", 118468, "graded square"),
     "great-lakes": (str(DATA / "great_lakes_islands.poly"), 114500, "Great Lakes with islands"),
 }
 
-# Spacings d^2 per node of a hexagonal lattice.
+# The area per node of a hexagonal lattice in units of d^2.
 AREA_PER_NODE = math.sqrt(3) / 2
 BYTES_PER_GHOST = 32  # position and velocity
 NEIGHBOURS_OF_A_SQUARE = 8
 
-# Options of the default method, and of src/level/ghosts.cpp.
+# Values of the default method's options and of src/level/ghosts.cpp.
 REST_LENGTH, MAX_MOVE, LIST_RADIUS, GHOST_LIFE = 1.06, 0.03, 1.6, 20
-MEAN_LEAF_SIDE = 3  # spacings; leaves are 2 to 4 wide
+MEAN_LEAF_SIDE = 3  # in spacings; leaves are 2 to 4 wide
 
 
 def halo_depth(interval):
-    """In spacings, for so many steps between exchanges: whole hops, and half a leaf on average,
-    because leaves come whole."""
+    """Returns the depth of the halo in spacings for an exchange every `interval` steps: whole hops,
+    and half a leaf on average, because whole leaves are sent."""
     drift = 2 * MAX_MOVE * max(GHOST_LIFE, interval)
     hops = math.ceil((interval * (REST_LENGTH + 2 * MAX_MOVE) + drift) / LIST_RADIUS)
     return hops * LIST_RADIUS + 0.5 * MEAN_LEAF_SIDE
 
 
 def ghosts_of_inner_part(nodes, ranks, interval):
-    """Around a square part that has others on all sides."""
+    """Returns the ghosts around a square part that has neighbours on all sides."""
     owned = nodes / ranks
     side = math.sqrt(owned * AREA_PER_NODE)
     rim = (side + 2 * halo_depth(interval)) ** 2 / AREA_PER_NODE - owned
@@ -54,7 +53,8 @@ def ghosts_of_inner_part(nodes, ranks, interval):
 
 
 def mean_ghosts(nodes, ranks, interval):
-    """Mean over sqrt(ranks) x sqrt(ranks) square parts of a square: none beyond its border."""
+    """Returns the mean over sqrt(ranks) x sqrt(ranks) square parts of a square, which has no ghosts
+    beyond its border."""
     per_row = math.sqrt(ranks)
     owned = nodes / ranks
     side = math.sqrt(owned * AREA_PER_NODE)
@@ -68,14 +68,15 @@ class Cluster:
         self.latency, self.bandwidth = args.latency, args.bandwidth
 
     def step_seconds(self, held, messages, data, interval):
-        """Of a step, with messages and bytes of one exchange every interval-th step."""
+        """Returns the time of a step with messages and bytes of one exchange every interval-th
+        step."""
         return (held * self.seconds_per_node + messages / interval * self.latency
                 + data / interval / self.bandwidth)
 
     def run_seconds(self, alone, small, cut, nodes, ranks, interval):
-        """Of a whole run, by what it goes to. alone: a run on one rank; small: one on some ranks,
-        whose messages this one would have, each longer; cut: what the partition costs a rank and
-        the first one."""
+        """Returns the time of a whole run by its parts. alone: a run on one rank. small: one on
+        several ranks, which gives the number of messages; each is longer here. cut: the cost of the
+        partition for a rank and for the first one."""
         owned = nodes / ranks
         held = 1 + ghosts_of_inner_part(nodes, ranks, interval) / owned
         per_node = alone["total.mean"] / alone["nodes"]
@@ -102,7 +103,8 @@ class Cluster:
                                BYTES_PER_GHOST * ghosts, interval)
 
     def efficiency_of(self, line, interval):
-        """Of a measured decomposition, as if one rank had the most of everything."""
+        """Returns the efficiency of a measured decomposition, as if one rank had the maximum of all
+        values."""
         return self.efficiency(line["nodes"], line["ranks"],
                                line["owned.largest"] + line["ghosts.largest"],
                                line["neighbours.largest"], line["bytes.largest"], interval)
@@ -148,9 +150,9 @@ def arguments():
 
 
 def decompose(args, case, ranks, *more):
-    """What decomposition prints, as numbers; None, and a line of why, if it does not. With the word
-    levels a whole run of few nodes for each rank, else one level: a coarser one would take steps,
-    of other numbers of nodes."""
+    """Returns the output of decomposition as numbers, or None with a message if it fails. With the
+    word levels it makes a whole run with few nodes per rank. Otherwise it makes one level, as
+    coarser ones would take steps with other numbers of nodes."""
     name, nodes_at_scale_1, _ = CASES[case]
     options = [f"exchange_interval={args.interval}"]
     if "levels" in more:
@@ -169,14 +171,15 @@ def decompose(args, case, ranks, *more):
 
 
 def partition_costs(args, ranks):
-    """By number of ranks, what the partition costs, by this machine."""
+    """Returns the cost of the partition on this machine by number of ranks."""
     words = text_of([args.cost_program, *ranks], 1, args.time_limit).splitlines()
     lines = [dict(zip(line.split()[0::2], map(float, line.split()[1::2]))) for line in words]
     return {int(line["ranks"]): line for line in lines}
 
 
 def run_all(args):
-    """Whole runs on one and on several ranks, and the decompositions of each case. By job."""
+    """Makes whole runs on one and on several ranks, and the decompositions of each case. Returns
+    the results by job."""
     first = args.cases[0]
     jobs = [(first, 1, "run"), (first, args.memory_ranks, "run")]
     jobs += [(case, ranks) for case in args.cases for ranks in args.ranks]
@@ -243,7 +246,7 @@ def model_table(args, cluster):
 
 
 def runs_table(runs):
-    """What a rank sends and gets in a whole run, coarser levels included."""
+    """Returns a table of what a rank sends and receives in a whole run, coarser levels included."""
     rows = ["### A whole run, coarser levels included", "",
             "| ranks | nodes per rank | steps | messages: mean / most | MiB sent: mean / most | "
             "collective calls | MiB gathered |",
@@ -259,7 +262,7 @@ def runs_table(runs):
 
 
 def large_table(args, cluster, runs, shared, costs):
-    """What larger runs would take, by the model: seconds by what they go to, and memory."""
+    """Returns tables of larger runs by the model: seconds of each part, and memory."""
     alone, small = runs[0], runs[-1]
     mib = 2.0 ** 20
     per_node = (shared["memory.largest"] - shared["memory.empty.mean"]) / shared["owned.largest"]

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the schedule's options do to speed and quality: one at a time is moved away from its
-default, on the graded square at several scales, because least quality and smallest angle hang on
-chance. Writes a page in Markdown; docs/benchmarks.md tells how to run it."""
+"""Measures the effect of the schedule's options on speed and quality. One option at a time differs
+from its default. The graded square is run at several scales, because least quality and smallest
+angle depend on chance. Writes a page in Markdown; docs/benchmarks.md explains how to run it."""
 import argparse
 import json
 import re
@@ -20,10 +20,10 @@ from tables import grouped, table_head, table_row  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 CASE, NODES_AT_SCALE_1 = "graded-square", 118069
-SCALES = 0.95, 1.07  # the least and the largest
-REPEAT_DEFAULT = 3  # all speeds are compared with its
+SCALES = 0.95, 1.07  # the smallest and the largest
+REPEAT_DEFAULT = 3  # all speeds are compared with the default's
 
-# Values of each option beside its default, by preset.
+# The values of each option besides its default, by preset.
 GRIDS = {
     "default": {
         "levels": [0, 1, 2, 3, 4],
@@ -65,12 +65,12 @@ GRIDS = {
     },
 }
 
-# Name, default, paper's and best's value in a row of the options' table in the source, and what
-# the reference says of an option.
+# The expressions match name, default, paper's and best's value in a row of the source's options
+# table, and the text of the reference about an option.
 OPTION_ROW = re.compile(r'\{"(\w+)", T::\w+, "([^"]*)", [^,]+, (?:nullptr|"([^"]*)"),')
 OPTION_HELP = re.compile(r"^\| `(\w+)` \|.* \| (.*) \|$", re.MULTILINE)
 
-# Of the two lines that pnpbs-bench prints of a run.
+# The expressions match the two lines that pnpbs-bench prints about a run.
 RUN = re.compile(r": (?P<nodes>\d+) nodes, .* user (?P<user>\S+) s, (?P<steps>\d+) steps")
 QUALITY = re.compile(
     r"^  wide .*mean (?P<mean>\S+)  1% (?P<one_percent>\S+)  least (?P<least>\S+) .* "
@@ -112,7 +112,7 @@ def arguments():
 
 
 def option_table():
-    """By option: its value by preset, and what it does."""
+    """Returns for each option its value by preset, and its description."""
     source = (ROOT / "src" / "settings" / "options.cpp").read_text()
     told = dict(OPTION_HELP.findall((ROOT / "docs" / "reference" / "options.md").read_text()))
     return {name: {"default": default, "best": best or default, "does": told[name]}
@@ -131,12 +131,13 @@ def options_of(args, preset):
 
 
 def values_of(option, preset, table):
-    """The grid's, and the default if it has become another."""
+    """Returns the grid's values, and the default if it is not among them."""
     return sorted({*GRIDS[preset][option], float(table[option][preset])})
 
 
 def settings_of(args, preset, table):
-    """All that is run: the options set beside the preset; none, first, is the preset itself."""
+    """Returns all settings to run, as the options set beside the preset. The first, empty one is
+    the preset itself."""
     settings = [""]
     for option in options_of(args, preset):
         settings += [f"{option}={value:g}" for value in values_of(option, preset, table)
@@ -159,12 +160,13 @@ def run(args, preset, setting, factor):
 
 
 def run_all(args, table):
-    """By preset and setting: what the runs told, one for each scale; or why there is none."""
+    """Returns by preset and setting the figures of the runs, one for each scale, or why there are
+    none."""
     factors = scale_factors(args.scales)
     kept = {}
     if args.figures and args.figures.exists():
         kept = json.loads(args.figures.read_text())
-    # Scale by scale, so that what else the machine does is spread over the settings.
+    # The order is by scale, so that disturbances of the machine are spread over the settings.
     jobs = [(preset, setting, factor) for factor in factors for preset in args.presets
             for setting in settings_of(args, preset, table)]
     progress, found = Progress(len(jobs)), {}
@@ -216,7 +218,7 @@ def worst_of(runs, key):
 
 
 def speed_of(runs):
-    least = 1e-3  # what pnpbs-bench tells
+    least = 1e-3  # resolution of pnpbs-bench
     return statistics.median(line["nodes"] / max(line["user"], least) for line in runs)
 
 
@@ -248,7 +250,8 @@ def table_of(preset, option, found, table):
 
 
 def how(args, runs):
-    """What the columns say, with how far chance goes by the runs of a default."""
+    """Returns the explanation of the columns, with the random variation in the runs of a default.
+    """
     text = HOW.format(scales=args.scales, least=SCALES[0], largest=SCALES[1],
                       repeat=REPEAT_DEFAULT)
     if len(runs) > 1 and not any("failed" in line for line in runs):
@@ -259,7 +262,7 @@ def how(args, runs):
 
 
 def shown_command():
-    """Folders of this machine say nothing to others."""
+    """Returns the command without folders of this machine."""
     shown, hidden = ["tests/bench/schedule_study.py"], ("--program", "--figures", "--output")
     rest = iter(sys.argv[1:])
     for word in rest:

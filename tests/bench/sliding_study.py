@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Should nodes on boundary curves slide along them? What the worst triangles of a run are, and what
-more rounds of sweeps and repairs bring with and without sliding.
+"""Studies whether nodes on boundary curves should slide along them. It shows what the worst
+triangles of a run are, and the effect of more rounds of sweeps and repairs with and without
+sliding.
 
   tests/bench/sliding_study.py [--pnpbs build/release/bin/pnpbs] [--nodes 20000]
                                [--cases airfoil,gear] [--settings default,best] [--output FILE]
 
-Writes two tables in Markdown. Needs NumPy and SciPy. Sweeps and repair are as in src/quality."""
+Writes two tables in Markdown. Needs NumPy and SciPy. Sweeps and repair are those of src/quality."""
 import argparse
 import copy
 import math
@@ -31,13 +32,14 @@ from scipy.sparse import coo_matrix, triu  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
 from tables import give, grouped, table_head, table_row  # noqa: E402
 
-# As in the library (src/method/constants.hpp, src/settings/options.cpp).
+# The values of the library (src/method/constants.hpp, src/settings/options.cpp).
 SWEEP_WEIGHT, MAX_MOVE, GUARDS_BELOW, CLEARANCE = 0.6, 0.1, 0.75, 0.4
 ANGLE_WEIGHT, WORST_BELOW, SMOOTH_BELOW = 1.365, 0.82, 0.87
-SWEEPS_ON_STARS, REPAIR_ROUNDS, WAYS = 5, 10, (0.08, 0.04, 0.02, 0.01)  # ways in d, of a repair
+# Distances of a repair in units of d.
+SWEEPS_ON_STARS, REPAIR_ROUNDS, WAYS = 5, 10, (0.08, 0.04, 0.02, 0.01)
 DIRECTIONS = np.array([(math.cos(a), math.sin(a)) for a in np.arange(8) * math.pi / 4])
-ROUNDS = 4  # of sweeps and new triangles
-GAP = 0.3   # of the way to its neighbour on the curve: what a node slides at most at once
+ROUNDS = 4  # rounds of sweeps and new triangles
+GAP = 0.3   # largest slide of a node at once, relative to the gap to its neighbour on the curve
 
 
 # ------------------------------------------------------------------ cases -------------------------
@@ -48,12 +50,12 @@ def polar(radius, count=4800):
 
 
 def curved(loops, holes, slope):
-    """d grows from the first vertex."""
+    """Returns a case in which d grows from the first vertex."""
     return peers.Case("", "", from_loops(loops, holes), 0.1, slope, *loops[0][0].tolist()).with_nodes
 
 
-# What gives one of peers/cases.py for a number of nodes, and the angle that makes a corner: with 0
-# every vertex is a node.
+# The function that returns a case of peers/cases.py for a number of nodes, and the angle of a
+# corner. With 0 every vertex is a node.
 CASES = {
     "airfoil": (peers.make_graded_airfoil, 0),
     "airfoil-corners": (peers.make_graded_airfoil, 20),
@@ -61,7 +63,7 @@ CASES = {
     "annulus-corners": (curved([polar(lambda a: 1), polar(lambda a: 0.4)], [(0, 0)], 0), 20),
     "lakes": (peers.make_lakes, 0),
     "lakes-corners": (peers.make_lakes, 45),
-    # Six round lobes, with reentrant corners between them.
+    # The gear has six round lobes with reentrant corners between them.
     "gear": (curved([polar(lambda a: 0.6 + 0.4 * abs(np.cos(3 * a)))], (), 2), 20),
 }
 SETTINGS = {"default": [], "best": ["effort=best"], "bubbles": ["first_row=0"],
@@ -71,15 +73,15 @@ SETTINGS = {"default": [], "best": ["effort=best"], "bubbles": ["first_row=0"],
 # ------------------------------------------------------------------ curves ------------------------
 
 def corners(vertices, angle):
-    """Those that must be nodes."""
+    """Returns the vertices that must be nodes."""
     ahead = np.arctan2(*(np.roll(vertices, -1, 0) - vertices).T[::-1])
     turn = np.abs((ahead - np.roll(ahead, 1) + math.pi) % (2 * math.pi) - math.pi)
     return vertices[turn > math.radians(angle)] if angle else vertices
 
 
 class Rim:
-    """Where nodes are on the closed curves, by arc length, one curve behind the other; which of them
-    may slide, and who is beside them there."""
+    """The positions of nodes on the closed curves by arc length, one curve after another; which of
+    them may slide, and their neighbours on the curves."""
 
     def __init__(self, points, on_boundary, domain, corner_angle):
         loops = [domain.vertices[loop] for loop in domain.loops()]
@@ -87,7 +89,7 @@ class Rim:
         self.stations = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(self.ends, axis=0).T))])
         after = np.cumsum([len(loop) + 1 for loop in loops])
         begins = self.stations[np.concatenate([[0], after[:-1]])]
-        self.joins = after[:-1] - 1  # from curve to curve
+        self.joins = after[:-1] - 1  # from one curve to the next
         self.station = np.zeros(len(points))
         self.station[on_boundary] = self.nearest(points[on_boundary])
         loop = np.searchsorted(begins, self.station, "right") - 1
@@ -103,7 +105,7 @@ class Rim:
 
     def nearest(self, points):
         a, ahead, station = self.ends[:-1], np.diff(self.ends, axis=0), np.empty(len(points))
-        for first in range(0, len(points), 500):  # a bound on memory
+        for first in range(0, len(points), 500):  # limits the memory
             some = slice(first, first + 500)
             off = points[some, None] - a
             share = np.clip((off * ahead).sum(2) / (ahead ** 2).sum(1), 0, 1)
@@ -118,11 +120,11 @@ class Rim:
         return self.begin[nodes] + (station - self.begin[nodes]) % self.length[nodes]
 
     def way(self, nodes, to):
-        """Along their curve to other stations."""
+        """Returns the signed distance along the curve to other stations."""
         half = self.length[nodes] / 2
         return (to - self.station[nodes] + half) % (2 * half) - half
 
-    def gaps(self, nodes):  # back and ahead, to those beside
+    def gaps(self, nodes):  # back and ahead, to the neighbours
         return (self.way(nodes, self.station[other]) for other in self.beside[nodes].T)
 
     def places(self, nodes, ways):
@@ -133,7 +135,7 @@ class Rim:
 # ------------------------------------------------------------------ rounds ------------------------
 
 def quality(a, b, c, angles=False):
-    """2 r_in / R, less than 0 if turned over; or what the library calls shape."""
+    """Returns 2 r_in / R, negative for inverted triangles, or the library's shape measure."""
     ab, bc, ca = (np.hypot(*np.moveaxis(u - v, -1, 0)) for u, v in ((a, b), (b, c), (c, a)))
     twice = ((b - a)[..., 0] * (c - a)[..., 1] - (b - a)[..., 1] * (c - a)[..., 0])
     product = np.maximum(ab * bc * ca, 1e-300)
@@ -143,7 +145,7 @@ def quality(a, b, c, angles=False):
 
 
 class Set:
-    """The nodes and their triangles, in positive sense."""
+    """The nodes and their triangles, which are counter-clockwise."""
     def __init__(self, points, on_boundary, case, corner_angle):
         self.points, self.inner, self.case = points, ~on_boundary, case
         self.rim = Rim(points, on_boundary, case.domain, corner_angle)
@@ -166,7 +168,8 @@ class Set:
         self.star_starts = np.searchsorted(corner[self.star_corners], np.arange(count + 1))
 
     def freeze(self):
-        """What is beside an edge of the boundary that is none of the triangles': in thin strips."""
+        """Freezes nodes near boundary edges that belong to no triangle, which exist in thin strips.
+        """
         ends = np.column_stack([np.arange(len(self.points)), self.rim.beside[:, 1]])[~self.inner]
         missing = ends[np.asarray(self.adjacent[ends[:, 0], ends[:, 1]]).ravel() == 0]
         near = np.zeros(len(self.points))
@@ -174,13 +177,13 @@ class Set:
         self.frozen = near + self.adjacent @ (near + self.adjacent @ near) > 0
 
     def star(self, i):
-        """The other two corners of each triangle around a node, in order."""
+        """Returns the other two corners of each triangle around a node, in order."""
         t, k = np.divmod(self.star_corners[self.star_starts[i]:self.star_starts[i + 1]], 3)
         return np.column_stack([self.triangles[t, (k + 1) % 3], self.triangles[t, (k + 2) % 3]])
 
     def slid(self, move, share):
-        """The nodes that slide, and how far: as all would move, along the curve, and by a `share` to
-        where both steps of ds/d are equal."""
+        """Returns the nodes that slide and their distances: as all nodes would move, along the
+        curve, and partly (by `share`) to where both steps of ds/d are equal."""
         nodes = np.flatnonzero(self.rim.slides & ~self.frozen)
         back, ahead = self.rim.gaps(nodes)
         before, after = self.rim.beside[nodes].T
@@ -212,7 +215,8 @@ class Set:
             a, b, c = np.roll(t, -k, 1).T
             alone = quality(goal[a], self.points[b], self.points[c])
             barred[a[spoilt | (alone < least)]] = True
-            facing = self.inner[a] & ~self.inner[b] & ~self.inner[c]  # keeps off the boundary
+            # Inner nodes must keep away from the boundary.
+            facing = self.inner[a] & ~self.inner[b] & ~self.inner[c]
             a, b, c = a[facing], self.points[b[facing]], self.points[c[facing]]
             low = np.minimum(CLEARANCE * self.d[a], height(self.points[a], b, c))
             barred[a[height(goal[a], b, c) < low]] = True
@@ -259,18 +263,18 @@ class Set:
         ways = np.clip(np.outer(WAYS, (-1, 1)).ravel() * self.d[i], back, ahead)
         return self.rim.places(np.full(len(ways), i), ways), ways
 
-    def over_d(self, a, b):  # of edges
+    def over_d(self, a, b):  # length of edges over d
         return 2 * np.hypot(*(self.points[a] - self.points[b]).T) / (self.d[a] + self.d[b])
 
 
 def height(a, b, c):
-    """Of a over the line bc."""
+    """Returns the height of a over the line bc."""
     e, r = (np.moveaxis(u - b, -1, 0) for u in (c, a))
     return abs(e[0] * r[1] - e[1] * r[0]) / np.hypot(*e)
 
 
-# Share of equal steps in the slide of the sweeps, None for none; does the repair slide, and does it
-# lower the sum of (1 - quality)^4 instead of the worst?
+# For each variant: the share of equal steps in the slide of the sweeps (None for no slide), whether
+# the repair slides, and whether it reduces the sum of (1 - quality)^4 instead of the worst value.
 VARIANTS = {
     "fixed": (None, False, False),
     "a: sweeps slide, to the mean": (0, False, False),
@@ -319,7 +323,7 @@ def row(name, settings, variant, nodes):
 
 
 def worst_rows(name, settings, nodes):
-    """What the worst triangles are."""
+    """Yields rows about the worst triangles."""
     triangles, rim = nodes.mesh.triangles, ~nodes.inner
     order = np.argsort(shape(nodes.points, triangles)[0], kind="stable")
     held = rim & ~nodes.rim.slides
@@ -332,7 +336,7 @@ def worst_rows(name, settings, nodes):
 
 
 def placed(program, case, corner_angle, options):
-    """Nodes, and which are on the boundary, by the command."""
+    """Returns the nodes of the command, and which of them are on the boundary."""
     with tempfile.TemporaryDirectory() as folder:
         case.domain.write_poly(Path(folder) / "case.poly")
         command = [program.absolute(), "--domain", "case.poly", "--corner-angle", corner_angle,
@@ -341,7 +345,7 @@ def placed(program, case, corner_angle, options):
         command += [word for option in options for word in ("--set", option)]
         done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True,
                               stdin=subprocess.DEVNULL, text=True, check=False)
-        if done.returncode not in (0, 3):  # 3: not yet at rest
+        if done.returncode not in (0, 3):  # 3: not at rest
             sys.exit(f"pnpbs: status {done.returncode}: {done.stderr.strip()}")
         rows = np.loadtxt(Path(folder) / "nodes.csv", delimiter=",", skiprows=1, usecols=(1, 2, 3))
     return rows[:, :2].copy(), rows[:, 2] != 0

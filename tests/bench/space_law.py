@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What ranks hold, send and compute in a cube cut into cubes, by surface and volume, and what a run on
-a cluster would take; docs/scaling.md explains it. Lengths are spacings d."""
+"""Laws of surface and volume for what ranks hold, send and compute in a cube cut into cubes, and
+the time of a run on a cluster; docs/scaling.md explains them. Lengths are in spacings d."""
 import math
 
-VOLUME_OF_NODE = 0.62  # over d^3: 255 649 nodes in the unit cube at d = 0.0185
-BYTES_PER_GHOST = 52  # position, velocity, and the facet that it may have moved to
-# Of the default method: LIST_RADIUS for each hop, and half a leaf on average, because leaves come whole.
+VOLUME_OF_NODE = 0.62  # in d^3: 255 649 nodes in the unit cube at d = 0.0185
+BYTES_PER_GHOST = 52  # position, velocity, and the facet of a node on a surface
+# The values of the default method: LIST_RADIUS for each hop, and half a leaf on average, because
+# whole leaves are sent.
 LIST_RADIUS, HALF_LEAF = 1.6, 1.5
-STAR_HOPS, STEP_HOPS = 3, 2  # kStarHops, and step_hops for an exchange in every step
+STAR_HOPS, STEP_HOPS = 3, 2  # kStarHops, and step_hops with an exchange in every step
 
 
 def depth(hops):
@@ -19,8 +20,8 @@ def width(owned):
 
 
 def growth(layer, owned, ranks):
-    """Nodes of a part and a layer of that thickness, over those of the part: the mean over the parts, of
-    which those outside lack some neighbours."""
+    """Returns the nodes of a part with a layer of this thickness over those of the part, as the
+    mean over the parts. Parts at the outside lack some neighbours."""
     return (1 + 2 * layer * (1 - ranks ** (-1 / 3)) / width(owned)) ** 3
 
 
@@ -29,8 +30,8 @@ def ghosts(layer, owned, ranks):
 
 
 def fitted_layer(points):
-    """The thickness by which growth() is closest to what was found, of (owned, ranks, found). Widths are
-    compared, in which the law is linear."""
+    """Returns the thickness for which growth() fits (owned, ranks, found) best. The fit compares
+    widths, in which the law is linear."""
     slopes = [2 * (1 - ranks ** (-1 / 3)) / width(owned) for owned, ranks, _ in points]
     rises = [found ** (1 / 3) - 1 for _, _, found in points]
     return sum(map(lambda s, r: s * r, slopes, rises)) / sum(s * s for s in slopes)
@@ -41,8 +42,8 @@ def part(line):
 
 
 class Laws:
-    """Of pairs of lines of decomposition: an even cube on several ranks, and the same on one. The last one
-    has the messages and collective calls of a run."""
+    """The laws fitted to pairs of lines of decomposition: an even cube on several ranks, and the
+    same on one. The last one has the messages and collective calls of a run."""
 
     COUNTED = ("lists", "stars", "sweeps")
     OTHERS = ("boundary", "tree", "fill", "spacing", "population", "conformity")
@@ -53,12 +54,13 @@ class Laws:
                        for phase in self.COUNTED}
         alone = max((alone for _, alone in pairs), key=lambda alone: alone["nodes"])
         self.alone = alone["computed.mean"] / alone["nodes"]  # seconds of a core per node
-        # Exchanges of the finest level's ghosts that a run is worth.
+        # The data sent in a run, in units of exchanges of the finest level's ghosts.
         self.exchanges = mean(line["sent.mean"] / (BYTES_PER_GHOST * step_ghosts(line)) for line in lines)
         last = lines[-1]
         self.messages, self.collectives = last["messages.largest"], last["collectives.largest"]
         self.gathered_each = last["gathered.largest"] / last["ranks"]
-        # By phase, of a core per node; the clock of the phases waits for other processes of the machine.
+        # The seconds of a core per node by phase. The clock of the phases includes waiting for
+        # other processes.
         share = self.alone / alone["total.mean"]
         self.phases = {phase: alone[f"{phase}.mean"] * share
                        for phase in ("motion", *self.COUNTED, *self.OTHERS)}
@@ -68,19 +70,20 @@ class Laws:
         return growth(self.layers[phase], *part(line))
 
     def worst(self, phase, lines):
-        """The largest difference of the law from what was counted, as a share of that."""
+        """Returns the largest relative difference between the law and the counted values."""
         return max(abs(self.by_law(phase, line) / line[f"redundancy.{phase}"] - 1) for line in lines)
 
     def counted(self, owned, ranks):
-        """Seconds for ghosts, by the laws of what is counted. Forces and motion are of owned nodes alone;
-        what is not counted is taken to grow like stars, the most."""
+        """Returns the seconds for ghosts by the laws of what is counted. Forces and motion involve
+        owned nodes only. Phases that are not counted are assumed to grow like stars, which grow
+        most."""
         layers = {phase: self.layers["stars"] for phase in self.phases}
         layers.update(motion=0, lists=self.layers["lists"], sweeps=self.layers["sweeps"])
         return owned * sum(seconds * (growth(layers[phase], owned, ranks) - 1)
                            for phase, seconds in self.phases.items())
 
     def others(self, owned, ranks, cost, latency, bandwidth):
-        """Seconds of a run that are not work for nodes."""
+        """Returns the seconds of a run that are not work for nodes."""
         sent = self.exchanges * BYTES_PER_GHOST * ghosts(depth(STEP_HOPS), owned, ranks)
         stages = 2 * math.ceil(math.log2(ranks))
         return {

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Scaling in space without a big machine: places nodes in a cube on many ranks, oversubscribed.
-
   tests/bench/space_scaling_study.py --output space.md [--runs even/8/44000,...] [--figures FILE]
 
-A run is CASE/RANKS/NODES: so many nodes for each rank; the same nodes are placed on one rank, too. What
-ranks hold, send and compute for ghosts are counts, so no machine has to be idle. The seconds are those of
-a core outside MPI. Laws are fitted to the even cubes, and give what a run on a cluster would take.
-docs/scaling.md tells how to read it.
+A run is CASE/RANKS/NODES with this number of nodes per rank. The same nodes are placed on one rank,
+too. What ranks hold, send and compute for ghosts are counts, so the machine need not be idle. The
+seconds are those of a core outside MPI. Laws are fitted to the even cubes and give the time of a
+run on a cluster. docs/scaling.md explains the results.
 """
 
 import argparse
@@ -76,7 +75,7 @@ def keep(args, kept, key, figures):
 
 
 def figures_of(args, case, ranks, nodes, kept):
-    """What decomposition prints, as numbers."""
+    """Returns the output of decomposition as numbers."""
     key = f"{case}-cube {ranks} {nodes}"
     if key not in kept:
         scale = (NODES_AT_SCALE_1[case] / (ranks * nodes)) ** (1 / 3)
@@ -87,7 +86,8 @@ def figures_of(args, case, ranks, nodes, kept):
 
 
 def measured(args):
-    """By case, pairs of the run on the ranks and the same on one; and runs that failed, a line each."""
+    """Returns by case pairs of the run on the ranks and the same on one, and a line for each failed
+    run."""
     kept, pairs, failures = kept_figures(args), {}, []
     progress = Progress(len(args.runs))
     for case, ranks, nodes in args.runs:
@@ -107,7 +107,7 @@ def measured(args):
 
 
 def partition_costs(args, ranks):
-    """By number of ranks, seconds of this machine."""
+    """Returns the seconds of this machine by number of ranks."""
     kept, costs = kept_figures(args), {}
     for count in ranks:
         key = f"partition {count}"

@@ -28,12 +28,12 @@ from scipy.spatial import ConvexHull  # noqa: E402
 from tables import give, grouped, table_head, table_row  # noqa: E402
 
 PLACE = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
-GROWTH = 0.15  # of d per length, from the place on
-MOST = 10      # times the least d
+GROWTH = 0.15  # growth of d per length, from the point on
+MOST = 10      # largest d over the least
 
 
 class Case:
-    """d on the unit sphere is `scale` times what `shape` gives."""
+    """A case in which d on the unit sphere is `scale` times the value of `shape`."""
 
     def __init__(self, title, shape, formula):
         self.title, self.shape, self.formula = title, shape, formula
@@ -42,7 +42,8 @@ class Case:
         return scale * self.shape(x)
 
     def scale_for(self, nodes):
-        """Triangles of d fill the sphere: 2 / sqrt(3) / d^2 nodes per area."""
+        """Returns the scale for this number of nodes. The sphere has 2 / sqrt(3) / d^2 nodes per
+        area."""
         points = lattice(20000)
         low, high = 1e-4, 1.0
         for _ in range(60):
@@ -53,7 +54,7 @@ class Case:
 
 
 class PlaceCase(Case):
-    """The formula holds lengths, so it depends on the scale."""
+    """A case whose formula contains lengths, so that it depends on the scale."""
 
     def spacing(self, x, scale):
         way = np.arccos(np.clip(x @ PLACE, -1, 1))
@@ -100,7 +101,8 @@ def by_jigsaw(command, sweeps, case, scale, folder):
 
 
 def spacing_grid(case, scale):
-    """Half a degree apart: between, JIGSAW takes d to be linear."""
+    """Returns the text of a grid with steps of half a degree. JIGSAW interpolates d linearly between
+    its points."""
     lon, lat = np.linspace(-math.pi, math.pi, 721), np.linspace(-math.pi / 2, math.pi / 2, 361)
     a, b = np.meshgrid(lon, lat, indexing="ij")
     x = np.stack([np.cos(b) * np.cos(a), np.cos(b) * np.sin(a), np.sin(b)], axis=-1).reshape(-1, 3)
@@ -123,7 +125,8 @@ def measures(x, case, scale):
     edges = np.unique(np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1), axis=0)
     d = case.spacing(x, scale)
     over = np.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1) / d[edges].mean(axis=1)
-    # Eight bands of d, equal in ratio: how far off the mean edge is in the worst of them.
+    # d is divided into eight bands of equal ratio. The result is the error of the mean edge in the
+    # worst band.
     band = np.minimum(8 * np.log(d[edges].mean(axis=1) / d.min()) // max(np.log(d.max() / d.min()), 1e-12), 7).astype(int)
     means = [over[band == k].mean() for k in range(8) if np.sum(band == k) >= 100] if d.max() > 1.1 * d.min() else [over.mean()]
     return {"quality": quality, "angle": np.degrees(np.arccos(np.clip(cosine, -1, 1)).min()), "edge": over,

@@ -15,7 +15,7 @@ def table_head(titles):
 
 
 def give(text, path):
-    """Into the file, or to standard output where there is none."""
+    """Writes a text to the file, or to standard output if there is none."""
     if path:
         path.write_text(text + "\n")
     else:

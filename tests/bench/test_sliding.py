@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The study of sliding boundary nodes, small: its tables, and that nodes slide along their curve and
-corners do not. PNPBS_COMMAND is the command."""
+"""Tests of the small study of sliding boundary nodes: its tables, and that nodes slide along their
+curve while corners do not. PNPBS_COMMAND is the command."""
 import os
 import subprocess
 import sys
@@ -34,7 +34,8 @@ class Tables(unittest.TestCase):
             mean, low, least = map(float, row[3].split(" / "))
             self.assertTrue(0.6 < least <= low <= mean < 1, row)
             share, slides, _ = sliding.VARIANTS.get(variant, (None, False, False))
-            self.assertEqual(row[-1] != "0", share is not None or slides, row)  # how far nodes slid
+            # Distance that nodes slid.
+            self.assertEqual(row[-1] != "0", share is not None or slides, row)
         worst = [row for row in rows if len(row) == len(sliding.WORST_TITLES)]
         self.assertEqual([row[5] for row in worst], ["worst 1 %", "worst 50"])
 
@@ -81,7 +82,7 @@ class Nodes(unittest.TestCase):
         np.testing.assert_allclose(np.hypot(x, y), radius, atol=1e-5)
 
     def test_equal_steps(self):
-        """Alone, sliding to equal steps brings back nodes that were pushed along the curve."""
+        """Sliding to equal steps alone moves back nodes that were pushed along the curve."""
         nodes = self.nodes()
         slid = np.flatnonzero(nodes.rim.slides)[::3]
         ways = 0.2 * nodes.d[slid]
@@ -99,7 +100,7 @@ class Nodes(unittest.TestCase):
         a, b, c = np.array([[0, 0], [1, 0], [0.5, 3 ** 0.5 / 2]])
         self.assertAlmostEqual(sliding.quality(a, b, c), 1)
         self.assertAlmostEqual(sliding.quality(a, c, b), -1)
-        # The right triangle: r_in = (2 - sqrt(2)) / 2, R = sqrt(2) / 2.
+        # The right triangle has r_in = (2 - sqrt(2)) / 2, R = sqrt(2) / 2.
         self.assertAlmostEqual(sliding.quality(a, b, np.array([0, 1])), 2 * (2 ** 0.5 - 1))
 
 

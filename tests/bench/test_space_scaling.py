@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The laws of surface and volume against cubes of points that are counted, and the study's page, with an
-mpirun that plays ranks whose figures follow known laws."""
+"""Tests of the laws of surface and volume against counted points in cubes, and of the study's page
+with a fake mpirun, whose figures follow known laws."""
 import itertools
 import json
 import subprocess
@@ -16,7 +16,7 @@ sys.path.insert(0, str(HERE))
 
 import space_law  # noqa: E402
 
-# Layers of the played ranks, spacings.
+# The layers of the fake ranks in spacings.
 LISTS, STARS, SWEEPS, SECONDS = 0.5, 1.5, 1.0, 3.0
 PLAYED = f"""#!{sys.executable}
 import sys
@@ -62,7 +62,8 @@ print(*(word for pair in line.items() for word in pair))
 
 class Law(unittest.TestCase):
     def test_growth_of_counted_cubes(self):
-        """27 parts of 12^3 points, and what lies within 3 points of each in the whole cube."""
+        """Each of 27 parts has 12^3 points. The layer has the points of the whole cube within 3
+        points of a part."""
         side, per_row, layer = 12, 3, 3
         held = 0
         for part in itertools.product(range(per_row), repeat=3):
@@ -70,11 +71,12 @@ class Law(unittest.TestCase):
                      for p in part]
             held += sum(1 for _ in itertools.product(*spans))
         owned = side ** 3
-        spacings = space_law.width(owned) / side  # of a point's width
-        # Axis by axis the mean over the parts is that of their widths.
+        spacings = space_law.width(owned) / side  # width of a point in spacings
+        # The mean over the parts is the product of the mean widths along each axis.
         self.assertAlmostEqual(space_law.growth(layer * spacings, owned, per_row ** 3),
                                held / (per_row ** 3 * owned), 12)
-        self.assertEqual(space_law.ghosts(1000, owned, 27), 26 * owned)  # no more than there are
+        # Not more than all other nodes.
+        self.assertEqual(space_law.ghosts(1000, owned, 27), 26 * owned)
 
     def test_fit_finds_the_layer(self):
         points = [(owned, ranks, space_law.growth(0.7, owned, ranks))
@@ -98,7 +100,7 @@ class Study(unittest.TestCase):
                               capture_output=True, text=True, check=False)
 
     def rows(self, text):
-        """By heading, the rows of its tables."""
+        """Returns the rows of the tables by heading."""
         tables, heading = {}, None
         for line in text.splitlines():
             if line.startswith("#"):
@@ -133,13 +135,13 @@ class Study(unittest.TestCase):
         side = (0.62 * 44000) ** (1 / 3)
         own, rise = 0.44, lambda layer: (1 + 2 * layer * 0.75 / side) ** 3 - 1
         counted = own / 4 * (rise(LISTS) + rise(STARS) + rise(SWEEPS))
-        # 64 ranks: 2 log2 of that are 12 stages.
+        # On 64 ranks 2 log2 of the ranks is 12 stages.
         messages = (300 * 63 * 2e-6 + 80 * 52 * 44000 * rise(4.7) / 1e10)
         collectives = 2000 * 12 * 2e-6 + 64000 / 1e10
         expected = [own, counted, messages, collectives, 0.5, 0.25]
         self.assertEqual(model[2:], [*(f"{value:.3f}" for value in expected),
                                      f"{own / sum(expected):.2f}"])
-        # What is measured is not measured again.
+        # Existing measurements are not repeated.
         kept = json.loads(figures.read_text())
         self.assertEqual(len(kept), 4 + 2)  # the partition for 8 and 64 ranks
         kept["even-cube 8 4000"]["ghosts.largest"] = 12345

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The studies as they are run, with small node sets: the schedule study's page, what pnpbs-bench says
-of bodies, what the grid of invariance says of runs that differ and of runs that fail, and the study of
-particles. PNPBS_BENCH is the program pnpbs-bench, PNPBS_LIBRARY the library that Python can load, if
-there is one; an mpirun is played."""
+"""Tests of the studies with small node sets: the schedule study's page, the output of pnpbs-bench
+for bodies, the invariance grid's report of differing and failing runs, and the study of particles.
+PNPBS_BENCH is the program pnpbs-bench, and PNPBS_LIBRARY the library for Python, if there is one.
+mpirun is a fake."""
 import json
 import math
 import os
@@ -41,7 +41,7 @@ class Schedule(InFolder):
         return run("schedule_study.py", "--nodes", 1000, "--program", BENCH, *words)
 
     def rows(self, page):
-        """By heading, the rows of its table, cells without bold."""
+        """Returns the rows of the table by heading, with cells without bold marks."""
         tables, heading = {}, None
         for line in page.splitlines():
             if line.startswith("#"):
@@ -61,12 +61,12 @@ class Schedule(InFolder):
         self.assertEqual([row[0] for row in rows], ["0", "2", "4", "6", "10"])
         self.assertIn("| **6** |", page)
         quality = [float(row[4]) for row in rows]
-        self.assertLess(quality[0], quality[2])  # what the sweeps are for
+        self.assertLess(quality[0], quality[2])  # the purpose of the sweeps
         self.assertEqual(rows[3][2], "1.00")
         for row in rows:
             self.assertGreater(float(row[1].replace(" ", "")), 1000)
         self.assertNotIn(str(self.folder), page)
-        # What is measured is not measured again.
+        # Existing measurements are not repeated.
         kept = json.loads(figures.read_text())
         self.assertEqual(len(kept), 2 * 5)
         for runs in kept.values():
@@ -129,7 +129,7 @@ class Volumes(unittest.TestCase):
 
 
 class Grid(InFolder):
-    """The played mpirun knows the ranks by what stands behind -np."""
+    """Tests with a fake mpirun, which reads the number of ranks after -np."""
 
     def grid(self, mpirun):
         return run("invariance_grid.py", "--program", mpirun, "--mpiexec", mpirun, "--cases",
@@ -185,7 +185,8 @@ class Particles(unittest.TestCase):
             self.assertLess(abs(float(places[name][4])), 1e-12)
             self.assertGreater(float(places[name][6]), 0.4)
         sums = {tuple(row[:2]): row for row in rows if len(row) == 11}
-        # The endless lattice's, by hand: neighbours at 0, 1, sqrt(2), 2, sqrt(5), sqrt(8) within 3 d.
+        # The endless lattice's sum is computed by hand: neighbours at 0, 1, sqrt(2), 2, sqrt(5),
+        # sqrt(8) within 3 d.
         by_hand = 7 / (9 * math.pi) * sum(
             count * (1 - r / 3) ** 4 * (1 + 4 * r / 3)
             for count, r in ((1, 0), (4, 1), (4, 2 ** 0.5), (4, 2), (8, 5 ** 0.5), (4, 8 ** 0.5)))

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What tests of shapes share: files of GeoJSON, and a domain of what is read from them.
- */
+ * Support code of the tests of shapes: GeoJSON files, and domains made of shapes. */
 #ifndef PNPBS_TESTS_GEO_GEO_SUPPORT_H
 #define PNPBS_TESTS_GEO_GEO_SUPPORT_H
 
@@ -18,7 +17,7 @@
     ck_assert_msg(status_ == PNPBS_OK, "%s: %s", #call, pnpbs_geo_last_error()); \
   } while (0)
 
-/* The message must have both parts. */
+/* Checks that the call fails and that the message contains both parts. */
 #define GEO_MUST_FAIL(expected, call, part, other_part)                                   \
   do {                                                                                    \
     const pnpbs_status status_ = (call);                                                  \
@@ -29,12 +28,14 @@
                   message_);                                                              \
   } while (0)
 
-/* Writes a file into the tests' folder and returns its path, valid until the next call. */
+/* Writes a file into the tests' folder. Returns its path, which is valid until the next call. */
 const char* write_file(const char* name, const char* text, size_t length);
-/* The same of a FeatureCollection with these features. */
+/* Writes a GeoJSON file of a FeatureCollection with these features. Returns its path as write_file
+ * does. */
 const char* write_geojson(const char* name, const char* features);
 
-/* A feature of this type with these coordinates, and a name; as an argument of write_geojson. */
+/* A feature of this type with these coordinates and two properties, as an argument of
+ * write_geojson. */
 #define FEATURE(type, coordinates)                         \
   "{\"type\":\"Feature\",\"properties\":{\"land\":\"" type \
   "\",\"code\":7},\"geometry\":{\"type\":\"" type "\",\"coordinates\":" coordinates "}}"
@@ -45,16 +46,16 @@ typedef struct geo_case {
   pnpbs_domain domain;
 } geo_case;
 
-/* Read and in a domain that is checked. */
+/* Reads the file, adds its shapes to a domain and checks the domain. */
 geo_case geo_begin(const char* path, const char* projection, const char* unit, const char* field);
 void geo_end(geo_case* it);
 
 double geo_area(const geo_case* it);
 void expect_counts(pnpbs_geo_shapes shapes, int64_t vertices, int64_t boundary, int64_t inner,
                    int64_t points);
-/* Whether one of the notes has this in it. */
+/* Returns whether one of the notes contains the text. */
 int has_note(pnpbs_geo_shapes shapes, const char* part);
-/* How many a note with this code counts; -1 if there is none. */
+/* Returns the count of the note with this code, or -1 if there is none. */
 int64_t noted(pnpbs_geo_shapes shapes, int32_t code);
 
 #endif

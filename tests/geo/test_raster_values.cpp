@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values between the cells of a raster, of which some blocks are in memory, against the same on all
-// of it in memory: to the bit, in any memory.
+// Tests of values between the cells of a raster of which only some blocks are in memory. They must
+// equal the values computed from the whole raster in memory to the bit, for any size of the memory.
 #include <cmath>
 #include <cstring>
 #include <deque>
@@ -26,7 +26,7 @@ struct Whole {
   }
 };
 
-// Spreads values from the cells that have one, step by step.
+// Spreads values from cells with data to cells without, step by step.
 void fill_all(Whole& whole) {
   std::deque<std::int64_t> front;
   const std::int64_t columns = whole.cells.columns, count = whole.cells.count();
@@ -65,11 +65,11 @@ bool any_data_around(const Whole& whole, const CellBox& window, const Between& p
 
 struct Case {
   CellBox window;
-  std::int64_t columns, rows;  // of blocks
+  std::int64_t columns, rows;  // size of blocks
   RasterValues::Memory memory;
 };
 
-// Of -1 there is no data.
+// A raster in which the value -1 means no data.
 struct Raster {
   Whole whole;
   std::map<std::int64_t, int> reads;  // by the first cell of a block
@@ -185,7 +185,8 @@ START_TEST(without_data) {
 }
 END_TEST
 
-// In a batch, in whatever order places come in, and however little memory there is.
+// Within a batch each block is read once, whatever the order of points and however small the memory
+// is.
 START_TEST(a_block_is_read_once) {
   Raster raster = some_raster(400, 300, 2);
   RasterValues values([&](const CellBox& cells) { return raster.read(cells); }, {0, 0, 400, 300},

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a program that was linked with the library relies on, a line each: functions with their types
-and symbol versions, callbacks, constants, handles, and the keys of the tables. The lines of a
-promise are in abi/pnpbs-<SOVERSION>.abi; what is here now must still have all of them. The same of
-libpnpbs_geo, which has no tables.
+"""Compares what programs linked with the library rely on with the recorded interface.
 
-usage: abi.py --check <file> <header> <library>     fails if the file is not what is here now
-       abi.py --record <file> <header> <library>    adds to the file what is new
-       abi.py --show <header> <library>             prints what is here now"""
+The interface is listed line by line: functions with their types and symbol versions, callbacks,
+constants, handles, and the keys of the tables. The record is in abi/pnpbs-<SOVERSION>.abi; the
+current library must still have all of its lines. The same applies to libpnpbs_geo, which has no
+tables.
+
+usage: abi.py --check <file> <header> <library>     fails if the file differs from the current one
+       abi.py --record <file> <header> <library>    adds new lines to the file
+       abi.py --show <header> <library>             prints the current interface"""
 
 import ctypes
 import pathlib
@@ -30,10 +32,11 @@ def signature(name, function):
 
 
 def of_header(text):
-    """Lines of callbacks, constants and handles; and the functions, {name: signature}."""
+    """Returns the lines of callbacks, constants and handles, and the functions as {name:
+    signature}."""
     lines = [f"callback {signature(name, callback)}"
              for name, callback in c_header.callbacks(text).items()]
-    # The version is what may change.
+    # The version may change.
     lines += [f"constant {name} {value}" for name, value in c_header.constants(text).items()
               if not name.startswith("PNPBS_VERSION_")]
     lines += [f"handle {name}" for name in re.findall(
@@ -54,13 +57,13 @@ def soname(library):
 
 
 def symbol_versions(library):
-    """{function: version}"""
+    """Returns {function: version} of the exported symbols."""
     symbols = tool("nm", "-D", "--defined-only", "--with-symbol-versions", library)
     return dict(re.findall(r" T (pnpbs_\w+)@@?(\w+)", symbols))
 
 
 def rows(library, table, columns):
-    """A table of the library's, row by row; columns are types of ctypes."""
+    """Reads a table of the library row by row. `columns` are ctypes types."""
     count = ctypes.c_int32()
     if getattr(library, f"pnpbs_{table}_count")(ctypes.byref(count)) != 0:
         raise RuntimeError(f"no count of {table}s")
@@ -74,7 +77,7 @@ def rows(library, table, columns):
 
 
 def of_tables(path):
-    """Lines of options, statistics and file formats."""
+    """Returns the lines of options, statistics and file formats."""
     library = ctypes.CDLL(path)
     text, number = ctypes.c_char_p, ctypes.c_int32
     lines = []
@@ -93,7 +96,8 @@ def of_tables(path):
 # ---------------------------------------------------------------- all of it, and comparing ------
 
 def describe(header, name, versions, tables):
-    """All lines: of the header's text, a SONAME, {function: version}, lines of tables."""
+    """Returns all lines, given the header's text, a SONAME, {function: version} and the lines of
+    tables."""
     lines, functions = of_header(header)
     lines += [f"function {text} {versions.get(function, 'not exported')}"
               for function, text in functions.items()]
@@ -112,7 +116,7 @@ def recorded(path):
 
 
 def key(line):
-    """What a line is about: its kind and its name."""
+    """Returns the kind and the name of the item that a line describes."""
     kind, rest = line.split(" ", 1)
     if kind in ("function", "callback"):
         return kind, re.search(r"(\w+)\(", rest)[1]
@@ -120,7 +124,7 @@ def key(line):
 
 
 def compare(before, now):
-    """(what breaks programs, what is new), as sentences."""
+    """Returns two lists of sentences: the changes that break programs, and the additions."""
     of_now = {key(line): line for line in now}
     breaks = []
     for line in before:
@@ -133,7 +137,8 @@ def compare(before, now):
 
 
 def as_c(lines):
-    """C that compiles beside the header only if the compiler reads both alike."""
+    """Returns C code that compiles with the header only if the compiler reads it as the lines say.
+    """
     code = ["#include <pnpbs/pnpbs.h>"]
     for number, line in enumerate(lines):
         kind, rest = line.split(" ", 1)

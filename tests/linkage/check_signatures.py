@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares the C header with the Fortran interface bodies: every function, every argument (name,
-order, type, by value or by reference, direction), every callback, every constant.
+"""Compares the C header with the Fortran interface bodies.
+
+The comparison covers every function, every argument (name, order, type, by value or by reference,
+direction), every callback and every constant.
 usage: check_signatures.py <header> <its interfaces, pnpbs_c.f90 or pnpbs_geo_c.f90>"""
 
 import pathlib
@@ -21,7 +23,7 @@ HANDLES = {"pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer",
 
 
 def difference(c, fortran):
-    """What is wrong with a Fortran argument for a C one, or None."""
+    """Returns what is wrong with a Fortran argument for a C argument, or None."""
     if fortran.name != c.name:
         return f"is named {fortran.name}"
     if fortran.type in ("type(c_ptr)", "type(c_funptr)") and fortran.note:
@@ -96,7 +98,7 @@ def differences_of_sets(what, c, fortran):
 
 
 def differences(header, interfaces):
-    """All that differs between two texts, a line each."""
+    """Returns all differences between two texts, one per line."""
     bodies = fortran_interfaces.functions(interfaces)
     pairs = [
         ("function", c_header.functions(header),

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What scripts/setup.sh asks apt-get for where something is missing; nothing is installed.
+# Tests which packages scripts/setup.sh requests from apt-get if something is missing. Nothing is
+# installed.
 # usage: setup_needs.sh <source folder> <C++ compiler>
 set -euo pipefail
 source=$1 cxx=$(command -v "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# A compiler that knows no header of that name.
+# This compiler does not find the hidden header.
 cat > "$work/compiler" << COMPILER
 #!/bin/sh
 case "\$*" in *" -") ;; *) exec "$cxx" "\$@" ;; esac
@@ -19,7 +20,7 @@ printf '#!/bin/sh\nexit 100\n' > "$work/apt-get"
 printf '#!/bin/sh\nexec "$@"\n' > "$work/sudo"
 chmod +x "$work"/*
 
-asks_for() { # header that is hidden, package, options of setup.sh
+asks_for() { # arguments: hidden header, package, options of setup.sh
   local hidden=$1 package=$2 status=0
   shift 2
   HIDDEN=$hidden CXX=$work/compiler PATH=$work:$PATH HDF5_ROOT='' "$source/scripts/setup.sh" "$@" \

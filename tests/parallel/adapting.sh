@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The adapting sequence has the same nodes after every stage, on any number of ranks, with any
-# partition and exchange interval. usage: adapting.sh PROGRAM MPIEXEC
+# Tests that the adapting sequence has the same nodes after every stage on any number of ranks, with
+# any partition and exchange interval.
+# usage: adapting.sh PROGRAM MPIEXEC
 set -euo pipefail
 program=$1 mpiexec=$2
 failed=0
 
-adapt() { # ranks, threads, arguments of the program
+adapt() { # arguments: ranks, threads, arguments of the program
   local ranks=$1 threads=$2
   shift 2
   OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 900 \

@@ -1,34 +1,36 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The promise: one hash, and the same told of the elements, for any number of ranks and threads, any
-# exchange interval, any partition.
-# Small sizes, and every pair of values of two parameters at least once; invariance_grid.py beside
-# the benchmarks runs the whole grid at any size. usage: invariance.sh PROGRAM MPIEXEC DATA THIN_HALO,
-# with the folder of the library whose ghost layers are too thin.
+# Tests that the hash of the nodes and the statistics of the elements are the same for any number of
+# ranks and threads, exchange interval and partition. Sizes are small, and every pair of values of
+# two parameters occurs at least once. invariance_grid.py of the benchmarks runs the whole grid at
+# any size.
+# usage: invariance.sh PROGRAM MPIEXEC DATA THIN_HALO
+# THIN_HALO is the folder of the library whose ghost layers are too thin.
 set -euo pipefail
 program=$1 mpiexec=$2 data=$3 thin_halo=$4${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 failed=0
 
-place() { # ranks, threads, arguments of the program
+place() { # arguments: ranks, threads, arguments of the program
   local ranks=$1 threads=$2
   shift 2
   OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 900 \
     "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" "$program" "$@" < /dev/null
 }
-# The value of a key in a line. Assign it: where the line has no such key, that ends the test.
+# Prints the value of a key in a line. If the result is assigned to a variable, a missing key ends
+# the test.
 field() {
   awk -v key="$2" '{ for (k = 1; k < NF; ++k) if ($k == key) { print $(k + 1); found = 1 } }
                    END { exit !found }' <<< "$1"
 }
 
-begin() { # case, scale of d, other options
+begin() { # arguments: case, scale of d, other options
   subject=("$@")
   expected=$(place 1 1 "$@")
   expected_hash=$(field "$expected" hash)
   expected_elements=$(field "$expected" elements)
   echo "$(basename "$1") ${*:2}: $expected"
 }
-compare() { # ranks, threads, exchange interval, seed
+compare() { # arguments: ranks, threads, exchange interval, seed
   local line hash elements
   line=$(place "$1" "$2" "${subject[@]}" "exchange_interval=$3" "metis_seed=$4")
   hash=$(field "$line" hash)
@@ -39,7 +41,7 @@ compare() { # ranks, threads, exchange interval, seed
   fi
 }
 
-require_at_least() { # count, key of the case's reference, what else is wrong
+require_at_least() { # arguments: count, key of the case's reference, text of the error
   local count
   count=$(field "$expected" "$2")
   if ! [ "$count" -ge "$1" ]; then
@@ -48,8 +50,8 @@ require_at_least() { # count, key of the case's reference, what else is wrong
   fi
 }
 
-# Four cases x eight numbers of ranks; intervals and seeds are two orthogonal Latin squares of order
-# four over cases and ranks (sums and products of the field with four elements).
+# There are four cases and eight numbers of ranks. Intervals and seeds are two orthogonal Latin
+# squares of order four over cases and ranks (sums and products of the field with four elements).
 cases=("graded-square 8" "$data/great_lakes.poly 8" "uniform-square 8"
        "$data/lake_victoria.poly 10")
 ranks=(1 2 3 4 5 7 8 16)
@@ -67,46 +69,50 @@ done
 begin graded-square 8 method=paper
 compare 2 2 4 1
 compare 5 1 1 2
-begin uniform-square 40 # about as many ranks as nodes inside
+begin uniform-square 40 # nearly as many ranks as inner nodes
 compare 16 1 4 1
-# Vertices far closer than d: leaves are small against the bubbles, and all is boundary.
+# The vertices are far closer than d. Leaves are small compared with the bubbles, and all nodes are
+# near the boundary.
 begin "$data/lake_victoria.poly" 60
 compare 3 1 8 1
 compare 8 1 4 1
 compare 16 1 2 2
 begin "$data/great_lakes_islands.poly" 4
 compare 8 1 4 1
-# Many events with many insertions and deletions.
+# Many events insert and delete many nodes.
 begin graded-square 8 event_interval=3 population_tolerance=0 delete_above=6.3 insert_below=5.7 first_row=0
 compare 4 1 2 1
 compare 7 1 8 2
 require_at_least 50 inserted "population control had little to do"
 require_at_least 50 deleted "population control had little to do"
-# Where d jumps, nodes are pressed together after the last population event; they go at the end.
+# Where d jumps, nodes are pressed together after the last population event. They are deleted at the
+# end.
 begin jump-square 1 steps=40 sweeps=0 growth_limit=0
 compare 2 1 4 1
 compare 3 2 1 2
 compare 8 1 5 1
 require_at_least 20 deleted "no crowd had to go at the end"
-# The same with the growth of d limited, as it is by default.
+# The same case with the default growth limit.
 begin jump-square 1
 compare 2 1 4 1
 compare 3 2 1 2
 compare 8 1 5 1
-# A fill by cells where d grows by a fifth of the distance, and the population aimed by octaves.
+# The nodes fill cells where d grows by a fifth of the distance, and the population is controlled by
+# octaves.
 begin steep-square 1
 compare 2 1 4 1
 compare 3 2 1 2
 compare 8 1 5 1
 compare 16 1 2 1
-# Hardly moved nodes, many of which have four neighbours or fewer: those go, and many triangles are bad.
+# Nodes have hardly moved, and many with four neighbours or fewer are deleted. Many triangles are
+# bad.
 begin graded-square 8 steps=0 levels=0 first_row=0
 compare 2 1 4 1
 compare 5 2 1 2
 compare 8 1 5 1
 compare 16 1 2 1
 require_at_least 20 deleted "no surplus node had to go"
-# Sweeps to the centroids of cells in blocks, and nodes far from rest with many obtuse triangles.
+# Centroidal sweeps run in blocks. Nodes far from rest have many obtuse triangles.
 begin graded-square 8 centroidal_sweeps=12
 compare 2 1 4 1
 compare 3 2 1 2
@@ -116,7 +122,8 @@ begin "$data/great_lakes.poly" 8 steps=0 levels=0 centroidal_sweeps=7 obtuse_rou
 compare 2 1 4 1
 compare 5 2 1 2
 compare 8 1 5 1
-# Many defects, far from rest, so that repairs have much to try and often bar each other.
+# There are many defects far from rest, so that repairs have many candidates and often exclude each
+# other.
 begin graded-square 8 steps=0 levels=0 topology_repairs=6 sweeps=0 smoothing_rounds=0
 compare 2 1 4 1
 compare 3 2 1 2
@@ -124,7 +131,8 @@ compare 5 1 5 1
 compare 16 1 2 1
 require_at_least 10 inserted "no defect asked for one more node"
 require_at_least 20 deleted "no defect asked for one node less"
-# A new first row at curved boundaries, on both sides of curves inside; nothing else comes.
+# A new first row is placed at curved boundaries, on both sides of inner curves. No other nodes are
+# inserted.
 begin ring 0.5 steps=0 levels=0
 compare 2 1 4 1
 compare 3 2 1 2
@@ -139,7 +147,8 @@ begin "$data/great_lakes.poly" 8 effort=best
 compare 3 1 4 1
 compare 8 2 2 2
 
-# It can fail: no rank sees half of the nodes, and ghost layers too thin give another set.
+# The comparison must be able to fail: No rank has half of the nodes, and too thin ghost layers give
+# another set.
 line=$(place 8 1 graded-square 2 exchange_interval=2 sweeps=0)
 held=$(field "$line" held)
 nodes=$(field "$line" nodes)

@@ -163,7 +163,8 @@ static void one_operation(void) {
 
 /* --- memory over time ------------------------------------------------------------------------ */
 
-/* Returns the bytes in use on the heap and the resident size, in MiB, of the rank with the most. */
+/* Computes the largest heap in use and the largest resident size of all ranks, in MiB. Collective.
+ */
 static void memory_now(double* heap, double* resident) {
   FILE* file = fopen("/proc/self/statm", "r");
   long pages[2] = {0, 0};

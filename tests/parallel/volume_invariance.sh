@@ -1,24 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The promise in space: one hash of the nodes, and one of what is told of the elements, for any
-# number of ranks and threads, any exchange interval, any partition. node_hashes.sh runs all cases
-# of the program at more ranks. usage: volume_invariance.sh PROGRAM MPIEXEC DATA THIN_HALO, with the
-# folder of the library whose ghost layers are too thin.
+# Tests in space that the hash of the nodes and that of the elements' statistics are the same for
+# any number of ranks and threads, exchange interval and partition. node_hashes.sh runs all cases of
+# the program on more ranks.
+# usage: volume_invariance.sh PROGRAM MPIEXEC DATA THIN_HALO
+# THIN_HALO is the folder of the library whose ghost layers are too thin.
 set -euo pipefail
 program=$1 mpiexec=$2 data=$3 thin_halo=$4${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 failed=0
 
-place() { # ranks, threads, case, options
+place() { # arguments: ranks, threads, case, options
   local ranks=$1 threads=$2
   shift 2
   OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 900 \
     "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" \
     "$program" "$data" "$@" < /dev/null
 }
-require_output() { # a program that knows no such case prints nothing
+require_output() { # a program prints nothing for an unknown case
   [ -n "$expected" ] || { echo "$subject: no output"; exit 1; }
 }
-compare() { # ranks, threads, options
+compare() { # arguments: ranks, threads, options
   local line
   line=$(place "$1" "$2" "$subject" "${@:3}")
   if [ "$line" != "$expected" ]; then
@@ -36,7 +37,7 @@ for subject in box-graded globe ring-graded two-halves kleopatra-graded slotted 
   compare 5 1 exchange_interval=5 metis_seed=7
 done
 
-# It can fail: ghost layers too thin give another set.
+# The comparison must be able to fail: Too thin ghost layers give another set.
 subject=box-graded
 expected=$(place 1 1 "$subject")
 require_output

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The types that the package promises with py.typed: mypy, as strict as it is, of the package, of a
-program with types and, less strict, of the examples; and the program runs. A program that breaks the
-promise is refused.
+"""Checks the types that the package promises with py.typed.
+
+mypy checks the package and a typed program in strict mode, and the examples in a less strict mode.
+The program must also run. A program that breaks the promise must be rejected.
 usage: check_types.py <folder of pnpbs> <source folder> <folder for mypy's cache>"""
 import os
 import subprocess
@@ -15,7 +16,7 @@ program = Path(__file__).with_name("typed_program.py")
 
 
 def mypy(*arguments):
-    """From the folder above the package, where `import pnpbs` finds it."""
+    """Runs mypy in the folder above the package, where `import pnpbs` finds it."""
     command = [sys.executable, "-m", "mypy", f"--cache-dir={cache}", *map(str, arguments)]
     return subprocess.run(command, cwd=package.parent,
                           env=dict(os.environ, MYPYPATH=str(package.parent))).returncode

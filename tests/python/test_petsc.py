@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distributed meshes in PETSc, on the ranks of MPI: cells stay on their rank, facets and cells keep
-their tags, fields go to the vertices and back, and Poisson's equation has the errors that
-examples/c/petsc_poisson has, before and after the spacing is adapted. usage: test_petsc.py [FILE D],
-instead of the square and the box. petsc4py 3.18."""
+"""Tests of distributed meshes in PETSc on the ranks of MPI.
+
+Cells stay on their rank, facets and cells keep their tags, fields are copied to the vertices and
+back, and Poisson's equation has the errors of examples/c/petsc_poisson, before and after the
+spacing is adapted.
+usage: test_petsc.py [FILE D], instead of the square and the box. Written for petsc4py 3.18."""
 import math
 import sys
 import traceback
@@ -27,7 +29,8 @@ def peak(x, centre, length):
 
 
 def load(x, centre, length):
-    """Rounded as in the program in C, for on its last bits depends where nodes go."""
+    """Returns the load. Its rounding equals that of the C program, as the positions of nodes depend
+    on the last bits."""
     r2 = ((x - centre)**2).sum(axis=-1) / length**2
     one = 1 + r2
     return (2 * x.shape[-1] / (one * one) - 8 * r2 / (one * one * one)) / length**2
@@ -48,7 +51,7 @@ def to_nodes(nodes, at_vertices, count):
 
 
 class Plex:
-    """What it says of itself: coordinates, and the vertices of points."""
+    """The coordinates of a plex, and the vertices of its points."""
 
     def __init__(self, plex):
         self.plex = plex
@@ -66,22 +69,24 @@ class Plex:
         return there.indices if there else np.zeros(0, np.int32)
 
     def owned(self, points):
-        """Those of the points that belong to this rank."""
+        """Returns those of the points that belong to this rank."""
         try:
             _, leaves, _ = self.plex.getPointSF().getGraph()
-        except ValueError:  # of petsc4py, where ranks share nothing and PETSc keeps no graph
+        # Petsc4py raises it if ranks share nothing, as PETSc keeps no graph then.
+        except ValueError:
             return points
         return np.setdiff1d(points, leaves)
 
     def measures(self, corners):
-        """Of simplices with these vertices."""
+        """Returns the measures of simplices with these vertices."""
         sides = self.x[corners[:, 1:]] - self.x[corners[:, :1]]
         gram = np.linalg.det(sides @ sides.transpose(0, 2, 1))
         return np.sqrt(gram) / math.factorial(corners.shape[1] - 1)
 
 
 def sums(part, of_elements):
-    """Numbers and measures of what has a tag, over all ranks, each counted once."""
+    """Returns the number and the measure of all items with a tag over all ranks, each counted once.
+    """
     rows = part.elements[:part.owned_elements] if of_elements else part.facets
     mine = np.full(len(rows), True) if of_elements else part.facet_owners == WORLD.rank
     tags = part.element_tags[:len(rows)] if of_elements else part.facet_tags
@@ -130,7 +135,8 @@ def check_plex(part, plex, nodes):
 
 
 def check_points(there, depth):
-    """Every point has one owner, at the same place; so ranks agree on edges and faces."""
+    """Checks that every point has one owner and one position, so that ranks agree on edges and
+    faces."""
     plex = there.plex
     points = np.arange(*plex.getDepthStratum(depth))
     centres = np.array([there.x[there.vertices(point)].mean(axis=0) for point in points])
@@ -142,7 +148,8 @@ def check_points(there, depth):
 
 
 def finite_elements(there, centre, length):
-    """Stiffness and right side of each cell, the points of a quadrature, and its functions."""
+    """Returns stiffness and right-hand side of each cell, the quadrature points, and the shape
+    functions there."""
     x, dim = there.x[there.cells], there.x.shape[1]
     functions = np.full((dim + 1, dim + 1), FAR[dim]) + np.eye(dim + 1) * (1 - (dim + 1) * FAR[dim])
     points = functions @ x
@@ -155,7 +162,7 @@ def finite_elements(there, centre, length):
 
 
 def error_of(there, centre, length):
-    """Of linear elements, in L2."""
+    """Returns the number of nodes and the L2 error of linear elements."""
     plex = there.plex
     section = PETSc.Section().create(plex.comm)
     section.setChart(*plex.getChart())
@@ -174,7 +181,7 @@ def error_of(there, centre, length):
     local.array = peak(there.x, centre, length)
     plex.localToGlobal(local, known)
     marked = plex.getLabel("marker")
-    plex.labelComplete(marked)  # from faces to their corners
+    plex.labelComplete(marked)  # extends the label from faces to their corners
     marked = there.stratum("marker", 1)
     marked = marked[(marked >= there.first) & (marked < there.end)] - there.first
     stiffness.zeroRowsColumnsLocal(marked.astype(PETSc.IntType), 1, known, right)
@@ -190,7 +197,8 @@ def error_of(there, centre, length):
 
 
 def run(domain, d, centre, length):
-    """Errors before and after adapting: d goes down where the load is large, up to three times."""
+    """Returns errors before and after adapting, which reduces d where the load is large, by up to a
+    factor of three."""
     placement, errors = pnpbs.Placement(domain).set_spacing(d), []
     for _ in range(2):
         placement.run()
@@ -218,14 +226,14 @@ def check_meshes_with_regions(context):
 
 
 def check_an_empty_rank(context):
-    """Two triangles or so, and cells that PETSc makes of their neighbours."""
+    """Checks a mesh of about two triangles, and neighbours that PETSc creates."""
     triangle = pnpbs.Domain(context).add_polyline([(0, 0), (1, 0), (0, 1)], tags=1)
     part = placed(triangle, 0.9).mesh()
     check_plex(part, *part.to_petsc(WORLD))
 
 
 def check_overlap(context):
-    """A layer of PETSc's own ghost cells, with their labels."""
+    """Checks a layer of PETSc's own ghost cells with their labels."""
     part = placed(blocks_with_regions(context, 2), 0.1).mesh()
     plex, _ = part.to_petsc(WORLD)
     if WORLD.size > 1:
@@ -257,6 +265,6 @@ def main():
 
 try:
     main()
-except Exception:  # otherwise the other ranks wait for this one
+except Exception:  # otherwise the other ranks would wait for this one
     traceback.print_exc()
     WORLD.Abort(1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package over the ranks of mpi4py's world. Run by mpirun."""
+"""Tests of the Python package on the ranks of mpi4py's world. Run with mpirun."""
 import math
 import pathlib
 import shutil
@@ -36,7 +36,8 @@ def placed_box(context):
 
 
 def rows_by_id(placement):
-    """By the ids of this rank's nodes: sums over the elements around each, in their order."""
+    """Returns for the ids of this rank's nodes the sums over the elements around each, in their
+    order."""
     own, ghosts = placement.nodes(), placement.ghosts()
     ids = np.concatenate([own.ids, ghosts.ids])
     points = np.concatenate([own.points, ghosts.points])
@@ -87,7 +88,7 @@ class Ranks(unittest.TestCase):
         self.placement.end_update_ghosts(pairs)
         np.testing.assert_array_equal(pairs, np.stack([ids, 2 * ids], axis=1))
 
-        # The same by the pattern.
+        # The exchange pattern gives the same values.
         pattern = self.placement.exchange_pattern()
         requests = [WORLD.isend(own.ids[pattern.send[k]], int(rank))
                     for k, rank in enumerate(pattern.ranks)]
@@ -129,7 +130,7 @@ class Ranks(unittest.TestCase):
                 check_mesh(self, mesh, WORLD.rank)
                 owned = measures(mesh)[:mesh.owned_elements]
                 self.assertAlmostEqual(WORLD.allreduce(owned.sum()), 1, 12)
-                # What is owned is each once over all ranks.
+                # Each item is owned exactly once over all ranks.
                 numbers = np.concatenate(WORLD.allgather(mesh.numbers[:mesh.owned_nodes]))
                 np.testing.assert_array_equal(numbers, np.arange(whole.all_nodes))
                 numbers = np.concatenate(WORLD.allgather(
@@ -214,9 +215,9 @@ class Ranks(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    # One report is enough; a failure on another rank still fails the run.
+    # One report is enough. A failure on another rank still fails the run.
     if WORLD.rank:
         sys.stderr = open("/dev/null", "w", encoding="ascii")
-    # A context that nobody closes is closed when Python ends.
+    # A context that is never closed is closed when Python ends.
     left_open = pnpbs.Context(WORLD)
     unittest.main()

@@ -3,6 +3,6 @@
 
 
 def exists_if(condition):
-    """Decorator of a test or of a class of tests. It removes them from builds without the part that they
-    test. Such tests are not skipped: a skip says that the machine lacks something."""
+    """Returns a decorator of a test or a class of tests that removes it if the build lacks the part
+    under test. Such tests are not skipped, as a skip means that the machine lacks something."""
     return lambda test: test if condition else None

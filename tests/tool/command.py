@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the tests run the command: each test in an empty folder of its own."""
+"""Support code that runs the command, each test in an empty folder of its own."""
 
 import os
 import pathlib
@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 COMMAND = os.environ["PNPBS_COMMAND"]
-MPIEXEC = os.environ.get("PNPBS_MPIEXEC")  # none without MPI
+MPIEXEC = os.environ.get("PNPBS_MPIEXEC")  # None without MPI
 SOURCE = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"])
 DATA = SOURCE / "examples" / "data"
 LAKE = DATA / "lake_victoria.poly"
@@ -17,7 +17,7 @@ LAKE = DATA / "lake_victoria.poly"
 DONE, FAILED, BAD_INPUT, NOT_CONVERGED, SPACING_MISSED, LEFT_OUT, NOT_CONFORMING = range(7)
 INTERRUPTED = 130
 
-# A unit square with a square hole; markers 1 outside, 2 inside.
+# A unit square with a square hole. Its markers are 1 outside and 2 inside.
 SQUARE = """\
 8 2 0 0
 1 0 0
@@ -44,7 +44,8 @@ SQUARE_AREA = 0.96
 
 
 def receive_signals():
-    """What runs in the background ignores them, and would hand that on."""
+    """Restores the default signal handlers. A background process ignores these signals, and its
+    children would inherit that."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
@@ -69,14 +70,15 @@ class CommandTest(unittest.TestCase):
         )
 
     def run_command(self, *arguments, code=DONE, stdin=b"", **more):
-        """Runs it to its end; returns what it wrote, as bytes."""
+        """Runs the command to its end and returns its output as bytes."""
         process = self.start(*arguments, stdin=subprocess.PIPE, **more)
         out, err = process.communicate(stdin)
         self.assertEqual(process.returncode, code, err.decode(errors="replace"))
         return out, err
 
     def run_on_ranks(self, *arguments, ranks=1):
-        """A quiet run on so many ranks with a thread each; one rank has no launcher."""
+        """Runs the command quietly on this number of ranks with one thread each. One rank has no
+        launcher."""
         launcher = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle",
                     "1", "-np", str(ranks)]
         process = subprocess.run(
@@ -86,20 +88,20 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(process.returncode, 0, process.stderr.decode())
 
     def place(self, *arguments, domain=None, spacing="0.06", **more):
-        """A run on the square unless told otherwise."""
+        """Runs the command, by default on the square."""
         return self.run_command(
             "--domain", domain or self.square, "--spacing", spacing, "--check", *arguments, **more
         )
 
     def place_body(self, domain, spacing, *arguments, **more):
-        """A run in space, whether the bubbles come to rest or not."""
+        """Runs the command in space, whether the bubbles come to rest or not."""
         process = self.start("--domain", domain, "--spacing", spacing, *arguments, **more)
         out, err = process.communicate()
         self.assertIn(process.returncode, (DONE, NOT_CONVERGED, SPACING_MISSED), err.decode())
         return out.decode(), err.decode()
 
     def refuse(self, *arguments, code=BAD_INPUT, **more):
-        """A run that must fail, write no file and say why; returns what it says."""
+        """Runs a command that must fail with a message and write no file. Returns the message."""
         before = self.files()
         out, err = self.run_command(*arguments, code=code, **more)
         self.assertEqual(out, b"")
@@ -109,5 +111,5 @@ class CommandTest(unittest.TestCase):
         return message
 
     def files(self):
-        """All files in the folder, hidden ones too."""
+        """Returns all files in the folder, including hidden ones."""
         return sorted(os.listdir(self.folder))

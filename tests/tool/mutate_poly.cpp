@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged .poly files by the hundred. Whatever a file holds, reading and checking it must answer
-// with nodes or with a message; never with a crash, a hang or nodes that make no sense.
+// Tests hundreds of damaged .poly files. Reading and checking one must give nodes or a message, and
+// never a crash, a hang or invalid nodes.
 //
-// The text under test lies in mutate_poly.poly in the working folder, for the case of a crash. More
-// by hand, of each of three files: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_poly
+// The text under test is in mutate_poly.poly in the working folder, so that it remains after a
+// crash. To run more tests of each of three files: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_poly
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -20,8 +20,8 @@
 
 namespace {
 
-constexpr int nodes_across = 15;    // spacing: the domain's longer side by this
-constexpr int full_run_every = 10;  // the others do a few steps
+constexpr int nodes_across = 15;    // the spacing is the domain's longer side divided by this
+constexpr int full_run_every = 10;  // the others make a few steps
 
 const char* const square_with_hole = R"(# a square with a hole
 8 2 0 1
@@ -46,7 +46,8 @@ const char* const square_with_hole = R"(# a square with a hole
 1 0.45 0.45
 )";
 
-// Vertices numbered from 0; segment 4 begins in the middle of segment 0, segment 5 hangs on it.
+// Vertices are numbered from 0. Segment 4 begins in the middle of segment 0, and segment 5 is
+// attached to it.
 const char* const t_junction = R"(7 2 1 0
 0 -1 -1 0.5
 1 1 -1 0.5
@@ -76,7 +77,7 @@ struct Tally {
   int refused_text = 0, refused_domain = 0, refused_spacing = 0, placed = 0;
 };
 
-// A refusal must be one of those expected here, and say something.
+// Checks that the status is one of those expected and that the message is not empty.
 void expect_refusal(pnpbs_context context, pnpbs_status status,
                     std::initializer_list<pnpbs_status> expected) {
   ck_assert_msg(std::find(expected.begin(), expected.end(), status) != expected.end(),
@@ -167,7 +168,7 @@ Tally examine_mutations(const std::string& seed_text, std::uint64_t seed) {
   return tally;
 }
 
-// The damage must reach every stage, or the test tests nothing.
+// The damage must reach every stage, or the test is pointless.
 void expect_variety(const Tally& tally) {
   ck_assert_int_gt(tally.refused_text, 50);
   ck_assert_int_gt(tally.refused_domain, 20);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of the command that are to end early, over files that were there before: all of them are new
-afterwards, or none, and nothing else is left."""
+"""Runs of the command that are ended early over existing files. Afterwards all files are new, or
+none is, and no other file remains."""
 
 import os
 import time
@@ -9,11 +9,11 @@ from command import DONE, INTERRUPTED, NOT_CONVERGED
 from ranks import RanksTest
 
 
-WRITTEN = (DONE, NOT_CONVERGED)  # after a few steps
+WRITTEN = (DONE, NOT_CONVERGED)  # statuses after a few steps
 
 
 class ShotTest(RanksTest):
-    # A short run, and much to write.
+    # A short run with large output.
     SPACING = "0.007"
     NAMES = ("a.vtu", "b.msh", "c.csv", "d.pvtu", "e.png")
     RANKS = 2
@@ -32,7 +32,7 @@ class ShotTest(RanksTest):
             (self.folder / name).write_text("old")
 
     def are_new(self):
-        """Whether the files are new; fails if that differs between them."""
+        """Returns whether the files are new. Fails if some are new and others are not."""
         new = {name: (self.folder / name).read_bytes() != b"old" for name in self.targets()}
         self.assertEqual(len(set(new.values())), 1, f"a mixture: {new}")
         return all(new.values())
@@ -41,7 +41,7 @@ class ShotTest(RanksTest):
         return [name for name in self.files() if name.startswith(".pnpbs-")]
 
     def check_files(self, code, hint):
-        """After a run that may have been shot."""
+        """Checks the files after a run that may have been killed."""
         new = self.are_new()
         self.assertEqual(self.left_aside(), [], hint)
         if code in WRITTEN:
@@ -51,7 +51,7 @@ class ShotTest(RanksTest):
         return new
 
     def wait_aside(self, process, patience=300):
-        """Until a file is written aside in earnest: with something in it."""
+        """Waits until a temporary file has some content."""
         end = time.monotonic() + patience
         while time.monotonic() < end and process.poll() is None:
             for name in self.left_aside():

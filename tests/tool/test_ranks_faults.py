@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every call on a file fails once: the command ends with an error and leaves what was there before,
-or it has done without. On ranks PNPBS_FAULT_STRIDE tells which of the calls fail (every n-th)."""
+"""Tests in which every call on a file fails once. The command must end with an error and leave
+existing files unchanged, or work without the call. PNPBS_FAULT_STRIDE = n tests every n-th call on
+ranks."""
 
 import os
 import unittest
@@ -16,7 +17,7 @@ class Faults(ShotTest):
     NAMES = ("a.vtu", "d.pvtu", "e.png")
 
     def one_fault(self, at, rank, ranks):
-        """Tells which call has failed, None if there was none left."""
+        """Returns which call has failed, or None if no call was left."""
         self.RANKS = ranks
         self.lay_old_files()
         log = self.folder / "log"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Spheres, and the seas on them that coasts in longitude and latitude bound. PNPBS_GEO says whether the command was
-built with GDAL."""
+"""Tests of spheres, and of seas on them whose coasts are given in longitude and latitude. PNPBS_GEO
+says whether the command was built with GDAL."""
 
 import json
 import os
@@ -24,8 +24,8 @@ def feature(*polygons):
             "geometry": {"type": "MultiPolygon", "coordinates": [[closed(ring)] for ring in polygons]}}
 
 
-# Cut open at 180 degrees, as files have it: along the meridian to the pole, and there around.
-# There some have -179.99999999999994.
+# The outline is cut at 180 degrees as in common files: It follows the meridian to the pole and
+# back. Some files have -179.99999999999994 there.
 WEST = -180 + 6e-14
 ANTARCTICA = feature([[max(lon, WEST), -74 + 3 * np.cos(np.radians(3 * lon))]
                       for lon in range(-180, 181, 5)] + [[180, -90], [WEST, -90]])
@@ -34,19 +34,20 @@ CONTINENT = feature([[-20, -10], [30, -30], [50, 10], [20, 40], [-30, 30]])
 
 
 def element_rows(path):
-    """Of an .msh2 file: number, kind (1: edge, 2: triangle), tags and nodes."""
+    """Returns the elements of an .msh2 file: number, kind (1: edge, 2: triangle), tags and nodes.
+    """
     lines = path.read_text().split("$Elements\n")[1].split("\n")[1:]
     return [[int(word) for word in line.split()] for line in lines if line and line[0] != "$"]
 
 
 def triangles_and_edges(rows):
-    """By the places of their nodes."""
+    """Returns triangles and edges by node indices from 0 on."""
     return (np.array([row[-3:] for row in rows if row[1] == 2]) - 1,
             np.array([row[-2:] for row in rows if row[1] == 1]) - 1)
 
 
 class WholeSphere(CommandTest):
-    """Without a file, and so without GDAL."""
+    """Whole spheres, which need no file and therefore no GDAL."""
 
     SPACING = "250 + 150*sin(pi*lon/180)^2"
 
@@ -60,7 +61,7 @@ class WholeSphere(CommandTest):
     def test_it_is_closed(self):
         nodes, report = self.placed("--output", "sphere.msh2", "--output", "sphere.svg")
         rows = element_rows(self.folder / "sphere.msh2")
-        self.assertEqual({row[1] for row in rows}, {2})  # triangles alone
+        self.assertEqual({row[1] for row in rows}, {2})  # only triangles
         corners, _ = triangles_and_edges(rows)
         self.assertEqual(len(corners), 2 * (report["nodes"] - 2))
         edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
@@ -70,7 +71,8 @@ class WholeSphere(CommandTest):
         self.assertTrue(0.4 * len(corners) < seen < 0.6 * len(corners), f"{seen} of {len(corners)}")
 
     def triangles_in_picture(self, *arguments, spacing="600"):
-        """Their places, each a row of x and y, and the size of the picture."""
+        """Returns the triangles of the picture, each as rows of x and y, and the size of the
+        picture."""
         self.placed("--output", "sphere.svg", *arguments, spacing=spacing)
         picture = (self.folder / "sphere.svg").read_text()
         size = [float(value) for value in re.findall(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', picture)[0]]
@@ -79,14 +81,16 @@ class WholeSphere(CommandTest):
         return [np.reshape(path, (-1, 2)) for path in paths if len(path) in (6, 8)], size
 
     def test_views(self):
-        """Seen from a place, the triangles there are the largest; a map shows all, and twice what is at its ends."""
+        """In a view from a point the triangles near it are the largest. A map shows all triangles,
+        and those at its ends twice."""
         for view in ("0,0", "120,50", "-70,-90"):
             triangles, size = self.triangles_in_picture("--view", view)
             areas = np.array([abs(np.linalg.det(x[1:3] - x[0])) / 2 for x in triangles])
             middles = np.array([x[:3].mean(axis=0) for x in triangles])
             off = np.linalg.norm(middles - [size[0] / 2, middles.mean(axis=0)[1]], axis=1) / (size[0] / 2)
             self.assertGreater(areas[off < 0.3].mean(), 2 * areas[off > 0.8].mean())
-        for view in ("0,0", "map"):  # east is to the right, north is up, where fewer are
+        # East is on the right, north at the top, where there are fewer.
+        for view in ("0,0", "map"):
             for k, spacing in enumerate(("600 + 0.05*y", "600 + 0.05*z")):
                 triangles, size = self.triangles_in_picture("--view", view, spacing=spacing)
                 middle = np.array([x[:3].mean(axis=0)[k] for x in triangles])
@@ -101,13 +105,14 @@ class WholeSphere(CommandTest):
         self.assertIn("give --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
 
     def test_nodes_follow_the_spacing_beside_the_patch(self):
-        """There d changes in the chart along the way that the last sweeps move nodes: they are measured where they are.
-        With d from before this had the status of a spacing that is missed, by 85 edges."""
+        """d changes in the chart along the distance that the last sweeps move nodes. Edges must be
+        compared with d at the final positions. With the previous d the spacing was reported as
+        missed because of 85 edges."""
         self.placed(spacing="100")
 
     def test_nodes_are_as_dense_on_both_sides(self):
-        """By where they are seen from, d grows in the chart 100 times on the way. Levels that lost nodes where d grows
-        left 1.3 per cent too few beside the patch."""
+        """d in the chart grows by a factor of 100 towards the point of projection. Levels that lost
+        nodes where d grows left 1.3 per cent too few beside the patch."""
         nodes, _ = self.placed("--set", "topology_repairs=3", spacing="60")
         places = np.loadtxt(nodes.decode().splitlines(), delimiter=",", skiprows=1)
         header = nodes.decode().split("\n")[0].strip().split(",")
@@ -135,7 +140,7 @@ class WholeSphere(CommandTest):
         self.assertLess(abs(nodes / 20000 - 1), 0.02)
 
     def test_values_in_files(self):
-        """d of the nodes before, by a mesh or at points, leads to as many nodes."""
+        """The d of earlier nodes, as a mesh or at points, leads to the same number of nodes."""
         _, report = self.placed("--output", "before.vtu", "--output", "before.csv")
         for name in ("before.vtu:spacing", "before.csv:spacing"):
             with self.subTest(name):
@@ -208,10 +213,10 @@ class Sphere(CommandTest):
         self.assertFalse((self.folder / "nodes.prj").exists())
         triangles, edges = self.triangles()
         corners = x[triangles]
-        self.assertTrue(np.all(np.linalg.det(corners) > 0))  # they turn left seen from outside
-        # Euler: a sphere with three lands taken out, none of them in two pieces.
+        self.assertTrue(np.all(np.linalg.det(corners) > 0))  # counter-clockwise seen from outside
+        # Euler's formula for a sphere with three lands removed, each of which is connected.
         self.assertEqual(len(x) - (3 * len(triangles) + len(edges)) // 2 + len(triangles), 2 - 3)
-        # The meridian of 180 degrees is neither in the middle of the island nor of Antarctica.
+        # No boundary runs along the meridian of 180 degrees inside the island or Antarctica.
         lon, lat = np.degrees(np.arctan2(x[:, 1], x[:, 0])), np.degrees(np.arcsin(x[:, 2] / RADIUS))
         on_it = np.abs(np.abs(lon) - 180) < 1e-6
         self.assertTrue(np.all((lat[on_it] < 8.001) | (lat[on_it] > 21.999)))
@@ -240,7 +245,8 @@ class Sphere(CommandTest):
             np.testing.assert_allclose(table["spacing"][here], 300 + 2 * row[here] + extra, rtol=0.01)
 
     def grid_of_degrees(self, name, value):
-        """Cells of 5 degrees of all the Earth; what the function of longitude and latitude has as nan is not there."""
+        """Writes a grid of the whole Earth with cells of 5 degrees. Cells where the function
+        returns nan have no data."""
         lon, lat = np.meshgrid(np.arange(-177.5, 180, 5), np.arange(87.5, -90, -5))
         values = value(lon, lat)
         rows = "\n".join(" ".join("-1" if np.isnan(v) else repr(float(v)) for v in row) for row in values)
@@ -248,7 +254,7 @@ class Sphere(CommandTest):
                                         f"nodata_value -1\n{rows}\n")
 
     def test_grids_with_gaps(self):
-        """A warning counts nodes in the middle of a gap, and none beside land without data."""
+        """A warning counts nodes in the middle of a gap, and no nodes beside land without data."""
         self.grid_of_degrees("gap.asc", lambda lon, lat: np.where(abs(lon + 150) + abs(lat) < 20, np.nan, 300))
         _, table, report, err = self.placed("--spacing-grid", "gap.asc", spacing="grid")
         found = re.search(r"the grid 'grid' \(gap.asc\) has gaps in the domain: of (\d+) nodes, (\d+) lie where it has "
@@ -257,7 +263,7 @@ class Sphere(CommandTest):
         self.assertEqual(nodes, report["nodes"])
         self.assertIn(found[0], report["warnings"][-1])
         self.assertLess(abs(lon + 150) + abs(lat), 20)
-        # A node counts if none of the four cells has data whose middles it is between.
+        # A node counts if none of the four cells whose centres surround it has data.
         its_lon = np.degrees(np.arctan2(table["y"], table["x"]))
         its_lat = np.degrees(np.arcsin(table["z"] / RADIUS))
         west, south = np.floor((its_lon - 2.5) / 5) * 5 + 2.5, np.floor((its_lat - 2.5) / 5) * 5 + 2.5
@@ -287,7 +293,8 @@ class Sphere(CommandTest):
         whole = 0.5 * np.linalg.norm(np.cross(x[triangles[:, 1]] - x[triangles[:, 0]],
                                               x[triangles[:, 2]] - x[triangles[:, 0]]), axis=1).sum()
         self.assertEqual(report["sphere"]["outside"], [180, 0])
-        rest = self.placed(coast=coast, spacing="400")[2]  # the default point is outside of it, too
+        # The default point lies outside the domain too.
+        rest = self.placed(coast=coast, spacing="400")[2]
         self.assertLess(whole, 4 * np.pi * RADIUS ** 2 / 5)
         self.assertGreater(rest["nodes"], 100)
 
@@ -301,21 +308,22 @@ class Sphere(CommandTest):
             self.assertEqual(json.loads((self.folder / "ranks.json").read_text())["hash"], one)
 
     def test_borders_of_neighbours(self):
-        """Outside of the domain they are no part of a coast that is missing, as where a continent is cut in two."""
+        """Lines outside the domain are not reported as a missing part of a coast, for example where
+        a continent is cut in two."""
         east, west = feature([[168, 8], [180, 8], [180, 22], [170, 25]]), feature([[-180, 8], [-172, 12], [-180, 22]])
         whole = self.placed()[2]
         cut = self.sea(ANTARCTICA, east, west, CONTINENT)
         _, _, report, err = self.placed(coast=cut)
         self.assertLess(abs(report["nodes"] / whole["nodes"] - 1), 0.01)
         self.assertIn("1 segments that neighbouring polygons share were left out", err)
-        # In the domain nodes follow them.
+        # Inside the domain nodes follow the lines.
         x, table, _, err = self.placed(coast=self.sea(east, west), sphere=f"{RADIUS},0,0", spacing="100")
         self.assertNotIn("left out", err)
         inner = (table["tag"] > 0) & (x[:, 0] < 0) & (abs(x[:, 1]) < 1e-6)
         self.assertGreater(inner.sum(), 10)
 
     def test_a_coast_that_is_far_finer(self):
-        """A warning names places, and says if that is so in much of the coast."""
+        """A warning names points, and says if much of the coast is affected."""
         rough = feature([[20 * np.cos(a) * (1 + 0.02 * (k % 2)), 20 * np.sin(a) * (1 + 0.02 * (k % 2))]
                          for k, a in enumerate(np.linspace(0, 2 * np.pi, 600, endpoint=False))])
         _, _, report, err = self.placed(coast=self.sea(ANTARCTICA, rough))
@@ -331,7 +339,7 @@ class Sphere(CommandTest):
         _, _, _, err = self.placed(coast=self.sea(line))
         self.assertIn("note: no polygon and no closed line bounds the domain", err)
 
-    # The segment across 180 degrees is the short way, not that along all others.
+    # The segment across 180 degrees is the short one, not the one along all other longitudes.
     def test_a_coast_on_a_parallel(self):
         for cut in ([], [[180, -74], [180, -90], [-180, -90], [-180, -80]]):
             coast = self.sea(feature([[lon, -74] for lon in range(-180, 180, 5)] + cut), CONTINENT)
@@ -341,7 +349,7 @@ class Sphere(CommandTest):
             triangles, edges = self.triangles()
             self.assertEqual(len(x) - (3 * len(triangles) + len(edges)) // 2 + len(triangles), 2 - 2)
 
-    # The far side is hidden, where there is no sea, too.
+    # The far side is hidden, also where there is no sea.
     def test_pictures(self):
         self.run_command("--domain", self.sea(), "--sphere", str(RADIUS), "--spacing", "500", "--corner-angle",
                          "20", "--output", "sea.svg")
@@ -360,12 +368,12 @@ class Sphere(CommandTest):
                                  (("--sphere", "1", "--surfaces-only"), "--surfaces-only exclude")):
             self.assertIn(words, self.refuse("--domain", coast, "--spacing", "1", *arguments))
         self.assertIn("--sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--sphere", "1"))
-        # Of 10 degrees along the equator the 6th is seen from.
+        # The point of projection lies on this coast, at 6 of 10 degrees along the equator.
         on_equator = self.sea(feature([[0, 0], [10, 0], [10, 5], [0, 5]]))
         message = self.refuse("--domain", on_equator, "--sphere", f"{RADIUS},6,0", "--spacing", "300")
         self.assertIn("feature 0: vertex ", message)
         self.assertIn("named as outside of the domain lies on the curve", message)
-        # A coast that crosses itself is named by its place.
+        # The message gives the point where a coast crosses itself.
         crossed = self.sea(feature([[0, 0], [40, 0], [0, 30], [40, 30]]))
         message = self.refuse("--domain", crossed, "--sphere", str(RADIUS), "--spacing", "300")
         self.assertIn("cross at (longitude 19.99999", message)

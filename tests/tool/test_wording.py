@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the command does hangs on the codes of warnings and errors, never on their words: with
-libraries whose messages have none (wording.cpp) it ends, warns and advises as with the true ones."""
+"""Tests that the command depends on the codes of warnings and errors and never on their text.
+
+With libraries whose messages have no words (wording.cpp) it ends, warns and advises as with the
+normal ones."""
 
 import json
 import os
@@ -29,7 +31,8 @@ class Wording(CommandTest):
         return path
 
     def same(self, *arguments, code):
-        """Runs it with both libraries; returns what it wrote with the true and the wordless one."""
+        """Runs the command with both libraries. Returns the messages with the normal and the
+        wordless one."""
         told = []
         for environment in {}, WORDLESS:
             _, err = self.run_command(*arguments, code=code, environment=environment)

@@ -12,7 +12,7 @@ from ._types import Doubles, Ids, Int32s, Scalar
 
 
 def as_points(points: ArrayLike, dim: int, what: str) -> Doubles:
-    """(n, dim) numbers, a row for each point."""
+    """Returns (n, dim) numbers, a row for each point."""
     array = np.ascontiguousarray(points, dtype=np.float64)
     if array.size == 0:
         return array.reshape(0, dim)
@@ -26,7 +26,7 @@ def as_point(point: ArrayLike, dim: int, what: str) -> Doubles:
 
 
 def as_indices(indices: ArrayLike, columns: int, what: str) -> Ids:
-    """(m, columns) indices from 0."""
+    """Returns (m, columns) indices from 0."""
     array = np.ascontiguousarray(_integers(indices, what), dtype=np.int64)
     if array.size == 0:
         return array.reshape(0, columns)
@@ -36,7 +36,7 @@ def as_indices(indices: ArrayLike, columns: int, what: str) -> Ids:
 
 
 def as_tags(tags: Optional[ArrayLike], n: int, what: str) -> Optional[Int32s]:
-    """None for the library's default, one for all, or one for each."""
+    """Returns None for the library's default, one tag for all, or one for each."""
     if tags is None:
         return None
     given = _integers(tags, what)

@@ -17,7 +17,7 @@ from ._types import ArrayFunction, Doubles, Monitor
 if TYPE_CHECKING:
     from .context import Context
 
-    # Where the library has doubles.
+    # The library passes arrays of doubles as this type.
     _Address = ctypes._Pointer[ctypes.c_double]
 
 
@@ -27,12 +27,12 @@ def _guarded(context: Context, work: Callable[[], object]) -> int:
         return 1
     try:
         return 1 if work() else 0
-    except BaseException as error:  # KeyboardInterrupt, too
+    except BaseException as error:  # includes KeyboardInterrupt
         context._raised = error
         return 1
 
 
-# A copy, so that a function that keeps or changes its argument does no harm.
+# The argument is copied, so that a function that keeps or changes it does no harm.
 def _copied(address: _Address, shape: Tuple[int, ...]) -> Doubles:
     return np.ctypeslib.as_array(address, shape=shape).copy()
 
@@ -46,7 +46,7 @@ def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: s
 
 
 def _at_points(c_type: str, what: str, f: ArrayFunction, context: Context) -> Any:
-    """f(points) for a value at each of n points, (n, dim)."""
+    """Returns a callback that stores f(points), a value at each of n points (n, dim)."""
 
     def call(n: int, dim: int, coordinates: _Address, values: _Address, _user: Any) -> int:
         def work() -> None:
@@ -82,7 +82,7 @@ def curve_callback(f: ArrayFunction, context: Context) -> Any:
 
 
 def monitor_callback(f: Monitor, context: Context) -> Any:
-    # Only True stops: a monitor that ends with a print returns None.
+    # Only True stops the run, as a monitor that ends with a print returns None.
     def call(fraction: float, step: int, nodes: int, max_speed: float, _user: Any) -> int:
         return _guarded(context, lambda: f(fraction, step, nodes, max_speed) is True)
 

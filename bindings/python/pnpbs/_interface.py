@@ -311,7 +311,7 @@ _BITS = {"int32_t": 32, "int64_t": 64}
 
 
 def _argument(c_type: str, name: str) -> Any:
-    """What converts an argument of a function, as `function.argtypes` takes it."""
+    """Returns the converter for an argument of a function, as an element of `function.argtypes`."""
     if c_type in _BITS:
         return type(f"_{c_type}_{name}", (_Integer,), {"bits": _BITS[c_type], "name": name})
     return ctypes_of(c_type)
@@ -330,12 +330,13 @@ def ctypes_of(c_type: str) -> Any:
     if c_type == "const char *":
         return ctypes.c_char_p
     pointee = c_type.removeprefix("const ").removesuffix(" *")
-    # Handles, callbacks, and what takes `ctypes.byref` alone.
+    # The rest are handles, callbacks, and arguments that take only `ctypes.byref`.
     return _ARRAYS.get(pointee, ctypes.c_void_p)
 
 
 def declarations(text: str) -> Dict[str, Tuple[str, Tuple[Tuple[str, str], ...]]]:
-    """Of "result name(type argument, ...);": {name: (result, ((type, argument), ...))}."""
+    """Parses declarations "result name(type argument, ...);" into {name: (result, ((type,
+    argument), ...))}."""
     found = {}
     for declaration in text.split(";"):
         match = re.fullmatch(r"\s*(.*?[\s*])(pnpbs_\w+)\((.*)\)", declaration, re.S)
@@ -356,7 +357,7 @@ def declared(opened: ctypes.CDLL, text: str) -> ctypes.CDLL:
     return opened
 
 
-# What the library calls. The last argument is `user`, which Python's closures do without.
+# The types of the callbacks. Python's closures do not need the last argument, `user`.
 _DOUBLES = ctypes.POINTER(ctypes.c_double)
 CALLBACKS: Dict[str, Any] = {
     "pnpbs_curve_fn": ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int32, _DOUBLES,

@@ -12,8 +12,8 @@ from typing import Iterator
 
 from ._levels import best_level, processor_flags
 
-# The interface this package is written for. While the major version is 0, a new minor one may change
-# it.
+# The version of the interface that this package is written for. While the major version is 0, a new
+# minor version may change it.
 INTERFACE = (0, 2)
 
 _HERE = pathlib.Path(__file__).resolve().parent
@@ -24,7 +24,8 @@ def _candidates() -> Iterator[str]:
         yield os.environ["PNPBS_LIBRARY"]
         return
     suffix = "dylib" if sys.platform == "darwin" else "so"
-    # In a wheel it lies in the package; an installed package lies in <prefix>/share/pnpbs/python.
+    # In a wheel the library lies in the package. An installed package is in
+    # <prefix>/share/pnpbs/python.
     prefix = _HERE.parents[3]
     folders = [_HERE / "lib", prefix / "lib", prefix / "lib64",
                prefix / "lib" / f"{os.uname().machine}-linux-gnu"]
@@ -32,7 +33,8 @@ def _candidates() -> Iterator[str]:
         for path in sorted(folder.glob(f"libpnpbs*.{suffix}*")):
             if not path.name.startswith("libpnpbs_"):
                 yield str(best_level(path, processor_flags()))
-    # By the name its users are linked with: the one without a number comes with development only.
+    # This is the name that programs are linked with. The name without a number exists only in
+    # installations for development.
     yield "libpnpbs.so.0" if suffix == "so" else "libpnpbs.dylib"
 
 
@@ -45,9 +47,9 @@ def library_path() -> str:
 
 @contextlib.contextmanager
 def _waiting_threads_sleep() -> Iterator[None]:
-    """GCC's OpenMP reads how threads wait when it is loaded. By default they spin for a millisecond, and
-    where other programs keep the machine busy, a run takes many times as long. What processes of the
-    caller find in their environment stays."""
+    """Sets the wait policy of threads in the block. GCC's OpenMP reads it when it is loaded. By
+    default threads spin for a millisecond, so that a run takes many times as long on a busy
+    machine. The environment that child processes inherit does not change."""
     if "OMP_WAIT_POLICY" in os.environ or "GOMP_SPINCOUNT" in os.environ:
         yield
         return
@@ -68,7 +70,7 @@ def open_library() -> ctypes.CDLL:
                           "PNPBS_LIBRARY to its path") from error
     major, minor = ctypes.c_int32(), ctypes.c_int32()
     opened.pnpbs_version(ctypes.byref(major), ctypes.byref(minor), None)
-    # Two different interfaces must not meet: what would come of it is a crash.
+    # A library with another interface would lead to a crash.
     if (major.value, minor.value) != INTERFACE:
         raise ImportError(f"{path} is PNPBS {major.value}.{minor.value}, but this package is for "
                           f"{INTERFACE[0]}.{INTERFACE[1]}; use the package of the same version")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distributed meshes as PETSc's DMPlex, by petsc4py. petsc4py has no call for cells in parts, so
-the plex is put together as PETSc's own call does it: the cells of a rank, then which vertices are
-the same, then the faces."""
+"""Converts distributed meshes to PETSc's DMPlex with petsc4py.
+
+petsc4py has no call for distributed cells, so the plex is assembled in the same steps as in PETSc's
+own call: first the cells of a rank, then the vertices that ranks share, then the faces."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ from .mesh_arrays import MeshArrays
 
 
 def plex_of(mesh: MeshArrays, comm: Any) -> Tuple[Any, Any]:
-    """The plex, and the star forest from the nodes that ranks own to vertices. Collective."""
+    """Returns the plex, and the star forest from the nodes that ranks own to vertices. Collective.
+    """
     petsc = importlib.import_module("petsc4py.PETSc")
     corners = mesh.elements.shape[1]
     elements = mesh.elements[:mesh.owned_elements]
@@ -26,7 +28,7 @@ def plex_of(mesh: MeshArrays, comm: Any) -> Tuple[Any, Any]:
     nodes = _star_forest(petsc, comm, mesh.owned_nodes, np.arange(len(at_vertices)),
                          _owners_and_indices(mesh, comm, at_vertices))
     cells = vertices[elements]
-    if corners == 4:  # PETSc's tetrahedra turn the other way round
+    if corners == 4:  # the orientation of PETSc's tetrahedra is reversed
         cells = cells[:, [1, 0, 2, 3]]
     plex = _cells_and_vertices(petsc, comm, cells, len(at_vertices))
     _set_coordinates(petsc, plex, mesh.coordinates[at_vertices])
@@ -39,7 +41,7 @@ def plex_of(mesh: MeshArrays, comm: Any) -> Tuple[Any, Any]:
 
 
 def _cells_and_vertices(petsc: Any, comm: Any, cells: NDArray[Any], vertices: int) -> Any:
-    """A plex of no more: the vertices are numbered behind the cells."""
+    """Returns a plex of cells and vertices only. Vertices are numbered after the cells."""
     n, corners = cells.shape
     plex = petsc.DMPlex().create(comm=comm)
     plex.setDimension(corners - 1)
@@ -55,7 +57,7 @@ def _cells_and_vertices(petsc: Any, comm: Any, cells: NDArray[Any], vertices: in
 
 
 def _set_coordinates(petsc: Any, plex: Any, coordinates: NDArray[np.float64]) -> None:
-    """coordinates: of the vertices, (vertices, dim)."""
+    """Sets the coordinates of the vertices, (vertices, dim)."""
     dim = coordinates.shape[1]
     first, end = plex.getDepthStratum(0)
     plex.setCoordinateDim(dim)
@@ -75,27 +77,27 @@ def _set_coordinates(petsc: Any, plex: Any, coordinates: NDArray[np.float64]) ->
 
 def _star_forest(petsc: Any, comm: Any, roots: int, leaves: NDArray[Any],
                  remote: NDArray[Any]) -> Any:
-    """remote: rank and index there of the root of each leaf."""
+    """Returns a star forest. `remote` has the rank and the index of the root of each leaf."""
     forest = petsc.SF().create(comm=comm)
     forest.setGraph(roots, leaves.astype(petsc.IntType), remote.astype(petsc.IntType))
     return forest
 
 
 def _owners_and_indices(mesh: MeshArrays, comm: Any, nodes: Int32s) -> NDArray[np.int64]:
-    """The rank that owns each node, and the node's index there."""
+    """Returns the rank that owns each node, and the node's index there."""
     first = np.array(comm.allgather(mesh.first_node))
     owners = mesh.owners[nodes]
     return np.stack([owners, mesh.numbers[nodes] - first[owners]], axis=1)
 
 
 def _shared_vertices(petsc: Any, comm: Any, nodes: Any, owned_nodes: int, cells: int) -> Any:
-    """Which points of the plex are the same as another rank's: those vertices here that another
-    rank has as well, and owns. A vertex belongs to the last rank that has it."""
+    """Returns the star forest of the points of the plex that are shared with other ranks: the
+    vertices that another rank has too and owns. A vertex belongs to the last rank that has it."""
     mpi = importlib.import_module("mpi4py.MPI")
     _, leaves, _ = nodes.getGraph()
 
     def largest(at_vertices: NDArray[Any]) -> NDArray[Any]:
-        """Over all ranks, at each vertex."""
+        """Returns the maximum over all ranks at each vertex."""
         at_vertices = at_vertices.astype(np.int32)
         at_nodes = np.full(owned_nodes, -1, np.int32)
         nodes.reduceBegin(mpi.INT, at_vertices, at_nodes, mpi.MAX)
@@ -112,7 +114,7 @@ def _shared_vertices(petsc: Any, comm: Any, nodes: Any, owned_nodes: int, cells:
 
 
 def _label_facets(petsc: Any, plex: Any, mesh: MeshArrays) -> None:
-    """Of the elements that this rank owns."""
+    """Labels the facets of the elements that this rank owns."""
     owned = np.where(mesh.facet_elements < mesh.owned_elements, mesh.facet_elements, -1)
     element = owned.max(axis=1, initial=-1)
     here = element >= 0
@@ -125,7 +127,7 @@ def _label_facets(petsc: Any, plex: Any, mesh: MeshArrays) -> None:
 
 
 def _faces(plex: Any, cells: Int32s, opposite: NDArray[Any], corners: int) -> NDArray[Any]:
-    """The face of each cell that lacks this corner, in PETSc's order of faces in a cell."""
+    """Returns the face of each cell opposite this corner, in PETSc's order of faces in a cell."""
     if corners == 3:
         places = (opposite + 1) % 3
     else:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Quick looks at nodes and meshes, by Matplotlib in the plane, by PyVista or else Matplotlib in space.
-What has a tag has the colour of its tag."""
+"""Quick plots of nodes and meshes: by Matplotlib in the plane, and by PyVista or Matplotlib in
+space. Items with a tag have the colour of the tag."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     from .mesh_arrays import MeshArrays
 
 _GREY = "#999999"
-# Matplotlib's first ten.
+# The first ten colours of Matplotlib.
 _COLOURS = ("#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f",
             "#bcbd22", "#17becf")
-# More would cover the picture.
+# More entries would cover the picture.
 _MAX_LEGEND = 12
 
 
@@ -73,7 +73,7 @@ def _add_triangles(ax: Any, points: Doubles, corners: Int32s, tags: Int32s) -> N
 
 
 def _by_tag(tags: Int32s) -> Iterator[Tuple[str, str, NDArray[np.bool_]]]:
-    """Label, colour and where it is, of each tag. 0 is none."""
+    """Yields label, colour and mask of each tag. 0 means no tag."""
     numbers: List[int] = np.unique(tags).tolist()
     for k, tag in enumerate(sorted(numbers, key=lambda tag: (tag == 0, tag))):
         yield (f"tag {tag}" if tag else "no tag", _COLOURS[k % len(_COLOURS)] if tag else _GREY,
@@ -85,7 +85,7 @@ def _is_plotter(ax: Any) -> bool:
 
 
 def _canvas(dim: int, ax: Any) -> Any:
-    """The given one, or a new one."""
+    """Returns the given canvas or a new one."""
     if ax is not None:
         return ax
     if dim == 3 and importlib.util.find_spec("pyvista"):
@@ -95,7 +95,7 @@ def _canvas(dim: int, ax: Any) -> Any:
 
 
 def _finished(ax: Any, points: Doubles, tags: Int32s) -> Any:
-    """With equal scales, and a legend if it is short."""
+    """Returns the canvas with equal scales, and with a legend if it is short."""
     has_legend = 0 < len(np.unique(tags)) <= _MAX_LEGEND
     if _is_plotter(ax):
         if has_legend:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A progress bar for a run: tqdm's, in notebooks its own kind, or a line of text where there is no
+"""A progress bar for a run: that of tqdm, in notebooks its own kind, or a line of text without
 tqdm."""
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ _WIDTH = 40
 
 
 class ProgressBar:
-    """A monitor that shows the fraction and the nodes. The bar is there from the `with` statement to
-    the end of its block."""
+    """A monitor that shows the fraction and the number of nodes. The bar exists from the `with`
+    statement to the end of its block."""
 
     def __enter__(self) -> ProgressBar:
         try:

@@ -14,9 +14,9 @@ Ids = NDArray[np.int64]
 Int32s = NDArray[np.int32]
 Scalar = TypeVar("Scalar", bound=np.generic)
 
-# f(points) for a value at each of n points, (n, dim); curves f(t) for n points, (n, 2).
+# f(points) returns a value at each of n points, (n, dim). Curves f(t) return n points, (n, 2).
 ArrayFunction = Callable[[Doubles], ArrayLike]
-# fraction, step, nodes, max_speed; only True stops.
+# The arguments are fraction, step, nodes, max_speed. Only True stops the run.
 Monitor = Callable[[float, int, int, float], object]
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
@@ -28,4 +28,4 @@ class FortranComm(Protocol):
     """A communicator of mpi4py."""
 
     def py2f(self) -> int:
-        """Its Fortran handle."""
+        """Returns its Fortran handle."""

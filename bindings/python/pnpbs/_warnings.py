@@ -47,7 +47,7 @@ class WarningCode(enum.IntEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> WarningCode:
-        return cls.UNKNOWN  # of a newer library
+        return cls.UNKNOWN  # the code is from a newer library
 
     def __str__(self) -> str:
         return self.name

@@ -13,8 +13,8 @@ from ._interface import library
 from ._types import FortranComm, OptionValue
 from .errors import PNPBSError, Status, check_without_context, error_of
 
-# Open contexts on communicators of mpi4py, in the order in which they were made: the same one on all
-# ranks. mpi4py ends MPI after Python's own exit handlers.
+# The open contexts on communicators of mpi4py, in the order of their creation, which is the same on
+# all ranks. mpi4py ends MPI after Python's own exit handlers.
 _on_mpi4py: List[Context] = []
 
 _Self = TypeVar("_Self", bound="Handle")
@@ -39,7 +39,8 @@ class Handle:
         return self._handle
 
     def _destroy(self, function: Callable[..., int]) -> int:
-        """Destroys the handle; keeps it if the library refuses, as in a callback."""
+        """Destroys the handle. Keeps it if the library returns an error, for example inside a
+        callback."""
         handle = ctypes.c_void_p(self._handle)
         code = function(ctypes.byref(handle))
         self._handle = handle.value
@@ -76,8 +77,9 @@ class Context(Handle):
                  library: Optional[str] = None, **options: OptionValue) -> None:
         super().__init__()
         self._on_ranks = comm is not None
-        self._raised: Optional[BaseException] = None  # by a callback, during the call in progress
-        # Open domains and placements, kept here because the library holds their callbacks.
+        self._raised: Optional[BaseException] = None  # by a callback during the current call
+        # The open domains and placements. They are kept here because the library holds their
+        # callbacks.
         self._children: List[Handle] = []
         self._handle = _created(comm, library)
         if hasattr(comm, "py2f"):
@@ -114,8 +116,8 @@ class Context(Handle):
         return f"<pnpbs.Context, {what}>"
 
     def _check(self, code: int) -> Status:
-        """Checks the status of every call. An exception raised by a callback has priority: the
-        library's own message only says that a callback failed."""
+        """Checks the status of every call. An exception raised by a callback takes precedence, as
+        the library's own message only says that a callback failed."""
         raised, self._raised = self._raised, None
         if raised is not None:
             raise raised
@@ -149,11 +151,11 @@ def _created(comm: Optional[Union[int, FortranComm]],
 
 
 def _of_mpi4py(comm: FortranComm) -> Tuple[int, str]:
-    """Returns Fortran handle and library. A communicator is valid only while MPI runs; otherwise
-    the library reports the error."""
+    """Returns the Fortran handle and the library. A communicator is valid only while MPI runs.
+    Otherwise the library reports the error."""
     from mpi4py import MPI
     running = MPI.Is_initialized() and not MPI.Is_finalized()
-    # Open MPI counts the text's end as a part of it.
+    # Open MPI counts the terminating zero as a part of the text.
     return (comm.py2f() if running else 0), MPI.Get_library_version().rstrip("\0")
 
 
@@ -173,7 +175,8 @@ def _close_contexts_of_mpi4py() -> None:
 
 
 def _set_option(kind: str, handle: int, key: str, value: OptionValue) -> int:
-    """The three functions of the library that set an option, of a context or a placement."""
+    """Calls one of the three functions of the library that set an option of a context or a
+    placement."""
     code: int
     if isinstance(value, numbers.Integral):
         code = getattr(_library(), f"pnpbs_{kind}_set_int64")(handle, key.encode(), int(value))

@@ -71,12 +71,12 @@ class PNPBSError(Exception):
 
 
 def last_error(context: Any) -> str:
-    """Returns the message of the last error on a context; of this thread with None."""
+    """Returns the message of the last error on a context, or with None that of this thread."""
     return str(library().pnpbs_last_error(context).decode())
 
 
 def error_of(code: int, context: Any) -> PNPBSError:
-    """Returns the exception for a status that is an error, with what the library knows of it."""
+    """Returns the exception for a status that is an error, with the library's data about it."""
     reason, count = ctypes.c_int32(), ctypes.c_int32()
     library().pnpbs_last_error_data(context, ctypes.byref(reason), ctypes.byref(count))
     known = reason.value in ErrorReason.__members__.values()
@@ -90,6 +90,7 @@ def error_of(code: int, context: Any) -> PNPBSError:
 
 
 def check_without_context(code: int) -> None:
-    """Checks a status without a context to hold the message, after a failed create."""
+    """Checks the status of a call without a context to hold the message, such as a failed create.
+    """
     if code < 0:
         raise error_of(code, None)

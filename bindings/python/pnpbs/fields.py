@@ -69,11 +69,13 @@ class Fields(PlacementHandle):
         if ok:
             self._call(name, *_sizes(values), values)
             return
-        # The library hears of it, and so do the other ranks, which would wait otherwise.
+        # The library gets a number of -1. The other ranks, which would wait otherwise, then get an
+        # error too.
         getattr(library(), f"pnpbs_placement_{name}")(self._live(), -1, 1, None)
         raise ValueError("values must be an array of float64, in the order of C, that can be changed")
 
-    # Any: a float of (n,) values, an array of others, which their types do not tell apart.
+    # The result is Any: a float for (n,) values and an array for others, which their types do not
+    # distinguish.
     def sum(self, values: ArrayLike) -> Any:
         """Sums each component over the nodes of all ranks: exact, rounded once, and so the same
         bits for any number of ranks and threads. Entries of ghosts are ignored. Collective."""

@@ -34,7 +34,7 @@ class DistributedMesh(MeshConversions):
 
     @classmethod
     def _copied(cls, context: Context, handle: ctypes.c_void_p) -> DistributedMesh:
-        """Copies all of a mesh of the library."""
+        """Copies all arrays of a mesh of the library."""
         check = context._check
         dim, corners = ctypes.c_int32(), ctypes.c_int32()
         owned_nodes, nodes, owned_elements, elements, facets = sizes = _int64s(5)
@@ -118,7 +118,7 @@ class Meshes(PlacementHandle):
 
     @contextmanager
     def _mesh_of_library(self, ghost_layers: int) -> Iterator[ctypes.c_void_p]:
-        """A handle that is destroyed where the block ends."""
+        """Yields a handle that is destroyed at the end of the block."""
         handle = ctypes.c_void_p()
         self.context._check(library().pnpbs_mesh_create(self._live(), ghost_layers,
                                                         ctypes.byref(handle)))

@@ -119,8 +119,8 @@ class MeshConversions(MeshArrays):
         return plot_mesh(self, self._owned_facets(), ax)
 
     def _destinations(self, rank: int) -> Tuple[Int32s, Int32s]:
-        """Which ranks have each owned element: this one, and the owners of those across its facets.
-        Compressed rows: ranks, offsets."""
+        """Returns the ranks of each owned element, which are this rank and the owners of the
+        elements across its facets, as compressed rows: ranks, offsets."""
         here = np.arange(self.owned_elements)
         element, other = self._across_facets()
         owned = element < self.owned_elements
@@ -133,7 +133,7 @@ class MeshConversions(MeshArrays):
         return value.astype(np.int32), offsets.astype(np.int32)
 
     def _across_facets(self) -> Tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Pairs of elements here with a facet in common, both ways."""
+        """Returns the pairs of elements here with a common facet, in both orders."""
         n, corners = self.elements.shape
         if n == 0:
             return np.zeros(0, np.int64), np.zeros(0, np.int64)
@@ -146,18 +146,18 @@ class MeshConversions(MeshArrays):
         return np.concatenate([a, b]), np.concatenate([b, a])
 
     def _owned_facets(self) -> NDArray[np.bool_]:
-        """A rank without nodes has no facets either."""
+        """Returns which facets this rank owns. A rank without nodes has no facets."""
         rank = self.owners[0] if self.owned_nodes else -1
         return np.equal(self.facet_owners, rank)
 
 
 def _package(name: str) -> Any:
-    """One that need not be there."""
+    """Imports a package that may not be installed."""
     return importlib.import_module(name)
 
 
 def _rows_of(table: NDArray[Any], rows: NDArray[Any]) -> NDArray[np.int64]:
-    """Where each of the rows is in the table; all are in it, once."""
+    """Returns the position of each row in the table. Each row is in the table exactly once."""
     _, key = np.unique(np.concatenate([table, rows]), axis=0, return_inverse=True)
     key = key.ravel()
     place = np.empty(len(table), np.int64)
@@ -166,15 +166,15 @@ def _rows_of(table: NDArray[Any], rows: NDArray[Any]) -> NDArray[np.int64]:
 
 
 def _linear_coordinates(dim: int, corners: int) -> Any:
-    """UFL's mesh of straight triangles or tetrahedra."""
+    """Returns UFL's mesh of straight triangles or tetrahedra."""
     ufl = _package("ufl")
     cell = ufl.Cell("triangle" if corners == 3 else "tetrahedron", geometric_dimension=dim)
     return ufl.Mesh(ufl.VectorElement("Lagrange", cell, 1, dim=dim))
 
 
 def _tags_in_dolfinx(mesh: Any, dim: int, corners: NDArray[np.int64], tags: Int32s) -> Any:
-    """Mesh tags of entities of this dimension, of which each is given on one rank, by the numbers
-    of its nodes."""
+    """Returns mesh tags of entities of this dimension. Each entity is given on one rank, by the
+    numbers of its nodes."""
     dolfinx = _package("dolfinx")
     entities, values = dolfinx.cpp.io.distribute_entity_data(mesh._mesh, dim, corners, tags)
     mesh.topology.create_connectivity(dim, 0)

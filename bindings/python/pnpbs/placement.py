@@ -63,8 +63,9 @@ class Placement(Results, Fields, Meshes, Tessellation):
         self._handle = handle.value
         self.context._children.append(self)
         self._warned: Set[str] = set()
-        # Kept alive: the library holds their addresses. The nodes there are remember the spacing
-        # that they were placed with, so one that is replaced is needed until the next run.
+        # These are kept alive because the library holds their addresses. The current nodes refer to
+        # the spacing that they were placed with, so a replaced spacing is needed until the next
+        # run.
         self._spacing: Any = None
         self._spacings_before: List[Any] = []
         self._monitor: Any = None
@@ -129,7 +130,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
             raise ValueError(f"d has shape {np.shape(d)}: values at nodes have one dimension, and "
                              "values on a grid come with origin and step")
         else:
-            # A wrong length is the library's to find: it tells all ranks.
+            # The library checks the length, as it reports an error to all ranks.
             values = np.ascontiguousarray(d, np.float64).reshape(-1)
             self._call("set_spacing_at_nodes", len(values), values)
         return self._keep_spacing(callback)
@@ -209,7 +210,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
                              "expected")
         if origin is None or step is None:
             raise ValueError("values on a grid take both an origin and a step")
-        # The library's first index runs fastest.
+        # The first index of the library varies fastest.
         values = np.ascontiguousarray(np.asarray(d, np.float64).T)
         self._call("set_spacing_grid", np.array(np.shape(d), np.int64),
                    as_point(origin, directions, "origin"), as_point(step, directions, "step"),
@@ -220,7 +221,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
         the first nodes are laid, or the growth of the spacing is limited, `fraction` is 0 and each
         rank calls it by its own clock: do nothing collective then. When it returns True, the run
         ends early with valid nodes and `Status.STOPPED`. None removes the monitor. Local."""
-        # The library's monitor stays: it is where Ctrl-C acts.
+        # The library keeps a monitor, because Ctrl-C takes effect in it.
         callback = monitor_callback(_keep_going if monitor is None else monitor, self.context)
         self._call("set_monitor", callback, None)
         self._monitor, self._monitor_function = callback, monitor
@@ -228,7 +229,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
 
     @contextlib.contextmanager
     def _progress_shown(self) -> Iterator[None]:
-        """Shows a progress bar in the block, beside the monitor that is set."""
+        """Shows a progress bar in the block, in addition to the monitor that is set."""
         before = self._monitor_function
         with ProgressBar() as bar:
 
@@ -260,8 +261,8 @@ class Placement(Results, Fields, Meshes, Tessellation):
         points = as_points(coordinates, self.dim, "coordinates")
         given = None if ids is None else np.ascontiguousarray(ids, np.int64)
         wrong = None if given is None or given.shape == (len(points),) else given.shape
-        # Where the ids are too many or too few on one rank, the library hears of it, and so do the
-        # other ranks, which would wait otherwise.
+        # If the number of ids is wrong on one rank, the library gets a number of -1. The other
+        # ranks, which would wait otherwise, then get an error too.
         code = library().pnpbs_placement_set_nodes(self._live(), len(points) if wrong is None else -1,
                                                    points, given)
         if wrong is not None:

@@ -22,7 +22,7 @@ from .context import Handle
 from .domain import Domain
 from .errors import PNPBSError, Status
 
-# A test compares them with pnpbs_geo.h.
+# A test compares these declarations with pnpbs_geo.h.
 DECLARATIONS = """
 const char *pnpbs_geo_last_error(void);
 const char *pnpbs_geo_build_info(void);
@@ -64,7 +64,7 @@ _opened: Optional[ctypes.CDLL] = None
 def _library() -> ctypes.CDLL:
     global _opened
     if _opened is None:
-        library()  # the one that it calls, first
+        library()  # opens libpnpbs first, which this library calls
         beside = common_folder(pathlib.Path(library_path())) / _SONAME
         try:
             opened = ctypes.CDLL(str(beside) if beside.exists() else _SONAME)
@@ -117,7 +117,7 @@ class NoteCode(enum.IntEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> NoteCode:
-        return cls.UNKNOWN  # of a newer library
+        return cls.UNKNOWN  # the code is from a newer library
 
 
 class NoteData(NamedTuple):

@@ -47,7 +47,7 @@ class VoronoiCells:
 
     @classmethod
     def _copied(cls, context: Context, handle: ctypes.c_void_p) -> VoronoiCells:
-        """Copies all cells of the library's."""
+        """Copies all cells of an object of the library."""
         check = context._check
         dim, nodes, faces = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_int64()
         check(library().pnpbs_voronoi_sizes(handle, *map(ctypes.byref, (dim, nodes, faces))))

@@ -1,25 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Solve, estimate the error, change d, place again: an adaptive loop on a live placement, over the
- * ranks of an MPI program. The domain is an L, (-1, 1)^2 without its lower right quarter, and
+ * An adaptive loop on a placement over the ranks of an MPI program: solve, estimate the error,
+ * change d, place nodes again. The domain is an L, (-1, 1)^2 without its lower right quarter.
  * -Laplace u = 0 has the solution u = r^(2/3) sin(2 theta / 3), whose gradient is infinite at the
- * corner that points inwards. Linear finite elements from the Delaunay stars and conjugate
+ * reentrant corner. The solver uses linear finite elements from the Delaunay stars and conjugate
  * gradients, as in laplace_ring.
  *
  *   mpirun -np 4 ./adaptive_corner [FOLDER]
  *
- * A round: the error on each triangle is estimated as the distance of the solution's gradient from
- * a smoother one, averaged over the stars (Zienkiewicz and Zhu 1987), without knowing u; from it
- * comes the d that spreads the error evenly over twice as many nodes; the next run starts from the
- * nodes there are, and if the ranks then have unequal work, it is partitioned anew. No rank ever
- * holds all nodes. With a folder, which must be there, every rank writes its piece of the last
- * round.
+ * In each round the error on each triangle is estimated, without knowing u, as the distance of the
+ * solution's gradient from an averaged one over the stars (Zienkiewicz and Zhu 1987). From it
+ * follows the d that distributes the error evenly over twice as many nodes. The next run starts
+ * from the current nodes. If the ranks then have unequal work, it is partitioned again. No rank
+ * ever holds all nodes. If a folder is given, which must exist, every rank writes its piece of the
+ * last round.
  *
- * What to check (theory, for linear elements and the energy norm, the root of the integral of
- * |grad error|^2): with N nodes of the same d everywhere the error falls as N^(-1/3), because of
- * the corner; adapted it falls as N^(-1/2), as if there were none. The estimate is about as large
- * as the error.
- */
+ * What to check (theory for linear elements and the energy norm, the root of the integral of |grad
+ * error|^2): With N nodes of the same d everywhere the error falls as N^(-1/3) because of the
+ * corner. With adapted d it falls as N^(-1/2), as if there were no corner. The estimate is about as
+ * large as the error. */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -32,17 +31,18 @@
 #define AREA 3.0
 #define PERIMETER 8.0
 
-/* This rank's nodes, followed by its ghosts: the nodes of other ranks next to them. */
+/* This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks. */
 typedef struct {
   MPI_Comm comm;
-  int64_t owned, all;          /* all: with the ghosts */
+  int64_t owned, all;          /* all: including the ghosts */
   double *xy;                  /* [all][2] */
   double *spacing;             /* [all] */
   int32_t *tags;               /* [all] */
   int64_t triangles, *corners; /* [triangles][3] */
 } mesh;
 
-/* Which nodes' values go to which rank, and which ghosts' values come from there. */
+/* The exchange: the nodes whose values are sent to each rank, and the ghosts whose values come from
+ * it. */
 typedef struct {
   int32_t neighbours, *ranks;
   int64_t *send_offsets, *send_nodes, *receive_offsets, *receive_nodes;
@@ -50,20 +50,20 @@ typedef struct {
   MPI_Request *requests;
 } exchange;
 
-/* The rows of this rank's nodes: besides the diagonal, one entry for each node of the star, those
- * of row i from offsets[i] to offsets[i + 1] - 1. */
+/* The rows of this rank's nodes. Besides the diagonal a row has one entry for each node of the
+ * star. The entries of row i are those from offsets[i] to offsets[i + 1] - 1. */
 typedef struct {
   int64_t *offsets, *columns;
-  int8_t *triangle; /* whether the node, this one and the next of the star are a triangle */
+  int8_t *triangle; /* 1 if the node, this one and the next of the star form a triangle */
   double *diagonal, *values;
 } matrix;
 
-/* What a solution on this rank's nodes turned out to be. */
+/* A solution on this rank's nodes and its errors. */
 typedef struct {
   double nodes, error, estimate; /* over all ranks */
   double *u;                     /* [all] */
   double *density;               /* [all] estimated squared error per area about a node */
-  double *area;                  /* [owned] and that area: a third of the triangles of its star */
+  double *area;                  /* [owned] this area: a third of the triangles of its star */
 } solution;
 
 static void check(pnpbs_status status, pnpbs_context context) {
@@ -81,7 +81,8 @@ static void *room(int64_t n, size_t size) {
 
 /* ---------------------------------------------------------------- the known solution ----- */
 
-/* 0 .. 3/2 pi inside, from the edge to the right of the corner to the one below it */
+/* Returns theta, 0 .. 3/2 pi inside, from the edge to the right of the corner to the one below it.
+ */
 static double angle(const double *x) {
   const double theta = atan2(x[1], x[0]);
   return theta < -PI / 4 ? theta + 2 * PI : theta;
@@ -132,19 +133,20 @@ static void get_exchange(pnpbs_placement p, pnpbs_context context, exchange *e) 
   e->requests = room(2 * e->neighbours, sizeof(MPI_Request));
 }
 
-/* Cotangent of the angle at a in the triangle a, b, c, counter-clockwise. */
+/* Returns the cotangent of the angle at a in the counter-clockwise triangle a, b, c. */
 static double cotangent(const double *a, const double *b, const double *c) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
   return (bx * cx + by * cy) / (bx * cy - by * cx);
 }
 
-/* Where in its row the next node of the star is. */
+/* Returns the entry of the next node of the star in row i. */
 static int64_t next_in_star(const matrix *a, int64_t i, int64_t k) {
   return k + 1 < a->offsets[i + 1] ? k + 1 : a->offsets[i];
 }
 
-/* For linear elements the integral of grad phi_i . grad phi_j over a triangle is -1/2 times the
- * cotangent of the angle opposite to the edge from i to j; and every row sums to zero. */
+/* Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a triangle
+ * is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row sums to
+ * zero. */
 static void assemble(pnpbs_placement p, pnpbs_context context, const mesh *m, matrix *a) {
   int64_t entries, i, k;
   check(pnpbs_placement_star_size(p, &entries), context);
@@ -206,7 +208,7 @@ static double dot(const mesh *m, const double *x, const double *y) {
   return sum_over_ranks(m, part);
 }
 
-/* Gives the ghosts the values that their owners have. */
+/* Copies to the ghosts the values of their owners. */
 static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   const int64_t *s = e->send_offsets, *r = e->receive_offsets;
   int64_t i;
@@ -222,7 +224,7 @@ static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   for (i = 0; i < r[e->neighbours]; ++i) x[e->receive_nodes[i]] = e->received[i];
 }
 
-/* y = A x at this rank's nodes. */
+/* Computes y = A x at this rank's nodes. */
 static void multiply(const mesh *m, const exchange *e, const matrix *a, double *x, double *y) {
   int64_t i, k;
   update_ghosts(m, e, x);
@@ -232,8 +234,8 @@ static void multiply(const mesh *m, const exchange *e, const matrix *a, double *
   }
 }
 
-/* Conjugate gradients with the diagonal as preconditioner: A u = 0 at the inner nodes. On the
- * boundary u stays as it is, because the residual there counts as zero. */
+/* Solves A u = 0 at the inner nodes by conjugate gradients with the diagonal as preconditioner. On
+ * the boundary u does not change, because the residual there is set to zero. */
 static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) {
   double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
   double *z = room(m->owned, sizeof(double)), *p = room(m->all, sizeof(double));
@@ -268,7 +270,7 @@ static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) 
 
 /* ---------------------------------------------------------------- the error -------------- */
 
-/* The constant gradient of u on a triangle, and its area. */
+/* Computes the constant gradient of u on a triangle. Returns its area. */
 static double gradient(const mesh *m, const double *u, int64_t i, int64_t j, int64_t k, double *g) {
   const double *xi = m->xy + 2 * i, *xj = m->xy + 2 * j, *xk = m->xy + 2 * k;
   const double jx = xj[0] - xi[0], jy = xj[1] - xi[1], kx = xk[0] - xi[0], ky = xk[1] - xi[1];
@@ -278,7 +280,7 @@ static double gradient(const mesh *m, const double *u, int64_t i, int64_t j, int
   return twice / 2;
 }
 
-/* The mean gradient of the triangles of each star, weighted by their areas. */
+/* Computes the mean gradient of the triangles of each star, weighted by their areas. */
 static void average_gradients(const mesh *m, const exchange *e, const matrix *a, const double *u,
                               double *gx, double *gy) {
   int64_t i, k;
@@ -298,13 +300,13 @@ static void average_gradients(const mesh *m, const exchange *e, const matrix *a,
   update_ghosts(m, e, gy);
 }
 
-/* The integral over a triangle of the square of a function that is linear on it, from its values
- * at the corners. */
+/* Returns the integral over a triangle of the square of a linear function with the given values at
+ * the corners. */
 static double integral_of_square(double area, double a, double b, double c) {
   return area / 12 * (a * a + b * b + c * c + (a + b + c) * (a + b + c));
 }
 
-/* The squared error about each node: a third of what its triangles have. */
+/* Estimates the squared error around each node: a third of the squared errors of its triangles. */
 static void estimate(const mesh *m, const exchange *e, const matrix *a, solution *s) {
   double *gx = room(m->all, sizeof(double)), *gy = room(m->all, sizeof(double)), all = 0;
   int64_t i, k;
@@ -327,9 +329,10 @@ static void estimate(const mesh *m, const exchange *e, const matrix *a, solution
   free(gy);
 }
 
-/* The integral of |grad u - g|^2 over a triangle, u the known solution, by the middles of its edges
- * where the triangle is small for its distance from the corner; else by its four quarters, 14 times
- * at most: what is left then at the corner does not matter. */
+/* Returns the integral of |grad u - g|^2 over a triangle, with the known solution u. Where the
+ * triangle is small relative to its distance from the corner, the rule of the edges' midpoints is
+ * used. Otherwise the triangle is divided into four, up to 14 times. The remaining error at the
+ * corner is negligible. */
 static double squared_error(const double *a, const double *b, const double *c, const double *g,
                             int depth) {
   const double ab[2] = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
@@ -350,7 +353,7 @@ static double squared_error(const double *a, const double *b, const double *c, c
   return twice / 6 * sum;
 }
 
-/* The true error in the energy norm. */
+/* Returns the true error in the energy norm. */
 static double energy_error(const mesh *m, const double *u) {
   double part = 0, g[2];
   int64_t t;
@@ -381,18 +384,19 @@ static void solve_and_estimate(pnpbs_placement p, pnpbs_context context, mesh *m
   s->error = energy_error(m, s->u);
 }
 
-/* Six bits of d. Its last digits depend on the order in which the parts of the ranks are summed,
- * and other digits make other nodes: so that they are the same on any number of ranks. */
+/* Returns d rounded to six bits. The last digits of d depend on the order in which the ranks' parts
+ * are summed, and other digits would give other nodes. Rounding makes the nodes the same on any
+ * number of ranks. */
 static double rounded(double d) {
   int exponent;
   const double fraction = frexp(d, &exponent);
   return ldexp(floor(64 * fraction + 0.5), exponent - 6);
 }
 
-/* Asks for so many nodes that share the error evenly. Where the spacing is h and the squared error
- * per area w, w / h^2 stays when h changes (it is about |second derivatives|^2). So the squared
- * error that a node of spacing d has about it will be w / h^2 d^4: that shall be the same for all.
- * Triangles with edges of d have 2 / sqrt(3) nodes per d^2. */
+/* Sets a spacing for this number of nodes that distributes the error evenly. With spacing h and
+ * squared error per area w, w / h^2 does not change with h (it is about |second derivatives|^2).
+ * The squared error around a node of spacing d is therefore w / h^2 d^4, which must be equal for
+ * all nodes. Triangles with edges of length d have 2 / sqrt(3) nodes per d^2. */
 static void adapt(pnpbs_placement p, pnpbs_context context, const mesh *m, const solution *s,
                   double nodes) {
   double *d = room(m->owned, sizeof(double)), part = 0, scale;
@@ -407,7 +411,7 @@ static void adapt(pnpbs_placement p, pnpbs_context context, const mesh *m, const
   free(d);
 }
 
-/* Deals the work out anew where it is unequal; the nodes stay as they are. */
+/* Partitions the work again if it is unequal. The nodes do not change. */
 static void balance(pnpbs_placement p, pnpbs_context context, int rank) {
   double before, after;
   check(pnpbs_placement_get_double(p, "imbalance", &before), context);
@@ -434,8 +438,8 @@ static void print_round(const char *kind, int round, const mesh *m, const soluti
            round, s->nodes, least, s->error, s->estimate / s->error);
 }
 
-/* FOLDER/adaptive_corner_<rank>.vtk, for examples/draw_pieces.py or ParaView. The estimate is the
- * root of the squared error per area. */
+/* Writes FOLDER/adaptive_corner_<rank>.vtk for examples/draw_pieces.py or ParaView. The estimate in
+ * it is the root of the squared error per area. */
 static void write_piece(const char *folder, const mesh *m, const exchange *e, const solution *s) {
   const long all = (long)m->all, triangles = (long)m->triangles;
   const int64_t *c = m->corners;
@@ -471,7 +475,7 @@ static void write_piece(const char *folder, const mesh *m, const exchange *e, co
   fclose(file);
 }
 
-/* What is to be fitted and compared. */
+/* The figures of all rounds that are fitted and compared. */
 typedef struct {
   double nodes[ROUNDS], errors[ROUNDS], effectivity;
 } history;
@@ -482,8 +486,8 @@ static void remember(history *h, int round, const solution *s) {
   h->effectivity = s->estimate / s->error;
 }
 
-/* The d of so many nodes in the L if it is the same everywhere: 2 / sqrt(3) per d^2, and half a
- * node more per d of the boundary. */
+/* Returns the constant d for this number of nodes in the L: 2 / sqrt(3) per d^2, plus half a node
+ * per d of the boundary. */
 static double uniform_spacing(double nodes) {
   const double a = 2 / sqrt(3.0) * AREA, b = PERIMETER / 2;
   return 2 * a / (sqrt(b * b + 4 * a * nodes) - b);
@@ -495,7 +499,8 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   int round, rank;
   MPI_Comm_rank(comm, &rank);
   check(pnpbs_placement_create(context, domain, &p), context);
-  /* Smooth where the estimate is not; and this program says itself when to partition anew. */
+  /* The growth limit smooths the estimated d. The large threshold leaves the decision about a new
+   * partition to this program. */
   check(pnpbs_placement_set_double(p, "growth_limit", 0.4), context);
   check(pnpbs_placement_set_double(p, "rebalance_above", 1e6), context);
   check(pnpbs_placement_set_spacing_constant(p, uniform_spacing(FIRST_NODES)), context);
@@ -519,7 +524,7 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   pnpbs_placement_destroy(&p);
 }
 
-/* The same with about as many nodes, of the same d everywhere. */
+/* Runs the rounds with about the same numbers of nodes and the same d everywhere. */
 static void uniform_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain domain,
                            const double *nodes, history *h) {
   int round;
@@ -541,8 +546,8 @@ static void uniform_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   }
 }
 
-/* The power of N by which errors fall, fitted to the last four rounds: minus the slope of log error
- * over log N. */
+/* Returns the power of N by which errors fall, fitted to the last four rounds: minus the slope of
+ * log error over log N. */
 static double order(const history *h) {
   double x = 0, y = 0, xx = 0, xy = 0;
   const int n = 4;
@@ -560,7 +565,7 @@ static double order(const history *h) {
 
 int main(int argc, char **argv) {
   const double corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {-1, 1}, {-1, -1}, {0, -1}};
-  const MPI_Comm comm = MPI_COMM_WORLD; /* any communicator of yours */
+  const MPI_Comm comm = MPI_COMM_WORLD; /* any communicator */
   pnpbs_context context;
   pnpbs_domain domain;
   history adapted, uniform;

@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Conjugate gradients that take the same way, bit for bit, on any number of ranks: -Laplace u = 1
- * in the unit disc with u = 0 on its boundary, by linear finite elements. Three things make it so.
- * The nodes are the same. Every row of the matrix is made and multiplied in the order of the nodes'
- * ids. And dot products are those of the library, which adds without rounding. Ghosts get their
- * values while the rows that need none are multiplied.
+ * Conjugate gradients with bitwise equal iterations on any number of ranks: -Laplace u = 1 in the
+ * unit disc with u = 0 on its boundary, by linear finite elements. There are three reasons: The
+ * nodes are the same. Every row of the matrix is assembled and multiplied in the order of the
+ * nodes' ids. The dot products are those of the library, which adds without rounding. Rows without
+ * ghosts are multiplied while the values of ghosts are exchanged.
  *
  *   mpirun -np 4 ./conjugate_gradients
  *
- * What to check: all digits of the residuals are the same on any number of ranks. The solution is
- * u = (1 - r^2) / 4, whose integral is pi / 8; with second derivatives of 1/2, linear interpolation
- * on equilateral triangles is wrong by at most d^2 / 12, and the chords of the boundary, d^2 / 8
- * off it where u has a slope of 1/2, add d^2 / 16.
- */
+ * What to check: All digits of the residuals are the same on any number of ranks. The solution is u
+ * = (1 - r^2) / 4, whose integral is pi / 8. With second derivatives of 1/2 the error of linear
+ * interpolation on equilateral triangles is at most d^2 / 12. The chords of the boundary are d^2 /
+ * 8 off it where u has a slope of 1/2, which adds d^2 / 16. */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -22,22 +21,22 @@
 #define PI 3.14159265358979323846
 static const double d = 0.04;
 
-/* This rank's nodes, followed by its ghosts: the nodes of other ranks next to them. */
+/* This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks. */
 typedef struct {
-  int64_t owned, all; /* all: with the ghosts */
+  int64_t owned, all; /* all: including the ghosts */
   double *xy;         /* [all][2] */
   int64_t *ids;       /* [all] */
   int32_t *tags;      /* [all] */
 } mesh;
 
-/* One entry of a row: how node `column` counts, and a sixth of the area on both sides of the edge
- * to it. */
+/* One entry of a row: the coefficient of node `column`, and a sixth of the area on both sides of
+ * the edge to it. */
 typedef struct {
   int64_t id, column;
   double value, area;
 } entry;
 
-/* The rows of this rank's nodes. Those that need no ghost come first in `order`. */
+/* The rows of this rank's nodes. Rows without ghosts come first in `order`. */
 typedef struct {
   int64_t *offsets, *order, without_ghosts;
   entry *entries;
@@ -75,8 +74,9 @@ static void get_mesh(mesh *m) {
                                    m->tags + m->owned, NULL, NULL));
 }
 
-/* Cotangent of the angle at a, and the area, of the triangle a, b, c: to the bit the same for a, c,
- * b, for products and sums of two do not depend on their order. */
+/* Returns the cotangent of the angle at a, and the area, of the triangle a, b, c. The result is
+ * bitwise the same for a, c, b, as products and sums of two numbers do not depend on their order.
+ */
 static double cotangent(const double *a, const double *b, const double *c, double *area) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
   const double twice_area = fabs(bx * cy - by * cx);
@@ -84,8 +84,8 @@ static double cotangent(const double *a, const double *b, const double *c, doubl
   return (bx * cx + by * cy) / twice_area;
 }
 
-/* What the triangle i, k, other adds to the entry of row i for node k: two triangles at most do so,
- * in any order the same. */
+/* Adds the contribution of the triangle i, k, other to the entry of row i for node k. At most two
+ * triangles contribute, so that their order does not matter. */
 static void add_triangle(const mesh *m, int64_t i, entry *k, int64_t other) {
   double area;
   k->value -= cotangent(m->xy + 2 * other, m->xy + 2 * i, m->xy + 2 * k->column, &area) / 2;
@@ -97,9 +97,9 @@ static int by_id(const void *a, const void *b) {
   return (i > j) - (i < j);
 }
 
-/* For linear elements the integral of grad phi_i . grad phi_j over a triangle is -1/2 times the
- * cotangent of the angle opposite to the edge from i to j, every row sums to zero, and the integral
- * of phi_i is a third of the area around node i. */
+/* Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a triangle
+ * is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row sums to
+ * zero. The integral of phi_i is a third of the area around node i. */
 static void assemble(const mesh *m, matrix *a) {
   int64_t entries, i, k, *columns;
   int8_t *triangle;
@@ -153,7 +153,8 @@ static void order_rows(const mesh *m, matrix *a) {
 
 /* ---------------------------------------------------------------- the solver ------------- */
 
-/* Some rows of y = A x, each by increasing ids. On the boundary, where u does not change, 0. */
+/* Computes some rows of y = A x, each in the order of ids. The result is 0 on the boundary, where u
+ * does not change. */
 static void multiply_rows(const mesh *m, const matrix *a, int64_t begin, int64_t end,
                           const double *x, double *y) {
   int64_t r, k;
@@ -166,7 +167,7 @@ static void multiply_rows(const mesh *m, const matrix *a, int64_t begin, int64_t
   }
 }
 
-/* y = A x at this rank's nodes; the values at ghosts are on their way meanwhile. */
+/* Computes y = A x at this rank's nodes while the values of ghosts are exchanged. */
 static void multiply(const mesh *m, const matrix *a, double *x, double *y) {
   check(pnpbs_placement_begin_update_ghosts(placement, m->all, 1, x));
   multiply_rows(m, a, 0, a->without_ghosts, x, y);
@@ -180,7 +181,7 @@ static double dot(const mesh *m, const double *x, const double *y) {
   return product;
 }
 
-/* A u = load from u = 0; returns the steps it took. */
+/* Solves A u = load from u = 0. Returns the number of steps. */
 static int solve(const mesh *m, const matrix *a, double *u, int rank) {
   double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
   double *p = room(m->all, sizeof(double)), rr, rr_before, start, alpha;
@@ -248,7 +249,7 @@ int main(int argc, char **argv) {
   error = largest_error(&m, u);
   check(pnpbs_placement_get_int64(placement, "nodes", &nodes));
   if (rank == 0) {
-    /* Triangles of d fill the disc; half a node more for each on the boundary. */
+    /* Triangles of side d fill the disc, and there is half a node more for each boundary node. */
     printf("nodes: %ld, expected about %.0f\n", (long)nodes, 2 * PI / sqrt(3) / (d * d) + PI / d);
     printf("steps: %d, expected at most %d\n", steps, 200);
     printf("integral: %.17g, expected about %.5f\n", integral, PI / 8);

@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring
- * 0.5 <= r <= 1 with u = log r on both circles, which is then the solution everywhere. Linear
- * finite elements, built node by node: the row of a node comes from the triangles of its Delaunay
- * star alone, so every rank assembles the rows of its own nodes without a mesh file and without a
- * message. examples/fortran/laplace_ring is the same program in Fortran.
+ * A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring 0.5
+ * <= r <= 1 with u = log r on both circles, which is then the solution everywhere. The linear
+ * finite element equations are assembled node by node: The row of a node comes from the triangles
+ * of its Delaunay star alone. Every rank assembles the rows of its own nodes without a mesh file
+ * and without a message. examples/fortran/laplace_ring is the same program in Fortran.
  *
  *   mpirun -np 4 ./laplace_ring [FOLDER]
  *
- * With a folder, which must be there, every rank writes its piece of the solution.
+ * If a folder is given, which must exist, every rank writes its piece of the solution.
  *
- * What to check: triangles with edges of d fill the ring's area 4 / (sqrt(3) d^2) times, so there
- * are half as many nodes, and half a node more for each on the boundary; n nodes, b of them on the
- * two circles, make 2 n - b triangles; the flux through the outer circle is 2 pi; and since second
- * derivatives of log r are at most 1 / 0.5^2, linear interpolation on equilateral triangles is
- * wrong by at most d^2 / 6 * 4, and the solution should not be worse.
- */
+ * What to check: The number of triangles with edges of length d in the ring is its area times 4 /
+ * (sqrt(3) d^2). There are half as many nodes, plus half a node for each boundary node. n nodes, b
+ * of them on the two circles, make 2 n - b triangles. The flux through the outer circle is 2 pi.
+ * Second derivatives of log r are at most 1 / 0.5^2, so the error of linear interpolation on
+ * equilateral triangles is at most d^2 / 6 * 4, and the solution should not be worse. */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -26,16 +25,17 @@
 static const double inner_radius = 0.5, outer_radius = 1, d = 0.03;
 enum { INNER_CIRCLE = 1, OUTER_CIRCLE = 2 };
 
-/* This rank's nodes, followed by its ghosts: the nodes of other ranks next to them. */
+/* This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks. */
 typedef struct {
   MPI_Comm comm;
-  int64_t owned, all;          /* all: with the ghosts */
+  int64_t owned, all;          /* all: including the ghosts */
   double *xy;                  /* [all][2] */
   int32_t *tags;               /* [all] */
   int64_t triangles, *corners; /* [triangles][3] */
 } mesh;
 
-/* Which nodes' values go to which rank, and which ghosts' values come from there. */
+/* The exchange: the nodes whose values are sent to each rank, and the ghosts whose values come from
+ * it. */
 typedef struct {
   int32_t neighbours, *ranks;
   int64_t *send_offsets, *send_nodes, *receive_offsets, *receive_nodes;
@@ -43,8 +43,8 @@ typedef struct {
   MPI_Request *requests;
 } exchange;
 
-/* The rows of this rank's nodes: besides the diagonal, one entry for each node of the star, those
- * of row i from offsets[i] to offsets[i + 1] - 1. */
+/* The rows of this rank's nodes. Besides the diagonal a row has one entry for each node of the
+ * star. The entries of row i are those from offsets[i] to offsets[i + 1] - 1. */
 typedef struct {
   int64_t *offsets, *columns;
   double *diagonal, *values;
@@ -99,14 +99,15 @@ static void get_exchange(pnpbs_placement p, pnpbs_context context, exchange *e) 
   e->requests = room(2 * e->neighbours, sizeof(MPI_Request));
 }
 
-/* Cotangent of the angle at a in the triangle a, b, c, counter-clockwise. */
+/* Returns the cotangent of the angle at a in the counter-clockwise triangle a, b, c. */
 static double cotangent(const double *a, const double *b, const double *c) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
   return (bx * cx + by * cy) / (bx * cy - by * cx);
 }
 
-/* For linear elements the integral of grad phi_i . grad phi_j over a triangle is -1/2 times the
- * cotangent of the angle opposite to the edge from i to j; and every row sums to zero. */
+/* Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a triangle
+ * is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row sums to
+ * zero. */
 static void assemble(pnpbs_placement p, pnpbs_context context, const mesh *m, matrix *a) {
   int64_t entries, i, k;
   int8_t *triangle;
@@ -145,7 +146,7 @@ static double dot(const mesh *m, const double *x, const double *y) {
   return sum_over_ranks(m, part);
 }
 
-/* Gives the ghosts the values that their owners have. */
+/* Copies to the ghosts the values of their owners. */
 static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   const int64_t *s = e->send_offsets, *r = e->receive_offsets;
   int64_t i;
@@ -161,7 +162,7 @@ static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   for (i = 0; i < r[e->neighbours]; ++i) x[e->receive_nodes[i]] = e->received[i];
 }
 
-/* y = A x at this rank's nodes. */
+/* Computes y = A x at this rank's nodes. */
 static void multiply(const mesh *m, const exchange *e, const matrix *a, double *x, double *y) {
   int64_t i, k;
   update_ghosts(m, e, x);
@@ -171,8 +172,8 @@ static void multiply(const mesh *m, const exchange *e, const matrix *a, double *
   }
 }
 
-/* Conjugate gradients: A u = 0 at the inner nodes. On the boundary u stays as it is, because the
- * residual there counts as zero. */
+/* Solves A u = 0 at the inner nodes by conjugate gradients. On the boundary u does not change,
+ * because the residual there is set to zero. */
 static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) {
   double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
   double *p = room(m->all, sizeof(double)), rr, rr_before, enough, alpha;
@@ -211,7 +212,7 @@ static double largest_error(const mesh *m, const double *u) {
   return largest;
 }
 
-/* Root of the integral of (u - log r)^2, by the middles of the triangles' edges. */
+/* Returns the root of the integral of (u - log r)^2, by the midpoints of the triangles' edges. */
 static double l2_error(const mesh *m, const double *u) {
   double part = 0;
   int64_t t;
@@ -230,7 +231,8 @@ static double l2_error(const mesh *m, const double *u) {
   return sqrt(sum_over_ranks(m, part));
 }
 
-/* The integral of the normal derivative over the outer circle: what A u leaves there. */
+/* Returns the integral of the normal derivative over the outer circle, which is the sum of A u
+ * there. */
 static double outer_flux(const mesh *m, const exchange *e, const matrix *a, double *u) {
   double *q = room(m->owned, sizeof(double)), part = 0;
   int64_t i;
@@ -262,7 +264,7 @@ static void print_results(const mesh *m, const exchange *e, const matrix *a, dou
   printf("L2 error: %.8f, expected at most %.8f\n", l2, bound * sqrt(area));
 }
 
-/* FOLDER/laplace_ring_<rank>.vtk, for examples/draw_pieces.py or ParaView. */
+/* Writes FOLDER/laplace_ring_<rank>.vtk for examples/draw_pieces.py or ParaView. */
 static void write_piece(const char *folder, const mesh *m, const double *u) {
   const long all = (long)m->all, triangles = (long)m->triangles;
   const int64_t *c = m->corners;
@@ -316,7 +318,7 @@ int main(int argc, char **argv) {
   int64_t i;
 
   MPI_Init(&argc, &argv);
-  m.comm = MPI_COMM_WORLD; /* any communicator of yours */
+  m.comm = MPI_COMM_WORLD; /* any communicator */
   check(pnpbs_context_create_mpi(m.comm, &context), NULL);
   check(pnpbs_domain_create(context, 2, &domain), context);
   check(pnpbs_domain_add_arc(domain, PNPBS_BOUNDARY, centre, inner_radius, 0, 2 * PI, INNER_CIRCLE),

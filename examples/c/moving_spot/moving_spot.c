@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Adapting over the ranks of an MPI program: a spot in which d is 20 times finer travels round a
- * square with a round hole, as a refined region follows what a solver computes. Between frames the
- * spacing is replaced on the live placement, and the next run starts from the nodes there are. No
- * rank ever holds all nodes.
+ * Adaptation over the ranks of an MPI program: A spot in which d is 20 times finer moves around a
+ * square with a round hole, like a refined region that follows the result of a solver. Between
+ * frames the program replaces the spacing of the placement, and the next run starts from the
+ * current nodes. No rank ever holds all nodes.
  *
  *   mpirun -np 4 ./moving_spot [FOLDER]
  *
- * With a folder, which must be there, every rank writes its nodes of every frame as a CSV file;
+ * If a folder is given, which must exist, every rank writes its nodes of every frame as a CSV file;
  * draw_frames.py makes a picture of them.
  *
- * What to check: the nodes of each frame against the number that d asks for, the integral of
- * 2 / (sqrt(3) d^2) over the domain, half a node more for each boundary node: within 8 %. About as
- * many come as go between frames.
- */
+ * What to check: The number of nodes of each frame differs by at most 8 % from the number that d
+ * demands. This is the integral of 2 / (sqrt(3) d^2) over the domain, plus half a node for each
+ * boundary node. Between frames the numbers of inserted and deleted nodes are about equal. */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -36,7 +35,7 @@ static void check(pnpbs_status status, pnpbs_context context) {
 typedef struct {
   double x, y, radius; /* the spot */
   double fine, coarse; /* d in it and far from it */
-  double slope;        /* how fast d grows in between */
+  double slope;        /* growth of d in between */
 } spot;
 
 static double spacing_at(const spot *s, double x, double y) {
@@ -77,7 +76,7 @@ static int64_t integer(pnpbs_placement placement, pnpbs_context context, const c
   return value;
 }
 
-/* This rank's nodes: x, y, tag. */
+/* Writes this rank's nodes: x, y, tag. */
 static void write_nodes(pnpbs_placement placement, pnpbs_context context, const char *folder,
                         int frame, int rank) {
   char path[1024];
@@ -104,7 +103,7 @@ static void write_nodes(pnpbs_placement placement, pnpbs_context context, const 
   free(xy);
 }
 
-/* Largest work of a rank over the mean; 0 where the library does not tell. */
+/* Returns the largest work of a rank over the mean, or 0 if the library does not report it. */
 static double imbalance_of(pnpbs_placement placement, pnpbs_context context) {
   double imbalance = 0;
   const pnpbs_status status = pnpbs_placement_get_double(placement, "imbalance", &imbalance);
@@ -134,11 +133,11 @@ int main(int argc, char **argv) {
     int64_t nodes, boundary, now_inserted, now_deleted;
     double imbalance;
     move_to_frame(&s, frame);
-    /* Tells the placement that d has changed, though function and pointer are the same. */
+    /* This call says that d has changed, although function and pointer are the same. */
     check(pnpbs_placement_set_spacing_callback(placement, spacing, &s), context);
     check(pnpbs_placement_run(placement), context);
 
-    /* Over all ranks: every rank asks. */
+    /* The values are sums over all ranks, so every rank makes the calls. */
     nodes = integer(placement, context, "nodes");
     boundary = integer(placement, context, "boundary_nodes");
     now_inserted = integer(placement, context, "inserted");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // -Laplace u = f with a known solution, by linear finite elements in deal.II, on meshes that are
-// distributed from the start; then again with the spacing where f asks for it. In a square with a
-// hole and in a box with a hollow, or in the domain of a file.
+// distributed from the start, and again with a spacing that is adapted to f. The domains are a
+// square with a hole and a box with a cavity, or the domain of a file.
+//
 // usage: dealii_poisson [FILE.poly|FILE.stl SPACING]
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/function.h>
@@ -44,7 +45,7 @@ using Field = LinearAlgebra::distributed::Vector<double>;
 
 enum { OUTSIDE = 1, HOLE = 2 };
 
-// u = 1 / (1 + r^2), r from a point, over a length.
+// The solution u = 1 / (1 + r^2), where r is the distance from a point divided by a length.
 template <int dim>
 struct Peak : Function<dim> {
   Point<dim> centre;
@@ -56,14 +57,14 @@ struct Peak : Function<dim> {
     return 1 / (1 + x.distance_square(centre) / (length * length));
   }
 
-  // -Laplace u
+  // Returns -Laplace u.
   double load(const Point<dim>& x) const {
     const double r2 = x.distance_square(centre) / (length * length), one = 1 + r2;
     return (2 * dim / (one * one) - 8 * r2 / (one * one * one)) / (length * length);
   }
 };
 
-// Linear elements on a mesh.
+// The degrees of freedom of linear elements on a mesh.
 template <int dim>
 struct Elements {
   const FE_SimplexP<dim> element{1};
@@ -79,7 +80,7 @@ struct Elements {
   }
 };
 
-// u is known on the whole boundary.
+// Returns the constraints that fix u on the whole boundary.
 template <int dim>
 AffineConstraints<double> boundary_values(const Elements<dim>& fem, const Peak<dim>& peak) {
   AffineConstraints<double> constraints(fem.relevant);
@@ -122,7 +123,7 @@ void assemble(const Elements<dim>& fem, const Peak<dim>& peak,
   right.compress(VectorOperation::add);
 }
 
-// Returns the error in L2.
+// Solves the equation. Returns the L2 error.
 template <int dim>
 double solve(const Mesh<dim>& mesh, const Peak<dim>& peak) {
   const Elements<dim> fem(mesh);
@@ -149,8 +150,9 @@ double solve(const Mesh<dim>& mesh, const Peak<dim>& peak) {
   return VectorTools::compute_global_error(mesh, errors, VectorTools::L2_norm);
 }
 
-// A linear element errs by about |f| d^2: d goes down where that is large, up to three times. f
-// comes from the vertices of the triangulation to the nodes of the placement.
+// Adapts d. The error of a linear element is about |f| d^2, so that d is reduced where this is
+// large, by up to a factor of three. f is copied from the vertices of the triangulation to the
+// nodes of the placement.
 template <int dim>
 void adapt(pnpbs_placement placement, const Mesh<dim>& mesh, const pnpbs_dealii::NodeMap& nodes,
            const Peak<dim>& peak) {
@@ -214,7 +216,7 @@ void square_and_box(pnpbs_context context) {
       << std::endl;
 }
 
-// The peak is in the middle of what the file describes, and as long as ten spacings.
+// Solves in the domain of a file. The peak is in the middle of it, and its length is ten spacings.
 template <int dim>
 void domain_of_file(pnpbs_context context, const char* path, double d) {
   double low[3], high[3];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A distributed mesh of PNPBS as deal.II's parallel::fullydistributed::Triangulation. Nothing but
-// this header is needed: put it beside your program. C++17, for deal.II 9.4 or later with MPI.
+// A distributed mesh of PNPBS as deal.II's parallel::fullydistributed::Triangulation. To use it,
+// copy this single header into your program. It needs C++17 and deal.II 9.4 or later with MPI.
 #ifndef PNPBS_DEALII_H
 #define PNPBS_DEALII_H
 
@@ -31,8 +31,8 @@ inline void check(pnpbs_status status) {
 /** Relates the nodes of a placement to the vertices of a triangulation. A
  *  LinearAlgebra::distributed::Vector on the partitioner holds a field: its locally owned elements
  *  are the values at the nodes that this rank owns, in the order of pnpbs_placement_get_nodes, and
- *  its ghosts the values at the other vertices here. So update_ghost_values brings a field of the
- *  placement to the vertices, and compress brings it back. */
+ *  its ghosts are the values at the other vertices here. update_ghost_values copies a field of the
+ *  placement to the vertices, and compress copies it back. */
 struct NodeMap {
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
@@ -41,8 +41,8 @@ struct NodeMap {
   std::vector<dealii::types::global_dof_index> number_at_vertex;
 };
 
-/** The boundary id of faces where the ghost cells of a rank end, inside the mesh. deal.II takes
- *  them for boundary faces of the ghost cells: leave them out in a loop over all boundary ids. */
+/** The boundary id of faces at which the ghost cells of a rank end, inside the mesh. For deal.II
+ *  they are boundary faces of the ghost cells. Skip them in a loop over all boundary ids. */
 constexpr dealii::types::boundary_id end_of_ghosts = dealii::numbers::invalid_boundary_id - 1;
 
 namespace internal {
@@ -81,8 +81,8 @@ struct Mesh {
                                 facet_elements.data(), nullptr, facet_inner.data(), nullptr));
   }
 
-  /** [elements] The cell that an element becomes here, or -1: deal.II wants the elements of this
-   *  rank, and those that touch them. */
+  /** Returns for each element its cell here, or -1. deal.II needs the elements of this rank and
+   *  those that touch them. */
   std::vector<int64_t> cells() const {
     std::vector<char> touched(nodes, 0);
     std::vector<int64_t> cell_of(elements, -1);
@@ -112,7 +112,8 @@ struct Mesh {
   }
 };
 
-/** Throws if the mesh has no ghost layer: then ranks share nodes, and none has ghost elements. */
+/** Throws if the mesh has no ghost layer, that is, if ranks share nodes and none has ghost
+ * elements. */
 inline void check_ghosts(const Mesh& mesh, MPI_Comm comm) {
   const bool ghosts = mesh.elements > mesh.owned_elements, shares = mesh.shared_nodes > 0;
   if (dealii::Utilities::MPI::max(shares ? 1 : 0, comm) == 1 &&
@@ -120,7 +121,7 @@ inline void check_ghosts(const Mesh& mesh, MPI_Comm comm) {
     throw std::runtime_error("deal.II needs a mesh with a ghost layer");
 }
 
-/** A tag as an id, which is unsigned in deal.II. */
+/** Returns a tag as an id, which is unsigned in deal.II. Throws if the tag is negative. */
 inline unsigned int id_of_tag(int32_t tag) {
   if (tag < 0)
     throw std::runtime_error("deal.II has no negative ids, and the mesh has a tag below 0");
@@ -143,7 +144,7 @@ void add_cell(const dealii::CellData<dim>& corners, dealii::types::coarse_cell_i
   description.cell_infos[0].push_back(info);
 }
 
-/** Adds the elements that are cells here. vertex_at: of each node, or -1. */
+/** Adds the elements that are cells here. vertex_at has the vertex of each node, or -1. */
 template <int dim, int spacedim>
 void add_elements(const Mesh& mesh, const std::vector<int64_t>& cell_of,
                   dealii::TriangulationDescription::Description<dim, spacedim>& description,
@@ -164,15 +165,15 @@ void add_elements(const Mesh& mesh, const std::vector<int64_t>& cell_of,
       cell.vertices[k] = vertex_at[node];
     }
     add_cell(cell, mesh.element_numbers[e], mesh.element_owners[e], description);
-    // deal.II takes an id only if the face is at the boundary of what this rank has. Where the
-    // ghosts end it is, and has this one, unless it is a facet of the mesh.
+    // deal.II uses an id only if the face is at the boundary of this rank's cells. Faces where the
+    // ghosts end are, and get this id unless they are facets of the mesh.
     if (e >= mesh.owned_elements)
       for (unsigned int face = 0; face <= dim; ++face)
         description.cell_infos[0].back().boundary_ids.emplace_back(face, end_of_ghosts);
   }
 }
 
-/** deal.II wants a simplex on a rank without elements, too: one that is no part of the mesh. */
+/** Adds a simplex that is not part of the mesh. deal.II needs one on a rank without elements. */
 template <int dim, int spacedim>
 void add_artificial_cell(
     dealii::TriangulationDescription::Description<dim, spacedim>& description) {
@@ -186,7 +187,7 @@ void add_artificial_cell(
   add_cell(cell, 0, dealii::numbers::artificial_subdomain_id, description);
 }
 
-/** The numbers at the vertices, and who owns them. */
+/** Returns the node numbers at the vertices, and the ranks that own the nodes. */
 inline NodeMap map_nodes(const Mesh& mesh, const std::vector<int64_t>& vertex_at,
                          std::size_t n_vertices, MPI_Comm comm) {
   using dealii::IndexSet;
@@ -205,9 +206,9 @@ inline NodeMap map_nodes(const Mesh& mesh, const std::vector<int64_t>& vertex_at
 
 }  // namespace internal
 
-/** Makes a triangulation whose cells on each rank are the elements that the rank owns, and as ghost
- *  cells those of other ranks that touch them: nothing is gathered, read or partitioned. The id of
- *  a coarse cell is the number of the element. All is copied: the mesh may be destroyed afterwards.
+/** Creates a triangulation whose cells on each rank are the elements that the rank owns. Its ghost
+ *  cells are those of other ranks that touch them. Nothing is gathered, read or partitioned. The id
+ *  of a coarse cell is the number of the element. The mesh may be destroyed afterwards.
  *  Boundary ids are the tags of the facets of the boundary. Inner faces have no boundary ids in
  *  deal.II; those on inner curves or surfaces have the tag as user index, until you set another.
  *  Faces where the ghost cells end have the id end_of_ghosts. Material ids are the tags of the
@@ -215,7 +216,7 @@ inline NodeMap map_nodes(const Mesh& mesh, const std::vector<int64_t>& vertex_at
  *  Throws std::runtime_error for an error of PNPBS, a mesh of other dimensions, one without ghost
  *  elements on several ranks, negative tags, and more nodes than types::global_dof_index counts.
  *  @param[in] mesh            with a ghost layer or more: pnpbs_mesh_create(placement, 1, &mesh).
- *                             On surfaces alone dim is 2 and spacedim 3
+ *                             For surfaces without a volume dim is 2 and spacedim 3
  *  @param[out] triangulation  empty before, on the communicator of the mesh's context
  *  @return                    the nodes at its vertices */
 template <int dim, int spacedim>

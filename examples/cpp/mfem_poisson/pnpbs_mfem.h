@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A distributed mesh of PNPBS as MFEM's ParMesh. Nothing but this header is needed: put it beside
-// your program. C++17, for MFEM 4.5 or later with MPI.
+// A distributed mesh of PNPBS as MFEM's ParMesh. To use it, copy this single header into your
+// program. It needs C++17 and MFEM 4.5 or later with MPI.
 #ifndef PNPBS_MFEM_H
 #define PNPBS_MFEM_H
 
@@ -41,22 +41,22 @@ class NodeMap {
   /** [GetNV()] the global number of the node at each vertex */
   std::vector<int64_t> number_at_vertex;
 
-  /** Brings a field of the placement to the vertices. Collective.
-   *  @param[in] at_nodes      of the nodes that this rank owns, in the order of
+  /** Copies a field of the placement to the vertices. Collective.
+   *  @param[in] at_nodes      values at the nodes that this rank owns, in the order of
    *                           pnpbs_placement_get_nodes
    *  @param[out] at_vertices  [GetNV()] */
   void to_vertices(const double* at_nodes, double* at_vertices) const {
     exchange(node_lists_, at_nodes, vertex_lists_, at_vertices);
   }
 
-  /** Brings a field from the vertices back. A vertex that ranks share has the same value on each.
-   *  Collective. Arguments as of to_vertices. */
+  /** Copies a field from the vertices to the placement. A vertex that ranks share must have the
+   *  same value on each. Collective. The arguments are those of to_vertices. */
   void to_nodes(const double* at_vertices, double* at_nodes) const {
     exchange(vertex_lists_, at_vertices, node_lists_, at_nodes);
   }
 
  private:
-  using Lists = std::map<int, std::vector<int32_t>>;  // by the other rank, or this one
+  using Lists = std::map<int, std::vector<int32_t>>;  // by the rank, which can be this one
 
   static void exchange(const Lists& from, const double* values, const Lists& to, double* results,
                        MPI_Comm comm);
@@ -65,8 +65,8 @@ class NodeMap {
   }
 
   MPI_Comm comm_ = MPI_COMM_NULL;
-  Lists node_lists_;    // owned nodes that are at vertices of the rank
-  Lists vertex_lists_;  // vertices with nodes that the rank owns
+  Lists node_lists_;    // owned nodes at vertices of the rank
+  Lists vertex_lists_;  // vertices whose nodes the rank owns
 
   friend class Writer;
 };
@@ -98,7 +98,7 @@ inline void NodeMap::exchange(const Lists& from, const double* values, const Lis
   }
 }
 
-/** What make_mesh makes. */
+/** The result of make_mesh. */
 struct DistributedMesh {
   std::unique_ptr<mfem::ParMesh> mesh;
   NodeMap nodes;
@@ -145,15 +145,15 @@ struct Mesh {
   const int32_t* corners_of(int64_t element) const { return &corner_nodes[corners * element]; }
 };
 
-/** Tags as attributes, which are positive in MFEM: 0 becomes one more than the largest. */
+/** Maps tags to attributes, which are positive in MFEM: 0 becomes one more than the largest tag. */
 struct Attributes {
   int untagged_element = 0, untagged_facet = 0;
   int facets = 0;  // whether any rank has facets
 
   /** Collective. Throws std::runtime_error on all ranks for negative tags, and for the largest
-   *  number as a tag: there must be one more. */
+   *  integer as a tag, to which one cannot be added. */
   Attributes(const Mesh& mesh, MPI_Comm comm) {
-    // The largest tags, whether any is refused, and whether there are facets.
+    // The largest tags, whether any is negative or too large, and whether there are facets.
     int32_t extremes[4] = {0, 0, 0, mesh.facets > 0 ? 1 : 0};
     for (const int32_t tag : mesh.element_tags) {
       extremes[0] = std::max(extremes[0], tag);
@@ -179,13 +179,14 @@ struct Attributes {
   }
 };
 
-/** A vertex, edge or face by the numbers of its nodes, increasing, with -1 behind them. */
+/** A vertex, edge or face as the increasing numbers of its nodes, followed by -1. */
 using Entity = std::array<int64_t, 3>;
 
-/** Entities of one dimension after the other, of which the same ranks have elements. */
+/** Entities by dimension whose elements belong to the same set of ranks. */
 using Group = std::array<std::vector<Entity>, 3>;
 
-/** Throws if the mesh has no ghost layer: then ranks share nodes, and none has ghost elements. */
+/** Throws if the mesh has no ghost layer, that is, if ranks share nodes and none has ghost
+ * elements. */
 inline void check_ghosts(const Mesh& mesh, MPI_Comm comm) {
   int there[2] = {mesh.shared_nodes > 0, mesh.elements > mesh.owned_elements};
   MPI_Allreduce(MPI_IN_PLACE, there, 2, MPI_INT, MPI_MAX, comm);
@@ -215,7 +216,7 @@ class Writer {
 
   const internal::Attributes& attributes() const { return attributes_; }
 
-  /** Local. */
+  /** Writes the part of this rank. Local. */
   void write(std::ostream& out) const {
     out << "MFEM mesh v1.2\n\ndimension\n" << mesh_.corners - 1 << '\n';
     write_elements(out);
@@ -225,7 +226,7 @@ class Writer {
     write_groups(out);
   }
 
-  /** Local. */
+  /** Returns the relation between nodes and vertices. Local. */
   NodeMap nodes() const {
     NodeMap map;
     map.comm_ = comm_;
@@ -233,7 +234,7 @@ class Writer {
       map.number_at_vertex.push_back(mesh_.node_numbers[node_at_[v]]);
       map.vertex_lists_[mesh_.node_owners[node_at_[v]]].push_back(static_cast<int32_t>(v));
     }
-    std::vector<std::pair<int32_t, int32_t>> at;  // ranks with an owned node
+    std::vector<std::pair<int32_t, int32_t>> at;  // ranks and their owned nodes
     for (int64_t e = 0; e < mesh_.elements; ++e)
       for (int32_t k = 0; k < mesh_.corners; ++k)
         if (mesh_.corners_of(e)[k] < mesh_.owned_nodes)
@@ -245,7 +246,7 @@ class Writer {
   }
 
  private:
-  /** MFEM's numbers of the geometries with so many corners. */
+  /** Returns MFEM's number of the geometry with this number of corners. */
   static int geometry(int32_t corners) {
     return corners == 2 ? mfem::Geometry::SEGMENT
                         : (corners == 3 ? mfem::Geometry::TRIANGLE : mfem::Geometry::TETRAHEDRON);
@@ -261,8 +262,8 @@ class Writer {
     }
   }
 
-  /** A facet as its element turns it, so that a triangle of the boundary of a body turns
-   *  counter-clockwise as seen from outside. */
+  /** Writes a facet with the orientation of its element, so that a triangle of the boundary of a
+   *  body is counter-clockwise seen from outside. */
   void write_facet(int64_t facet, std::ostream& out) const {
     static const int sides[2][4][3] = {{{1, 2, -1}, {2, 0, -1}, {0, 1, -1}, {}},
                                        {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -298,10 +299,10 @@ class Writer {
     out.precision(precision);
   }
 
-  /** Which other ranks have elements at the vertices, edges or faces of this rank: those with so
-   *  many corners. */
+  /** Finds the other ranks that have elements at the vertices, edges or faces of this rank, which
+   *  are the entities with this number of corners. */
   void find_shared(int32_t corners) {
-    std::vector<std::pair<internal::Entity, int32_t>> found;  // and ranks
+    std::vector<std::pair<internal::Entity, int32_t>> found;  // entities and ranks
     std::vector<char> of_ghosts(mesh_.nodes, 0);
     for (int64_t i = mesh_.corners * mesh_.owned_elements; i < mesh_.corners * mesh_.elements; ++i)
       of_ghosts[mesh_.corner_nodes[i]] = 1;
@@ -368,8 +369,8 @@ class Writer {
   int rank_ = 0;
   internal::Mesh mesh_;
   internal::Attributes attributes_;
-  std::vector<int32_t> vertex_at_;  // of each node, or -1
-  std::vector<int32_t> node_at_;    // of each vertex: local indices, increasing
+  std::vector<int32_t> vertex_at_;  // for each node, or -1
+  std::vector<int32_t> node_at_;    // for each vertex: local indices, increasing
   std::map<std::vector<int32_t>, internal::Group> groups_;  // by their ranks
 };
 
@@ -380,15 +381,15 @@ inline void write_mesh(pnpbs_mesh mesh, MPI_Comm comm, std::ostream& out) {
   Writer(mesh, comm).write(out);
 }
 
-/** Makes a mesh whose elements on each rank are those that the rank owns: nothing is gathered, read
- *  or partitioned. All is copied: the mesh of PNPBS may be destroyed afterwards. Attributes of
- *  elements are their tags: of regions, on surfaces alone of the surfaces. Boundary elements are
- *  the facets, inner ones as well, each on one rank, with their tags as attributes. MFEM's
- *  attributes are positive: where a tag is 0, the attribute is one more than the largest tag.
+/** Creates a mesh whose elements on each rank are those that the rank owns. Nothing is gathered,
+ *  read or partitioned. The mesh of PNPBS may be destroyed afterwards. Attributes of elements are
+ *  their tags: those of regions, or for surfaces without a volume those of the surfaces. Boundary
+ *  elements are the facets, including inner ones, each on one rank, with their tags as attributes.
+ *  MFEM's attributes are positive: If a tag is 0, the attribute is one more than the largest tag.
  *  Collective. Throws std::runtime_error on all ranks for a mesh without ghost elements on several
- *  ranks, negative tags, more nodes than HYPRE_BigInt counts, and closed surfaces alone: MFEM ends
- *  the program where a parallel mesh has no boundary elements. For an error of PNPBS, such as a
- *  dead handle, it throws where that occurs.
+ *  ranks, negative tags, more nodes than HYPRE_BigInt counts, and closed surfaces without a volume:
+ *  MFEM ends the program where a parallel mesh has no boundary elements. For an error of PNPBS,
+ *  such as a dead handle, it throws where that occurs.
  *  @param[in] mesh  with a ghost layer or more: pnpbs_mesh_create(placement, 1, &mesh)
  *  @param[in] comm  the communicator of the mesh's context */
 inline DistributedMesh make_mesh(pnpbs_mesh mesh, MPI_Comm comm) {

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The problem: -Laplace u = f in a body, u given on its surface. The body is a ball of radius 1, or
-! what a file says; u is a wave as long as the body is large.
+! The problem: -Laplace u = f in a body, with u given on its surface. The body is a ball of radius 1
+! or comes from a file. u is a wave whose length is proportional to the body's size.
 module body
   use, intrinsic :: iso_c_binding, only: c_double
   use pnpbs, only: pnpbs_context, pnpbs_domain, PNPBS_BOUNDARY
@@ -14,7 +14,7 @@ module body
 
 contains
 
-  !> path is that of a .stl, .off, .obj or .ply file, or empty for the ball.
+  !> Creates the domain. `path` is that of a .stl, .off, .obj or .ply file, or empty for the ball.
   subroutine create_body(context, path, domain)
     type(pnpbs_context), intent(in) :: context
     character(len=*), intent(in) :: path
@@ -30,7 +30,7 @@ contains
     body_size = maxval(high - low) / 2
   end subroutine
 
-  !> u = sin(2 x + y) exp(z), lengths in the unit of the body's size
+  !> Returns u = sin(2 x + y) exp(z). Lengths are in units of the body's size.
   pure function solution(x) result(u)
     real(c_double), intent(in) :: x(3)
     real(c_double) :: u
@@ -44,7 +44,7 @@ contains
     gradient = [2 * slope, slope, solution(x)] / body_size
   end function
 
-  !> f = -Laplace u
+  !> Returns f = -Laplace u.
   pure function source(x) result(f)
     real(c_double), intent(in) :: x(3)
     real(c_double) :: f

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The linear finite element equations. A rank has those of its own nodes, and all tetrahedra that these
-! need. What it adds up at ghosts on the way is not complete, and is left out.
+! The linear finite element equations. A rank has the equations of its own nodes, and all tetrahedra
+! that these need. Its sums at ghosts are incomplete and are not used.
 module linear_elements
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use body, only: source
@@ -10,11 +10,12 @@ module linear_elements
   private
   public :: equations, assemble, multiply, hat_gradients
 
-  !> The ends of a tetrahedron's edges.
+  !> The corners of the edges of a tetrahedron.
   integer, parameter :: edge(2, 6) = reshape([1, 2, 1, 3, 1, 4, 2, 3, 2, 4, 3, 4], [2, 6])
 
-  !> stiffness(e, t) is minus the integral over tetrahedron t of the product of the gradients of the
-  !> hat functions at the ends of its edge e. Rows sum to zero, so that is all but the diagonal.
+  !> The equations. stiffness(e, t) is minus the integral over tetrahedron t of the product of the
+  !> gradients of the hat functions at the ends of its edge e. Rows sum to zero, so that the
+  !> diagonal follows from these entries.
   type :: equations
     real(c_double), allocatable :: stiffness(:,:), diagonal(:), load(:)
   end type
@@ -42,11 +43,11 @@ contains
     end do
     rows%diagonal = rows%diagonal(:nodes%owned)
     rows%load = rows%load(:nodes%owned)
-    ! Where a body is thinner than the spacing, a node of its surface may be in no tetrahedron.
+    ! Where a body is thinner than the spacing, a surface node may belong to no tetrahedron.
     where (rows%diagonal == 0) rows%diagonal = 1
   end subroutine
 
-  !> Adds the integrals of f and the hat functions over one tetrahedron, with f linear on it.
+  !> Adds the integrals of f times the hat functions over one tetrahedron, with f linear on it.
   subroutine add_load(nodes, corner, volume, load)
     type(local_nodes), intent(in) :: nodes
     integer(c_int64_t), intent(in) :: corner(4)
@@ -58,8 +59,8 @@ contains
     load(corner) = load(corner) + volume / 20 * (f + sum(f))
   end subroutine
 
-  !> product = rows times values at inner nodes, 0 at boundary nodes, whose values are given. values
-  !> must be right at ghosts.
+  !> Computes product = rows times values at inner nodes. At boundary nodes, whose values are given,
+  !> it is 0. The values must be right at ghosts.
   subroutine multiply(nodes, rows, values, product)
     type(local_nodes), intent(in) :: nodes
     type(equations), intent(in) :: rows
@@ -81,7 +82,8 @@ contains
     product = merge(sums(:nodes%owned), 0d0, nodes%tags == 0)
   end subroutine
 
-  !> The gradients of the four functions that are 1 at one corner and 0 at the others, and the volume.
+  !> Computes the gradients of the four functions that are 1 at one corner and 0 at the others, and
+  !> the volume.
   pure subroutine hat_gradients(corner, hat, volume)
     real(c_double), intent(in) :: corner(3, 4)
     real(c_double), intent(out) :: hat(3, 4), volume

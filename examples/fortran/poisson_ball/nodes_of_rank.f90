@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! What one rank has of the placement: its own nodes, then its ghosts; the tetrahedra that touch its
-! own nodes, whichever rank they belong to.
+! One rank's part of the placement: its own nodes, then its ghosts, and the tetrahedra that touch
+! its own nodes, whichever rank they belong to.
 module nodes_of_rank
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use pnpbs, only: pnpbs_placement
@@ -14,13 +14,13 @@ module nodes_of_rank
     integer(c_int64_t) :: owned, ghosts
     real(c_double), allocatable :: x(:,:)
     integer(c_int32_t), allocatable :: tags(:)
-    !> In an order that is the same on all ranks, and for any number of them.
+    !> The order is the same on all ranks and for any number of ranks.
     integer(c_int64_t), allocatable :: tetrahedra(:,:)
   end type
 
 contains
 
-  !> Copies all of it out of the placement. Collective.
+  !> Copies this part from the placement. Collective.
   subroutine take_nodes(placement, nodes)
     type(pnpbs_placement), intent(in) :: placement
     type(local_nodes), intent(out) :: nodes

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Values at ghosts: every rank sends those at its own nodes to the ranks that have them as ghosts.
+! The exchange of values at ghosts: Every rank sends the values of its own nodes to the ranks that
+! have them as ghosts.
 module ghost_exchange
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use mpi
@@ -9,7 +10,7 @@ module ghost_exchange
   private
   public :: exchange_pattern, take_exchange_pattern, fill_ghosts
 
-  !> What goes where, as placement%get_exchange tells it, and the communicator of the solver.
+  !> The exchange from placement%get_exchange, and the communicator of the solver.
   type :: exchange_pattern
     integer :: comm
     integer(c_int32_t), allocatable :: ranks(:)
@@ -34,7 +35,8 @@ contains
                                 pattern%receive_offsets, pattern%receive_nodes)
   end subroutine
 
-  !> On entry values(i) is right at this rank's nodes, on return at its ghosts, too. Collective.
+  !> Fills the values at ghosts. On entry values(i) is right at this rank's nodes, on return also at
+  !> its ghosts. Collective.
   subroutine fill_ghosts(pattern, values)
     type(exchange_pattern), intent(in) :: pattern
     real(c_double), intent(inout) :: values(:)

@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
 ! Poisson's equation on a plate with holes, by linear finite elements whose equations come from the
-! stars of the nodes, on the ranks of an MPI communicator, at four spacings, each half of the one
-! before. The solution is known, so the orders of convergence can be told; README.md tells what to
-! expect.
+! stars of the nodes, on the ranks of an MPI communicator, at four spacings, each half of the
+! previous one. The solution is known, so that the program can print the orders of convergence;
+! README.md says what to expect.
+!
 ! usage: poisson_plate [FOLDER]   with a folder, the pieces of a picture are written into it
 program poisson_plate
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_loc
@@ -66,7 +67,7 @@ program poisson_plate
 
 contains
 
-  !> The known solution at the boundary, 0 elsewhere.
+  !> Sets u to the known solution at the boundary and to 0 elsewhere.
   subroutine boundary_values(u)
     real(c_double), allocatable, intent(out) :: u(:)
     integer(c_int64_t) :: i
@@ -86,7 +87,8 @@ contains
     call MPI_Allreduce(mine, totals, 3, MPI_INTEGER8, MPI_SUM, comm, error)
   end subroutine
 
-  !> One line of the table: each error, and its order by the spacing before, twice this one.
+  !> Prints one line of the table: each error, and its order relative to the previous spacing, which
+  !> is twice this one.
   subroutine print_errors
     integer :: k
     write (*, '(f8.5, i8, f8.1, " %")', advance='no') parameters%h, totals(total_nodes), &
@@ -99,15 +101,16 @@ contains
     print '()'
   end subroutine
 
-  !> By what power of the spacing error k falls from a level to a finer one.
+  !> Returns the power of the spacing by which error k falls from a level to a finer one.
   function order(k, coarse, fine)
     integer, intent(in) :: k, coarse, fine
     real(c_double) :: order
     order = log(error_at(k, coarse) / error_at(k, fine)) / (log(2d0) * (fine - coarse))
   end function
 
-  !> The triangles by Euler's formula; the orders by theory, which says 1 + s for the last two where
-  !> the irregular share of the area falls as the power 2 s of the spacing (README.md).
+  !> Prints the checks. The number of triangles follows from Euler's formula. Theory gives the
+  !> orders, which are 1 + s for the last two where the irregular share of the area falls as the
+  !> power 2 s of the spacing (README.md).
   subroutine print_checks
     print '(a, i0, a, i0)', 'triangles: ', totals(total_triangles), ', expected ', &
       2 * totals(total_nodes) - totals(total_boundary) - 2 + 2 * holes

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The smallest program: nodes in the unit square, all 0.05 apart. The same in C is in
-! examples/c/smallest, which tells what to check.
+! The smallest program: nodes in the unit square with a spacing of 0.05. examples/c/smallest is the
+! same program in C and says what to check.
 program smallest
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use pnpbs
@@ -14,7 +14,7 @@ program smallest
   integer(c_int64_t) :: nodes, triangles, boundary
   integer(c_int32_t), allocatable :: tags(:)
 
-  ! Without stat, an error would stop with its message.
+  ! Calls without stat stop with a message after an error.
   call context%create_serial
   call domain%create(context)
   call domain%add_polyline(PNPBS_BOUNDARY, .true., corners)
@@ -22,7 +22,7 @@ program smallest
   call placement%set_spacing_constant(0.05d0)
   call placement%run
 
-  ! Ask how many there are, make room, copy them out.
+  ! Get the number of nodes, allocate memory, and copy the nodes.
   call placement%count(nodes)
   allocate (tags(nodes))
   call placement%get_nodes(tags=tags)

@@ -1,39 +1,43 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # A meshless Laplacian on the adjacency lists, and Poisson's equation solved with it, on any number
-# of ranks. Each node gets weights for itself and its list by RBF-FD: they give the Laplacian of the
-# interpolant of polyharmonic splines |x - x_j|^5 at the list's nodes and polynomials up to a degree
-# (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of polynomials in RBF-FD
+# of ranks. The weights of a node and its list come from RBF-FD: They give the Laplacian of the
+# interpolant of polyharmonic splines |x - x_j|^5 at the list's nodes and polynomials up to a
+# degree (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of polynomials in RBF-FD
 # approximations: I. Interpolation and accuracy", J. Comput. Phys. 321 (2016) 21-38).
 #
-# What to check: with polynomials of degree m the formula is exact for them up to rounding, at every
-# node; the Laplacian of a smooth function converges with order m - 1, that is 3 inside and 2 on the
-# boundary; and so does the solution of Poisson's equation, at least. It does better, with order 4,
-# for the errors of the formula differ in sign from node to node and mostly cancel.
+# What to check: With polynomials of degree m the formula is exact for them within rounding at
+# every node. The Laplacian of a smooth function converges with order m - 1, which is 3 inside and
+# 2 on the boundary. The solution of Poisson's equation converges with at least the same order. The
+# observed order is 4, because the errors of the formula differ in sign from node to node and
+# mostly cancel.
 #
 #   julia laplacian_stencils.jl [FOLDER]                one process
 #   mpiexec -n 4 julia laplacian_stencils.jl [FOLDER]   with MPI.jl in the environment
 #
-# With a folder, which must be there, every rank writes its piece of the finest solution.
+# If a folder is given, which must exist, every rank writes its piece of the finest solution.
 using LinearAlgebra
 using PNPBS
 using Printf
 
-# With MPI.jl, if it is there, on all ranks. Without it `comm` is nothing, and all nodes are here.
+# If MPI.jl is installed, the program runs on all ranks. Otherwise `comm` is nothing, and all nodes
+# are in this process.
 const with_mpi = Base.find_package("MPI") !== nothing
 if with_mpi
     import MPI
 end
 
 # ---------------------------------------------------------------- the problem -------------------
-# The Laplacian of u is f: a dipole in the middle of the hole, which is harmonic, and a wave.
+# The Laplacian of u is f. u is the sum of a dipole in the middle of the hole, which is harmonic,
+# and a wave.
 u_exact(x, y) = 0.3 * x / (x^2 + y^2) + sin(2y + 1)
 f_exact(x, y) = -4 * sin(2y + 1)
 at_points(f, points) = [f(points[1, i], points[2, i]) for i in 1:size(points, 2)]
 
-# A rounded triangle with a hole of radius 1/2. The spacing is 0.4 h at the hole and h a distance of
-# 1 from it. The lists must be long enough for the polynomials, also at the boundary, where they are
-# one-sided: a radius of 3 spacings gives 21 neighbours and more inside, 14 and more on the boundary.
+# Places nodes in a rounded triangle with a hole of radius 1/2. The spacing is 0.4 h at the hole and
+# h at a distance of 1 from it. The lists must be long enough for the polynomials, also at the
+# boundary, where they are one-sided. A radius of 3 spacings gives at least 21 neighbours inside and
+# 14 on the boundary.
 function place(context, h)
     domain = Domain(context)
     add_curve!(domain, 0, 2pi) do t
@@ -50,22 +54,25 @@ function place(context, h)
 end
 
 # ---------------------------------------------------------------- stencils ----------------------
-# On the boundary, one degree less: there a list of radius 3 has hardly more than four rows of nodes,
-# and a polynomial of degree 4 can vanish on four rows.
+# Returns the degree of the polynomials, which is lower on the boundary. There a list of radius 3
+# has hardly more than four rows of nodes, and a polynomial of degree 4 can vanish on four rows.
 degree_at(tag) = tag == 0 ? 4 : 3
 
-# The exponents (a, b) of the polynomials x^a y^b up to a degree, and the Laplacian of each at 0.
+# Return the exponents (a, b) of the polynomials x^a y^b up to a degree, and the Laplacian of such a
+# polynomial at 0.
 exponents(degree) = [(total - b, b) for total in 0:degree for b in 0:total]
 laplacian_at_0((a, b)) = (a, b) in ((2, 0), (0, 2)) ? 2.0 : 0.0
 
-# Row i: `centre[i]` is the weight of node i, and `weights` are those of its list, entry by entry.
+# The stencils of all nodes. In row i `centre[i]` is the weight of node i, and `weights` are those
+# of its list, entry by entry.
 struct Stencils
     lists::CompressedRows{Int64}
     centre::Vector{Float64}
     weights::Vector{Float64}
 end
 
-# The weights w of the stencil whose first node is at 0: they and the multipliers solve
+# Returns the weights w of the stencil whose first node is at 0. The weights and the multipliers
+# solve
 #   [ phi(|x_k - x_l|)  p_j(x_k) ] [ w ]   [ Laplacian of phi(|x - x_k|) at 0 ]
 #   [ p_j(x_l)          0        ] [ l ] = [ Laplacian of p_j at 0            ]
 # with phi(r) = r^5, whose Laplacian is 25 r^3.
@@ -88,8 +95,8 @@ function weights_at_0(x::Vector{Float64}, y::Vector{Float64}, powers)
     return (matrix \ right)[1:n]
 end
 
-# The stencil of node i as seen from it, in units of the spacing there: rounding is then the same
-# for all spacings.
+# Returns the positions of the stencil relative to node i in units of the spacing there, so that
+# rounding is the same for all spacings.
 function seen_from(i, list, points, d)
     nodes = [i; list]
     x = [(points[1, k] - points[1, i]) / d for k in nodes]
@@ -97,7 +104,7 @@ function seen_from(i, list, points, d)
     return x, y
 end
 
-# The stencils, and their largest error on the polynomials that they must be exact for.
+# Returns the stencils, and their largest error on the polynomials that they must be exact for.
 function laplacian_stencils(points, spacing, tags, lists)
     stencils = Stencils(lists, zeros(length(lists)), zeros(length(lists.entries)))
     largest_error = 0.0
@@ -115,7 +122,7 @@ function laplacian_stencils(points, spacing, tags, lists)
     return stencils, largest_error
 end
 
-# The Laplacian at this rank's nodes of a function given at its nodes and ghosts.
+# Computes the Laplacian at this rank's nodes of a function given at its nodes and ghosts.
 function laplacian!(values, stencils, u)
     offsets, neighbours = stencils.lists.offsets, stencils.lists.entries
     for i in eachindex(values)
@@ -132,7 +139,7 @@ end
 over_ranks(op, value, comm) = MPI.Allreduce(value, op, comm)
 over_ranks(op, value, ::Nothing) = value
 
-# Of values at the nodes; there may be ghosts' behind them.
+# Returns the dot product of values at the n nodes of each rank. Values of ghosts may follow them.
 function dot_over_ranks(v, w, n, comm)
     s = 0.0
     for i in 1:n
@@ -142,9 +149,10 @@ function dot_over_ranks(v, w, n, comm)
 end
 
 # ---------------------------------------------------------------- Poisson's equation ------------
-# Solves Laplacian u = f at inner nodes, from the values that u has; those on the boundary stay, for
-# there the residual counts as zero. The matrix is not symmetric: BiCGSTAB (H. van der Vorst, SIAM J.
-# Sci. Stat. Comput. 13 (1992) 631-644), rows divided by their diagonal.
+# Solves Laplacian u = f at inner nodes, starting from the values of u. Those on the boundary do not
+# change, because the residual there is set to zero. The matrix is not symmetric, so the method is
+# BiCGSTAB (H. van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644) with rows divided by
+# their diagonal.
 function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-12, most = 2000)
     n = length(inner)
     scale = [inner[i] ? 1 / stencils.centre[i] : 0.0 for i in 1:n]
@@ -179,7 +187,7 @@ function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-1
 end
 
 # ---------------------------------------------------------------- one spacing -------------------
-# Root mean square over the nodes of all ranks that are chosen.
+# Returns the root mean square over the chosen nodes of all ranks.
 function mean_error(errors, chosen, comm)
     square = over_ranks(+, sum(abs2, errors[chosen]), comm)
     return sqrt(square / over_ranks(+, count(chosen), comm))
@@ -195,7 +203,7 @@ function solve(context, comm, h, folder)
     exact, f = at_points(u_exact, points), at_points(f_exact, points)
     laplacian_errors = laplacian!(zeros(n), stencils, exact) .- f[1:n]
 
-    # The boundary's values are given; inside, the solver starts from zero.
+    # The values on the boundary are given. Inside the solver starts from zero.
     u = [own.tags .!= 0; falses(length(others.ids))] .* exact
     solve_poisson!(u, f, inner, stencils, placement, comm)
     errors = u .- exact
@@ -212,7 +220,7 @@ end
 my_rank(comm) = MPI.Comm_rank(comm)
 my_rank(::Nothing) = 0
 
-# This rank's nodes and ghosts, its triangles, and fields, in VTK's legacy format.
+# Writes this rank's nodes and ghosts, its triangles, and fields, in VTK's legacy format.
 function write_piece(folder, comm, points, corners, u, errors)
     path = joinpath(folder, "laplacian_stencils_" * lpad(my_rank(comm), 3, '0') * ".vtk")
     open(path, "w") do file

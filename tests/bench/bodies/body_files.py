@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points and triangles of a body in a file."""
+"""Reads points and triangles of a body from a file."""
 import meshio
 import numpy as np
 
 
 def in_its_plane(points):
-    """Two coordinates of each, so that the polygon turns left."""
+    """Returns two coordinates of each point, chosen so that the polygon is counter-clockwise."""
     normal = np.cross(points, np.roll(points, -1, 0)).sum(0)
     k = np.abs(normal).argmax()
     u, v = (k + 1) % 3, (k + 2) % 3
@@ -17,7 +17,8 @@ def turn(a, b, c):
 
 
 def cut_to_triangles(x, polygon):
-    """Of a face that need not be convex: one ear after the other, the widest first."""
+    """Cuts a face, which need not be convex, into triangles: one ear after another, the widest
+    first."""
     flat = dict(zip(polygon, in_its_plane(x[polygon])))
     left, triangles = list(polygon), []
     while len(left) > 3:
@@ -35,7 +36,7 @@ def cut_to_triangles(x, polygon):
 
 
 def read_off(path):
-    """A vertex or a face in a line; faces are cut into triangles."""
+    """Reads a format with one vertex or face per line. Faces are cut into triangles."""
     lines = [line.split("#")[0].split() for line in path.read_text(errors="replace").splitlines()]
     rows = [line for line in lines if line]
     if rows[0][0].endswith("OFF"):

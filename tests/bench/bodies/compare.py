@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same bodies at the same d by PNPBS and other tools, all judged by judge.py.
-
+"""Compares PNPBS and other tools on the same bodies at the same d; judge.py evaluates all results.
   tests/bench/bodies/compare.py [--nodes 3000] [--random SEED --count 50] [--output docs] FILE...
 
-Writes comparison_bodies.md and comparison_bodies.json. With --from FILE.json... these are made of the figures of
-earlier runs, put together; of two of the same body and tool, as after a run with --tools PNPBS, the last one counts.
-Files that are no closed surface are left out.
+Writes comparison_bodies.md and comparison_bodies.json. With --from FILE.json... it combines the
+figures of earlier runs. If two runs have the same body and tool, as after a run with --tools PNPBS,
+the last one counts. Files without a closed surface are left out.
 """
 import argparse
 import dataclasses
@@ -33,11 +32,11 @@ from sharp_edges import is_surface, outward  # noqa: E402
 from solids import solids  # noqa: E402
 from volume_cases import NODES_PER_CUBE, VolumeCase  # noqa: E402
 
-NOT_CONFORMING = 6  # our exit code; the tetrahedra are there all the same
+NOT_CONFORMING = 6  # exit code of PNPBS; the tetrahedra are written nevertheless
 
 
 class GmshBySolids(with_gmsh_volume.GmshInSpace):
-    """Its volumes have one outer surface each."""
+    """gmsh with one volume per outer surface."""
 
     def run(self, case, folder, time_limit):
         outcomes = []
@@ -69,12 +68,12 @@ def tools(pnpbs):
 
 
 def chosen(found, words):
-    """Those with one of these words in their names; all if there are none."""
+    """Returns the tools with one of these words in their names, or all if there are no words."""
     return [tool for tool in found if not words or any(word.lower() in tool.name.lower() for word in words)]
 
 
 def those_there(wanted):
-    """Tools with their versions, and what is left out with the reason."""
+    """Returns the available tools with their versions, and the left-out tools with the reason."""
     there, left_out = [], []
     for tool in wanted:
         try:
@@ -89,7 +88,8 @@ def those_there(wanted):
 
 
 def spacing_for(body, nodes):
-    """d for about so many nodes: those of a lattice, and half a node more per d^2 of the surface."""
+    """Returns d for about this number of nodes: those of a lattice, plus half a node per d^2 of the
+    surface."""
     a, b, c = body.vertices[body.triangles()].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
     inner, boundary, d = NODES_PER_CUBE * body.volume(), area / 2, 1.0
@@ -104,7 +104,7 @@ def case_of(name, x, triangles, nodes):
 
 
 def cases(arguments):
-    """One after the other, or the name of a file that is no body."""
+    """Yields one case after another, or the name of a file without a closed surface."""
     for path in arguments.files:
         x, triangles = joined(*read_body(path))
         yield (case_of(path.name, x, triangles, arguments.nodes) if is_surface(triangles)
@@ -116,7 +116,8 @@ def cases(arguments):
 
 
 def made(outcome, ours):
-    """Nodes and tetrahedra that turn the way ours do. Nodes of others in no tetrahedron do not count."""
+    """Returns nodes and tetrahedra with PNPBS's orientation. Nodes of other tools without a
+    tetrahedron do not count."""
     x, tetrahedra = outcome.points, outcome.tetrahedra
     if not ours:
         used, corners = np.unique(tetrahedra, return_inverse=True)
@@ -168,7 +169,8 @@ def write(folder, results):
 
 
 def merged(parts):
-    """The first, with the runs of the others added, or in place of those of the same body and tool."""
+    """Returns the first part with the runs of the others added. A later run replaces one of the
+    same body and tool."""
     tools = {tool["name"]: tool for part in parts for tool in part["tools"]}
     if any(part["asked"] != parts[0]["asked"] or tool != tools[tool["name"]]
            for part in parts for tool in part["tools"]):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of compare.py: of each figure the median over the bodies and the worst."""
+"""The page of compare.py, with the median and the worst value of each figure over the bodies."""
 import numpy as np
 from tables import grouped, table_head, table_row
 
@@ -78,7 +78,7 @@ def intact(run):
 
 
 def bodies_lost(results):
-    """A row for each body that some tool has not whole."""
+    """Returns a row for each body for which some tool gives an incomplete result."""
     names = [tool["name"] for tool in results["tools"]]
     by_body = {}
     for run in results["runs"]:
@@ -88,7 +88,7 @@ def bodies_lost(results):
 
 
 def refused(results):
-    """What our command says of no body at all: triangles that cross, above all."""
+    """Returns the bodies that our command rejects, mostly because of crossing triangles."""
     return sorted(run["body"] for run in results["runs"] if run["tool"].startswith("PNPBS")
                   and run.get("failed", "").startswith("status 2:"))
 

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Is the boundary of tetrahedra the surface of a body? By corners and places alone, with no code of the
-library's: whole means a closed surface with two triangles at each edge and one fan of them around each
-node, as many pieces and handles as the body has, and no node in no tetrahedron."""
+"""Checks whether the boundary of tetrahedra is the surface of a body.
+
+It uses only corners and positions and no code of the library. A result is whole if its boundary is
+a closed surface with two triangles at each edge and one fan of triangles around each node, if it
+has as many pieces and handles as the body, and if each node belongs to a tetrahedron."""
 import sys
 from pathlib import Path
 
@@ -16,8 +18,9 @@ from evaluate_volume import EDGES, FACES, boundary_faces, shape  # noqa: E402
 from sharp_edges import near_sharp_edges  # noqa: E402
 
 SMALL_ANGLE = 20  # degrees
-FLAT = 1e-9       # volume over the cube of the longest edge; 0.118 if regular
-PLACES = 5        # that are told, where the boundary is torn
+# Limit of the volume over the cube of the longest edge, which is 0.118 for a regular tetrahedron.
+FLAT = 1e-9
+PLACES = 5        # maximum number of reported positions where the boundary is torn
 
 
 def corner_points(x, triangles):
@@ -25,14 +28,14 @@ def corner_points(x, triangles):
 
 
 def joined(x, triangles):
-    """Points in one place become one; triangles that thereby vanish go."""
+    """Merges coincident points. Triangles that become degenerate are removed."""
     x, places = np.unique(x, axis=0, return_inverse=True)
     a, b, c = places.reshape(-1)[triangles].T
     return x, np.column_stack([a, b, c])[(a != b) & (b != c) & (a != c)]
 
 
 def crowded_faces(tetrahedra):
-    """How many faces have more than two tetrahedra."""
+    """Returns the number of faces with more than two tetrahedra."""
     faces = np.sort(tetrahedra[:, FACES].reshape(-1, 3), 1)
     return int((np.unique(faces, axis=0, return_counts=True)[1] > 2).sum())
 
@@ -44,7 +47,8 @@ def pieces(pairs, count):
 
 
 def fans_at(triangles):
-    """Of each node, how many fans its triangles make, joined across edges."""
+    """Returns for each node the number of fans that its triangles form. Triangles in a fan share
+    edges."""
     corners = np.arange(triangles.size).reshape(-1, 3)
     edges = np.concatenate([np.column_stack([triangles[:, i], triangles[:, j], corners[:, i], corners[:, j]])
                             for i, j in ((0, 1), (1, 2), (2, 0))])
@@ -60,13 +64,14 @@ def fans_at(triangles):
 
 
 def edges_of(triangles):
-    """Each once, and of how many triangles it is."""
+    """Returns each edge once, and its number of triangles."""
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     return np.unique(np.sort(sides, 1), axis=0, return_counts=True)
 
 
 def torn_at(triangles):
-    """Nodes whose triangles are not one fan, and those of edges with other than two triangles."""
+    """Returns the nodes whose triangles do not form one fan, and those of edges without exactly two
+    triangles."""
     edges, count = edges_of(triangles)
     return np.union1d(np.flatnonzero(fans_at(triangles) > 1), edges[count != 2])
 
@@ -80,7 +85,7 @@ def topology(triangles):
 
 
 def spread(x, triangles, apart):
-    """The corners, and points so far apart on the triangles, about."""
+    """Returns the corners, and points on the triangles about this distance apart."""
     a, b, c = corner_points(x, triangles)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
     count = int(min(2e6, max(1000, 2 * area.sum() / apart**2)))
@@ -91,7 +96,7 @@ def spread(x, triangles, apart):
 
 
 def flat(x, tetrahedra):
-    """How many have no volume but for rounding."""
+    """Returns the number of tetrahedra whose volume is zero within rounding."""
     corners = x[tetrahedra]
     longest = np.max([np.linalg.norm(corners[:, i] - corners[:, j], axis=1) for i, j in EDGES], 0)
     volume = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
@@ -114,14 +119,16 @@ def least(values):
 
 
 def distances(body, x, boundary, unit):
-    """The farthest that a point of the one surface is from the other, in units."""
+    """Returns the largest distance of a point on one surface to the other surface, in units, for
+    both directions."""
     own, others = spread(x, boundary, unit / 10), spread(*body, unit / 10)
     return {"from_body": float(cKDTree(own).query(others)[0].max() / unit),
             "to_body": float(cKDTree(others).query(own)[0].max() / unit)}
 
 
 def shapes(body, x, tetrahedra, reach):
-    """Least angles are told apart where the body itself is sharp."""
+    """Returns quality and angles. The least angles at sharp edges of the body are reported
+    separately."""
     quality, angles = shape(x, tetrahedra)
     sharp = near_sharp_edges(body, x, tetrahedra, reach)
     corners = x[tetrahedra]
@@ -140,8 +147,8 @@ def is_whole(figures):
 
 
 def judged(body, x, tetrahedra, unit=None):
-    """`body`: points and triangles of its surface. Distances are in `unit`, else in median edges of the
-    boundary."""
+    """Evaluates tetrahedra. `body` consists of points and triangles of its surface. Distances are
+    in units of `unit`, by default the median boundary edge."""
     body = joined(*body)
     boundary = boundary_faces(tetrahedra)
     a, b, _ = corner_points(x, boundary)

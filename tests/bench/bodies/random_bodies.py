@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random bodies by constructive solid geometry (manifold3d): number k of a seed is always the same one.
-
+"""Random bodies by constructive solid geometry (manifold3d); seed and number determine a body.
   tests/bench/bodies/random_bodies.py SEED NUMBER FILE.off [--parts 25]
 
 They have sharp edges at random angles, thin walls, narrow slots, small parts, holes through them,
-cavities, and pieces that touch nothing. The size is about 1; pieces and cavities smaller than 0.1 are
-left out.
+cavities, and separate pieces. The size is about 1. Pieces and cavities smaller than 0.1 are left
+out.
 """
 import argparse
 import sys
@@ -27,7 +26,7 @@ LEAST_PIECE = 0.1
 
 # ---------------------------------------------------------------- draws ---------------------
 def between(random, low, high):
-    """With the logarithm evenly distributed."""
+    """Draws a number whose logarithm is uniformly distributed."""
     return float(np.exp(random.uniform(np.log(low), np.log(high))))
 
 
@@ -40,7 +39,8 @@ def part_count(random, most, least=2):
 
 
 def turned(random, part):
-    """Turned at random; one in three by right angles alone, so that faces are parallel."""
+    """Rotates a part randomly. One in three is rotated by right angles only, so that faces are
+    parallel."""
     if random.random() < 1 / 3:
         return part.rotate((90 * random.integers(4, size=3)).tolist())
     q = random.normal(size=4)
@@ -56,7 +56,7 @@ def put(random, part, reach=0.5):
 
 # ---------------------------------------------------------------- parts ---------------------
 def star(random, size):
-    """A polygon around the origin that need not be convex."""
+    """Returns a polygon around the origin that need not be convex."""
     corners = int(random.integers(3, 10))
     angles = 2 * np.pi * (np.arange(corners) + random.uniform(-0.3, 0.3, corners)) / corners
     radii = size * random.uniform(0.3, 1, corners)
@@ -118,7 +118,7 @@ def part(random, small, large):
 
 # ---------------------------------------------------------------- recipes -------------------
 def heap(random, most):
-    """One part after the other is added, taken away, or is what all is cut to."""
+    """Combines parts one by one: Each is added, subtracted or intersected."""
     made = part(random, 0.5, 1)
     for _ in range(part_count(random, most) - 1):
         other = put(random, part(random, 0.15, 1))
@@ -128,13 +128,13 @@ def heap(random, most):
 
 
 def cut(made, other):
-    """What both share, unless next to nothing is left."""
+    """Returns the intersection, or the difference if the intersection is tiny."""
     both = made ^ other
     return both if both.volume() > 0.1 * made.volume() else made - other
 
 
 def drilled(random, most):
-    """Holes go right through."""
+    """Returns a part with through holes."""
     made = part(random, 0.7, 1.2)
     for _ in range(part_count(random, most, 1)):
         hole = Manifold.cylinder(5, between(random, 0.04, 0.25), circular_segments=segments(random),
@@ -152,7 +152,8 @@ def slotted(random, most):
 
 
 def hollow(random, most):
-    """A wall around a cavity, sometimes opened by further parts, with something in the cavity at times."""
+    """Returns a wall around a cavity. Further parts may open it, and the cavity may contain a part.
+    """
     made = part(random, 0.8, 1.3)
     low, high = np.reshape(made.bounding_box(), (2, 3))
     centre = (low + high) / 2
@@ -165,13 +166,13 @@ def hollow(random, most):
 
 
 def fins(random, most):
-    """Thin plates that cross."""
+    """Returns thin plates that cross each other."""
     return Manifold.batch_boolean([put(random, turned(random, plate(random, between(random, 0.4, 1.2))), 0.3)
                                    for _ in range(part_count(random, most))], OpType.Add)
 
 
 def scattered(random, most):
-    """Pieces of all sizes; what would cross another one is left out."""
+    """Returns separate pieces of all sizes. Pieces that would cross others are left out."""
     made = part(random, 0.3, 0.8)
     for _ in range(part_count(random, most)):
         other = put(random, part(random, 0.1, 0.6), 0.8)
@@ -185,14 +186,14 @@ RECIPES = [heap, heap, drilled, slotted, hollow, fins, scattered]
 
 # ---------------------------------------------------------------- bodies --------------------
 def surface(made):
-    """Points and triangles; points in one place are one."""
+    """Returns points and triangles, with coincident points merged."""
     mesh = made.to_mesh64()
     x, places = np.unique(np.array(mesh.vert_properties)[:, :3], axis=0, return_inverse=True)
     return x, places.reshape(-1)[np.array(mesh.tri_verts, dtype=int)]
 
 
 def without_crumbs(x, triangles):
-    """Of the closed surfaces, those that are long enough."""
+    """Returns the closed surfaces that are long enough."""
     a, b, _ = triangles.T
     links = coo_matrix((np.ones(len(a)), (a, b)), shape=(len(x), len(x)))
     count, piece = connected_components(links, directed=False)
@@ -205,8 +206,8 @@ def without_crumbs(x, triangles):
 
 
 def random_body(seed, number, most=MOST_PARTS):
-    """Draws until there is a body whose surface nowhere touches itself along an edge. It has `most` parts
-    at most, or a few more."""
+    """Draws until the surface of a body nowhere touches itself along an edge. The body has at most
+    `most` parts, or a few more."""
     random = np.random.default_rng([seed, number])
     while True:
         made = RECIPES[random.integers(len(RECIPES))](random, most)

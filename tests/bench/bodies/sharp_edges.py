@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where two sheets of a body's surface meet at a sharp angle, no tetrahedron can do better than the
-body: its own angle there is told apart."""
+"""Finds sharp edges of a body. Where two sheets of its surface meet at a sharp angle, no
+tetrahedron can have a larger angle than the body, so the angles there are reported separately."""
 import numpy as np
 from scipy.spatial import cKDTree
 
-SHARP = 33           # degrees between the sheets, inside the body
-STEPS_TO_REACH = 10  # of the points along an edge
+SHARP = 33           # degrees between the sheets, measured inside the body
+STEPS_TO_REACH = 10  # steps of the points along an edge within `reach`
 
 
 def unit_normals(x, triangles):
@@ -15,20 +15,21 @@ def unit_normals(x, triangles):
 
 
 def outward(x, triangles):
-    """Turned as a whole so that the volume is positive."""
+    """Returns the triangles, all reversed if needed, so that the enclosed volume is positive."""
     a, b, c = x[triangles].transpose(1, 0, 2)
     return triangles if (a * np.cross(b, c)).sum() >= 0 else triangles[:, ::-1]
 
 
 def is_surface(triangles):
-    """Two triangles at each edge, in opposite directions."""
+    """Returns whether each edge has two triangles that use it in opposite directions."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     both = np.concatenate([edges, edges[:, ::-1]])
     return len(np.unique(edges, axis=0)) == len(edges) and len(np.unique(both, axis=0)) == len(edges)
 
 
 def opening_angles(x, triangles):
-    """Edges of two triangles, and the angle between these inside the body, from 0 to 360 degrees."""
+    """Returns the edges, and the angle between their two triangles inside the body, from 0 to 360
+    degrees."""
     triangles = outward(x, triangles)
     ends = np.concatenate([triangles[:, [i, j]] for i, j in ((0, 1), (1, 2), (2, 0))])
     of = np.tile(np.arange(len(triangles)), 3)
@@ -45,7 +46,7 @@ def opening_angles(x, triangles):
 
 
 def points_along(x, edges, apart):
-    """The ends of edges, and points so far apart on them at most."""
+    """Returns points on the edges, ends included, at most this distance apart."""
     a, b = x[edges[:, 0]], x[edges[:, 1]]
     pieces = np.ceil(np.linalg.norm(b - a, axis=1) / apart).astype(int) + 1
     edge = np.repeat(np.arange(len(edges)), pieces + 1)
@@ -55,7 +56,8 @@ def points_along(x, edges, apart):
 
 
 def near_sharp_edges(body, x, tetrahedra, reach):
-    """Of each tetrahedron, whether a corner is within `reach` of a sharp edge of the body."""
+    """Returns for each tetrahedron whether a corner is within `reach` of a sharp edge of the body.
+    """
     edges, angles = opening_angles(*body)
     sharp = edges[angles < SHARP]
     if len(sharp) == 0:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A body of several solids, that touch nowhere, as one body each: its outer surface and its cavities."""
+"""Splits a body of several separate solids into one body per solid, with its outer surface and
+cavities."""
 import bodies
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -7,7 +8,7 @@ from scipy.sparse.csgraph import connected_components
 
 
 def surfaces(body):
-    """The closed surfaces that it consists of, each a body."""
+    """Returns the closed surfaces of the body, each as a body."""
     triangles = body.triangles()
     links = coo_matrix((np.ones(len(triangles)), triangles.T[:2]), shape=(len(body.vertices),) * 2)
     piece = connected_components(links, directed=False)[1][triangles[:, 0]]
@@ -26,7 +27,7 @@ def joined(parts):
 
 
 def solids(body):
-    """A cavity belongs to the smallest outer surface that has it inside."""
+    """Returns the solids. A cavity belongs to the smallest outer surface that contains it."""
     found = surfaces(body)
     outer = sorted((s for s in found if s.volume() > 0), key=lambda s: s.volume())
     groups = [[s] for s in outer]

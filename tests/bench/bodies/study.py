@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does every body come out whole? Places nodes in bodies with the command, and judges the tetrahedra
-that it writes without the library (judge.py).
-
+"""Places nodes in bodies with the command and judges the tetrahedra without the library (judge.py).
   tests/bench/bodies/study.py [--program build/release/bin/pnpbs] [--nodes 6000] [--spacing 1]
                               [--set resolve=1] [--figures figures.json] FILE...
   tests/bench/bodies/study.py --random SEED --count 300     # random_bodies.py, from number 0 on
-  tests/bench/bodies/study.py --random SEED:NUMBER          # one of these again, with the same --parts
+  tests/bench/bodies/study.py --random SEED:NUMBER          # one of these again, with equal --parts
 
-Prints a line for each, with CPU seconds, and how many are whole, torn, and torn without a status that says so. Exit
-status 1 if there is one of these, if the command crashed or ran out of time, or if it refused a random
-body. The bodies of CGAL's demos are in Debian's package libcgal-demo (data/meshes/*.off).
+Prints a line for each body with CPU seconds, and the numbers of whole bodies, torn bodies, and torn
+bodies without a status that says so. The exit status is 1 if there are any of the last kind, if the
+command crashed or ran out of time, or if it rejected a random body. The bodies of CGAL's demos are
+in Debian's package libcgal-demo (data/meshes/*.off).
 """
 import argparse
 import json
@@ -31,7 +30,7 @@ from measure import Failed, measure  # noqa: E402
 from progress import Progress  # noqa: E402
 
 ROOT = HERE.parents[2]
-NOT_CONFORMING = 6  # the command's exit code
+NOT_CONFORMING = 6  # an exit code of the command
 
 
 def read_tetrahedra(base):
@@ -42,10 +41,11 @@ def read_tetrahedra(base):
 
 
 def file_of(body, folder):
-    """A body is a path, or the seed, the number and the most parts of a random one."""
+    """Returns the file of a body. A body is a path, or the seed, the number and the maximum number
+    of parts of a random body."""
     if isinstance(body, Path):
         return body
-    from random_bodies import random_body, write_off  # manifold3d is needed for these alone
+    from random_bodies import random_body, write_off  # manifold3d is needed for these bodies only
     path = folder / f"random_{'_'.join(map(str, body))}.off"
     write_off(path, *random_body(*body))
     return path
@@ -56,7 +56,7 @@ def name_of(body):
 
 
 def placed(body, arguments):
-    """Figures of one body, or why there are none."""
+    """Returns the figures of one body, or why there are none."""
     with tempfile.TemporaryDirectory() as folder:
         path = file_of(body, Path(folder))
         found = judged_in(Path(folder) / "made", path, arguments)
@@ -101,8 +101,9 @@ def line_of(name, found):
 
 
 def summary(found, most_torn, may_refuse):
-    """In words, and whether all is as it must be: torn bodies are few enough, none is torn or has
-    tetrahedra of no volume in silence, and none failed or, unless it may be, was refused."""
+    """Returns a summary and whether the study passes: Few enough bodies are torn. No body is torn
+    or has tetrahedra of no volume without a status that says so. None failed, and none was rejected
+    unless this is allowed."""
     bodies = [figures for figures in found.values() if "whole" in figures]
     torn = [figures for figures in bodies if not figures["whole"]]
     flat = [figures for figures in bodies if figures["flat"] > 0]
@@ -116,7 +117,7 @@ def summary(found, most_torn, may_refuse):
 
 
 def commands_again(found, arguments):
-    """One for each random body that is not whole."""
+    """Returns a command line for each random body that is not whole."""
     settings = "".join(f" --set {setting}" for setting in arguments.set)
     return [f"again: {HERE.relative_to(ROOT) / 'study.py'} --random {name} --parts {arguments.parts} --nodes "
             f"{arguments.nodes} --spacing {arguments.spacing}{settings}"
@@ -137,7 +138,8 @@ def bodies_of(arguments):
 
 
 def study(bodies, arguments):
-    """Figures by name; a line for each as soon as it and all before it are done."""
+    """Returns figures by name. Prints a line for each body in order, as soon as the previous ones
+    are done."""
     found, progress = {}, Progress(len(bodies)) if sys.stderr.isatty() else None
     with ThreadPoolExecutor(arguments.jobs) as jobs:
         for body, figures in zip(bodies, jobs.map(lambda body: placed(body, arguments), bodies)):

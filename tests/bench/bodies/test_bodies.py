@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the study of bodies calls whole and torn: cubes cut into tetrahedra by hand, spoilt each in one
-way; and what it says of a program that is silent about it."""
+"""Tests of the study of bodies, with cubes of tetrahedra that are damaged in one way each.
+
+The study must also detect a program that does not report the damage."""
 import itertools
 import subprocess
 import sys
@@ -22,7 +23,7 @@ CELLS = 3
 
 
 def cube(at=(0, 0, 0)):
-    """Corners and tetrahedra of cells, each cut into six (Kuhn's)."""
+    """Returns corners and tetrahedra of cubic cells, each divided into six (Kuhn's division)."""
     side = CELLS + 1
     x = np.array(list(itertools.product(range(side), repeat=3)), float) + at
     tetrahedra = []
@@ -119,7 +120,8 @@ class SharpEdges(unittest.TestCase):
         self.assertEqual(self.angles(boundary_faces(self.tetrahedra[~corner])), {90, 270})
 
     def test_told_apart(self):
-        """Cubes sheared to a wedge of 20 degrees: two of its edges are as sharp, and 160 degrees the others."""
+        """Cubes are sheared to a wedge of 20 degrees. Two of its edges have this angle, and the
+        opposite ones 160 degrees."""
         tangent = np.tan(np.radians(20))
         self.x[:, 0] += self.x[:, 1] / tangent
         self.assertEqual(self.angles(self.surface), {20, 90, 160})
@@ -169,7 +171,7 @@ class Polygons(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    """A program is played that writes the same tetrahedra whatever it is asked for."""
+    """Tests with a fake program that always writes the same tetrahedra."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -180,7 +182,7 @@ class Study(unittest.TestCase):
         (self.folder / "cube.off").write_text("\n".join(["OFF", f"{len(x)} {len(triangles)} 0", *rows]))
 
     def refused(self, *bodies):
-        """By a program that writes nothing."""
+        """Runs the study with a program that writes nothing."""
         program = self.folder / "refuses"
         program.write_text("#!/bin/sh\nexit 2\n")
         program.chmod(0o755)
@@ -215,13 +217,13 @@ done
         self.assertIn("1 bodies: 1 whole, 0 torn", done.stdout)
 
     def test_silent(self):
-        torn = cube()[1][6:]  # a corner's cell is gone
+        torn = cube()[1][6:]  # without the cell of a corner
         self.assertIn("0 whole, 1 torn, 0 with tetrahedra of no volume, 1 of both without", self.study(torn, 0).stdout)
         self.assertEqual(self.study(torn, 0).returncode, 1)
         self.assertEqual(self.study(torn, 6).returncode, 0)
 
     def test_random(self):
-        """No random body is three cubes wide: each is torn, and kept for another look."""
+        """No random body is three cubes wide, so that each is torn and kept."""
         found = self.study(cube()[1], 6, "--random", "4:7", "--count", "2", "--keep", self.folder / "kept")
         self.assertEqual(found.returncode, 0, found.stderr)
         self.assertRegex(found.stdout, "(?m)^4:7 [^\n]*\n4:8 ")
@@ -235,7 +237,7 @@ done
             self.assertEqual(found.returncode, status)
 
     def test_refused(self):
-        """A file may be no body; a random one is always one."""
+        """A file may be rejected, but a random body may not."""
         self.assertIn("1 refused", self.refused(self.folder / "cube.off").stdout)
         self.assertEqual(self.refused(self.folder / "cube.off").returncode, 0)
         self.assertEqual(self.refused("--random", "4").returncode, 1)

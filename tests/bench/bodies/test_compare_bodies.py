@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The comparison on bodies: what other tools are told of a body, and what the page says of theirs."""
+"""Tests of the comparison on bodies: the input of other tools, and the page with their results."""
 import argparse
 import sys
 import unittest
@@ -27,7 +27,7 @@ def cube(low, side, cavity=False):
 
 
 class Solids(unittest.TestCase):
-    """A cube with a cavity in the cavity of another one, and one more beside them."""
+    """A cube lies inside the cavity of another cube, which lies beside a third one."""
 
     def setUp(self):
         self.parts = [cube(0, 3), cube(0.5, 2, cavity=True), cube(1, 1), cube(5, 1),
@@ -50,7 +50,7 @@ class Solids(unittest.TestCase):
 
 class Spacing(unittest.TestCase):
     def test_cube(self):
-        """1.575 nodes to a d^3, and half a node to a d^2 of the surface."""
+        """The number of nodes is 1.575 per d^3, plus half a node per d^2 of the surface."""
         d = spacing_for(box(), 1000)
         self.assertAlmostEqual(1.575 / d ** 3 + 3 / d ** 2, 1000, 6)
 
@@ -136,7 +136,8 @@ class Page(unittest.TestCase):
         self.assertEqual(compare_page.refused({"runs": runs}), ["a"])
 
     def test_page(self):
-        """What it was run on, the row of the tool, the bodies lost, and files that are no bodies."""
+        """The page has the machine, the row of the tool, the incomplete bodies, and the invalid
+        files."""
         machine = dict.fromkeys(("date", "processor", "cores", "memory_gib", "system", "load"), "m")
         text = compare_page.page({"machine": machine, "note": "It rained.", "asked": 9, "command": "run me",
                                   "tools": [{"name": "A", "version": "1", "setting": "s"}], "left_out": [

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nodes which no elements can hold leave, on any ranks: corners of pieces smaller than half of d (four
-of body 2:115 lie within 0.06 d of each other), ends of edges much shorter than d in flat elements
-(two more of them), and tips that are sharper than tetrahedra can be, as in body 2:315."""
+"""Tests that nodes which no elements can contain are left out, on any number of ranks.
+
+Such nodes are corners of pieces smaller than half of d (four of body 2:115 lie within 0.06 d of
+each other), ends of edges much shorter than d in flat elements (two more of them), and tips that
+are sharper than tetrahedra can be, as in body 2:315."""
 import math
 import os
 import subprocess
@@ -16,14 +18,14 @@ import pnpbs
 from random_bodies import random_body, write_off
 
 COMMAND = os.environ["PNPBS_COMMAND"]
-NOT_CONFORMING = 6  # the command's exit code
-CORNER = (-0.0996651, 0.243866)  # x and y of one of the four
+NOT_CONFORMING = 6  # an exit code of the command
+CORNER = (-0.0996651, 0.243866)  # x and y of one of the four corners
 
 
 @dataclass
 class Body:
-    number: int         # of seed 2, asked for 1500 nodes
-    rounds: int         # in which d is held down, before nodes are left out
+    number: int         # with seed 2 and 1500 nodes
+    rounds: int         # rounds that reduce d before nodes are left out
     said: str           # a regular expression
     exit_codes: tuple = (0,)
 
@@ -37,13 +39,13 @@ class Body:
 
 
 PIECES = Body(115, 0, r"left out: 6 nodes of corners and sharp edges, one of them at \(-0\.0")
-# How many leave, and whether it needs more rounds elsewhere, hangs on d and on the processor, whose
-# mathematical functions round differently: 2 or 5.
+# The number of nodes left out, 2 or 5, and the need for more rounds elsewhere depend on d and on
+# the processor, whose mathematical functions round differently.
 TIPS = Body(315, 2, r"left out: [2-6] nodes of corners and sharp edges, one of them at \(0\.3", (0, NOT_CONFORMING))
 
 
 def placement_in(context, body, given=False):
-    """With a fixed node of the user's at the corner, if it is given."""
+    """Creates a placement in the body, with a fixed node at the corner if it is given."""
     x, triangles = body.mesh
     domain = pnpbs.Domain(context, dim=3)
     domain.add_surface(x, triangles)
@@ -53,7 +55,7 @@ def placement_in(context, body, given=False):
 
 
 def placed(body, file, ranks):
-    """What the command says, and what it writes."""
+    """Returns the messages and the output of the command."""
     mpirun = os.environ.get("PNPBS_MPIEXEC")
     launch = [mpirun, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
               "-np", str(ranks)] if ranks > 1 else []

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lagrange elements of first and second order on triangles and tetrahedra for -Laplace u = f with u
-given on the boundary, and the error of their solution in the energy norm. All arrays at once."""
+"""Lagrange elements of first and second order on triangles and tetrahedra.
+
+They solve -Laplace u = f with u given on the boundary. The error of the solution is in the energy
+norm. All operations work on arrays of all elements."""
 import itertools
 import time
 
 import numpy as np
 import scipy.sparse as sparse
 
-# Rules exact to fourth degree or more on each simplex: barycentric coordinates and weights.
+# Quadrature rules on each simplex that are exact to fourth degree or more: barycentric coordinates
+# and weights.
 
 
 def _orbit(*weights):
@@ -29,7 +32,7 @@ RULES = {
 
 
 class Mesh:
-    """Nodes (n, dim), elements (m, dim + 1), and which nodes lie on the boundary."""
+    """A mesh with nodes (n, dim), elements (m, dim + 1), and flags of the boundary nodes."""
 
     def __init__(self, points, elements):
         self.points, corners = np.ascontiguousarray(points), np.asarray(elements)
@@ -48,7 +51,7 @@ class Mesh:
 
 
 class Space:
-    """Degrees of freedom: the nodes, for order 2 the middles of edges behind them."""
+    """The degrees of freedom: the nodes, for order 2 followed by the midpoints of edges."""
 
     def __init__(self, mesh, order):
         self.mesh, self.order = mesh, order
@@ -70,12 +73,14 @@ class Space:
         corners = mesh.points[mesh.elements]
         sides = corners[:, 1:] - corners[:, :1]
         self.size = np.abs(np.linalg.det(sides)) / {2: 2, 3: 6}[mesh.dim]
-        inverse = np.linalg.inv(sides)  # columns: gradients of the barycentric coordinates 1, ...
+        # Columns are the gradients of the barycentric coordinates 1, ...
+        inverse = np.linalg.inv(sides)
         gradients = np.swapaxes(inverse, 1, 2)
         self.barycentric = np.concatenate([-gradients.sum(1, keepdims=True), gradients], axis=1)
 
     def shapes(self, l):
-        """Values of the shape functions at barycentric coordinates l, and their derivatives by these."""
+        """Returns the shape functions at barycentric coordinates l, and their derivatives with
+        respect to these."""
         n = len(l)
         if self.order == 1:
             return l, np.eye(n)
@@ -87,7 +92,7 @@ class Space:
         return values, by
 
     def system(self, source):
-        """Stiffness matrix and load."""
+        """Returns the stiffness matrix and the load."""
         many = self.dofs.shape[1]
         stiffness = np.zeros((len(self.dofs), many, many))
         load = np.zeros((len(self.dofs), many))
@@ -105,7 +110,7 @@ class Space:
         return matrix, np.bincount(self.dofs.ravel(), load.ravel(), n)
 
     def energy_error(self, u, gradient):
-        """The norm of grad u_h - grad u over that of grad u."""
+        """Returns the norm of grad u_h - grad u divided by that of grad u."""
         squared = total = 0.0
         for l, weight in zip(*RULES[self.mesh.dim]):
             by = self.shapes(l)[1]
@@ -117,7 +122,8 @@ class Space:
 
 
 def conjugate_gradients(matrix, right, tolerance=1e-8):
-    """Preconditioned by the diagonal, from 0. The solution and the number of iterations."""
+    """Solves by conjugate gradients from 0 with diagonal preconditioning. Returns the solution and
+    the number of iterations."""
     inverse = 1 / matrix.diagonal()
     x, residual = np.zeros_like(right), right.copy()
     scaled = inverse * residual
@@ -137,7 +143,7 @@ def conjugate_gradients(matrix, right, tolerance=1e-8):
 
 
 class Solved:
-    """The relative error of a mesh's solution, and what it took."""
+    """The relative error of the solution on a mesh, and its cost."""
 
     def __init__(self, mesh, order, problem):
         begin = time.process_time()

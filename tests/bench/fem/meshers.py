@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes of a case by PNPBS and by gmsh, in this process and with one thread, and the CPU seconds
-that each took."""
+"""Meshes of a case by PNPBS and by gmsh, in this process and with one thread, with their CPU
+seconds."""
 import time
 
 import numpy as np
@@ -8,7 +8,7 @@ import pnpbs
 
 from elements import Mesh
 
-# gmsh's names, and its numbers of them.
+# The names and numbers of gmsh's algorithms.
 PLANE = {"gmsh, frontal": 6, "gmsh, Delaunay": 5}
 SPACE = {"gmsh, HXT": 10, "gmsh, Delaunay": 1, "gmsh, Delaunay and Netgen's optimiser": 1}
 OURS = "PNPBS"
@@ -19,7 +19,7 @@ def names(case):
 
 
 def mesh(case, name, h):
-    """The mesh and its seconds."""
+    """Returns the mesh and its CPU seconds."""
     begin = time.process_time()
     made = by_pnpbs(case, h) if name == OURS else by_gmsh(case, name, h)
     seconds = time.process_time() - begin

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is solved, where, and with which spacing."""
+"""The problems of the comparison: solutions, domains and spacings."""
 import numpy as np
 
 
 class Wave:
-    """sin(3 x + y) exp(y), in space times exp(z / 2): as smooth everywhere."""
+    """The solution sin(3 x + y) exp(y), in space times exp(z / 2), which is equally smooth
+    everywhere."""
 
     def solution(self, x):
         u = np.sin(3 * x[:, 0] + x[:, 1]) * np.exp(x[:, 1])
@@ -26,7 +27,8 @@ class Wave:
 
 
 class Peak:
-    """log(r^2 + e^2) / 2, steep at the origin: spacings that grow with r suit it."""
+    """The solution log(r^2 + e^2) / 2, which is steep at the origin, so that spacings that grow
+    with r suit it."""
     E2 = 0.05**2
 
     def solution(self, x):
@@ -45,18 +47,19 @@ class Peak:
 class Case:
     def __init__(self, name, title, shape, problem, graded, sizes, finer=()):
         self.name, self.title, self.shape, self.problem = name, title, shape, problem
-        # `finer`: for meshers that take d for an upper bound, so that they come to as many nodes.
+        # `finer` has factors for meshers that use d as an upper bound, so that they reach the same
+        # number of nodes.
         self.graded, self.sizes, self.finer = graded, sizes, list(finer)
         self.dim = 2 if shape == "square" else 3
 
     def spacing(self, h):
-        """As a function of points, for PNPBS."""
+        """Returns the spacing as a function of points, for PNPBS."""
         if not self.graded:
             return h
         return lambda x: h * np.sqrt((x**2).sum(1) + Peak.E2)
 
     def formula(self, h):
-        """The same, for gmsh."""
+        """Returns the spacing as a formula for gmsh."""
         return f"{h!r} * Sqrt(x*x + y*y + z*z + {Peak.E2!r})" if self.graded else f"{h!r}"
 
 

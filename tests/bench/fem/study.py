@@ -49,7 +49,7 @@ def measure(path, wanted):
 # ---------------------------------------------------------------- what it comes to ---------------
 
 class Line:
-    """What a mesher came to in a case, by increasing numbers of nodes."""
+    """The results of a mesher in a case, by increasing number of nodes."""
 
     def __init__(self, rows, case, mesher, order):
         self.rows = sorted((row for row in rows if row["case"] == case.name and
@@ -60,7 +60,8 @@ class Line:
         return np.array([sum(row[name] for name in names) for row in self.rows], float)
 
     def at_nodes(self, nodes, *names):
-        """Between the meshes there are, and beyond them, by powers of the number of nodes."""
+        """Interpolates between the meshes, and extrapolates beyond them, by powers of the number of
+        nodes."""
         x, y = np.log(self.column("nodes")), np.log(self.column(*names))
         k = int(np.clip(np.searchsorted(x, np.log(nodes)), 1, len(x) - 1))
         slope = (y[k] - y[k - 1]) / (x[k] - x[k - 1])
@@ -123,7 +124,6 @@ with Python {platform.python_version()}, NumPy {np.__version__} and SciPy {scipy
   e = 0.05, and d in proportion to (r² + e²)^(1/2), which spreads the error evenly.
 
 ![Error over nodes, and over CPU seconds of meshing and solving](images/comparison_fem.png)
-
 """
     for case in CASES:
         text += f"## {case.title}\n\n" + "\n".join(table(rows, case, order) for order in ORDERS) + "\n"
@@ -157,7 +157,7 @@ def picture(rows, path):
             if across == 0:
                 axis.set_ylabel("relative H1 error")
         axes[0][across].set_title(case.title)
-        # Below the axes, where no line is.
+        # The legend is below the axes, where there are no lines.
         axes[1][across].legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2)
     figure.text(0.5, 0.005, "solid, circles: P1; dashed, squares: P2", ha="center", fontsize=9)
     figure.tight_layout(rect=(0, 0.02, 1, 1))
@@ -172,7 +172,7 @@ def main():
         return measure(path, sys.argv[3:])
     rows, docs = json.loads(path.read_text()), pathlib.Path(sys.argv[3])
     there = docs / "comparison_fem.md"
-    # What people have written about the figures stays.
+    # The notes that people have written about the figures are kept.
     mark = "## What it shows\n"
     notes = mark + there.read_text().split(mark)[1] if there.exists() and \
         mark in there.read_text() else ""

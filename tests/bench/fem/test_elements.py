@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The elements of the comparison: of order p they find a polynomial of degree p exactly, and the
-problems' sources are those of their solutions."""
+"""Tests of the elements of the comparison: Order p finds a polynomial of degree p exactly, and the
+problems' sources belong to their solutions."""
 import itertools
 import unittest
 
@@ -19,7 +19,7 @@ def scattered(dim, inner=40):
 
 
 class Polynomial:
-    """Of degree 1, x + 2 y (+ z); of degree 2, x^2 + x y (+ z^2)."""
+    """A polynomial: x + 2 y (+ z) of degree 1, or x^2 + x y (+ z^2) of degree 2."""
 
     def __init__(self, degree):
         self.degree = degree
@@ -55,7 +55,7 @@ class Elements(unittest.TestCase):
     def test_degrees_of_freedom(self):
         mesh = scattered(2)
         space = Space(mesh, 2)
-        # Euler: vertices + edges = 2 vertices + triangles - 1
+        # Euler's formula gives vertices + edges = 2 vertices + triangles - 1.
         self.assertEqual(len(space.points), 2 * len(mesh) + len(mesh.elements) - 1)
         self.assertEqual(space.fixed.sum(), 16)
 

@@ -8,8 +8,8 @@ CAMBER, CAMBER_AT, THICKNESS = 0.02, 0.4, 0.12
 
 
 def airfoil(per_side):
-    """NACA 2412 with its trailing edge closed, chord 1 from the origin, points dense at both ends
-    (Jacobs, Ward, Pinkerton 1933; NACA report 460)."""
+    """Returns NACA 2412 with its trailing edge closed, with chord 1 from the origin and points
+    dense at both ends (Jacobs, Ward, Pinkerton 1933; NACA report 460)."""
     over_the_top_to_the_front = points(np.arange(per_side, 0, -1), per_side, 1)
     and_back_below = points(np.arange(per_side), per_side, -1)
     return np.vstack([over_the_top_to_the_front, and_back_below])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies: closed surfaces of triangles, of which some are known by more than that."""
+"""Bodies as closed surfaces of triangles. Some have further properties."""
 import dataclasses
 import math
 from pathlib import Path
@@ -13,14 +13,15 @@ DATA = Path(__file__).resolve().parents[3] / "examples" / "data"
 
 @dataclasses.dataclass
 class Body:
-    """Seen from outside, the corners of the polygons turn counter-clockwise."""
+    """A body. The corners of its polygons are counter-clockwise seen from outside."""
     kind: str             # box, l-block, ball, file
     vertices: np.ndarray  # (count, 3)
-    polygons: list        # of the numbers of their corners; plane ones
-    path: Path = None     # of a file
+    polygons: list        # plane ones, as the numbers of their corners
+    path: Path = None     # if the body comes from a file
 
     def triangles(self):
-        """(count, 3), the fans of the polygons; one that has a corner turned in must begin there."""
+        """Returns triangles (count, 3), the fans of the polygons. A polygon with a reentrant corner
+        must begin there."""
         return np.array([[p[0], b, c] for p in self.polygons for b, c in zip(p[1:], p[2:])])
 
     def bounds(self):
@@ -33,7 +34,7 @@ class Body:
         return float((a * np.cross(b, c)).sum() / 6)
 
     def contains(self, points):
-        """By how many triangles lie above a point."""
+        """Returns whether points are inside, by the number of triangles above each point."""
         if self.kind == "ball":
             return (points ** 2).sum(1) <= 1
         order = np.argsort(points[:, 0], kind="stable")
@@ -49,7 +50,8 @@ class Body:
         return inside
 
     def cavities(self):
-        """A point in each: just beyond the largest triangle of a surface that encloses the outside."""
+        """Returns a point in each cavity: just beyond the largest triangle of a surface that
+        encloses the outside."""
         triangles = self.triangles()
         a, b, c = self.vertices[triangles].transpose(1, 0, 2)
         links = coo_matrix((np.ones(len(triangles)), triangles.T[:2]), shape=(len(self.vertices),) * 2)
@@ -82,8 +84,8 @@ class Body:
 
 
 def below_triangle(points, corners):
-    """A side counts where the sign of a point's place beside it is the same from both of its
-    triangles: its ends are taken in one order, whichever triangle asks."""
+    """Returns which points lie below a triangle. The ends of a side are taken in one order, so that
+    both of its triangles compute the same sign for a point beside it."""
     x, y = points[:, 0], points[:, 1]
     within = np.zeros(len(points), bool)
     for a, b in zip(corners, np.roll(corners, -1, 0)):
@@ -100,7 +102,7 @@ def below_triangle(points, corners):
 
 
 def prism(kind, outline):
-    """Of height 1 above a plane outline that turns counter-clockwise."""
+    """Returns a prism of height 1 above a plane, counter-clockwise outline."""
     n = len(outline)
     vertices = [[x, y, z] for z in (0, 1) for x, y in outline]
     sides = [[k, (k + 1) % n, n + (k + 1) % n, n + k] for k in range(n)]
@@ -113,13 +115,13 @@ def box():
 
 
 def l_block():
-    """The unit cube without a quarter; its outline begins in the corner that is turned in."""
+    """Returns the unit cube without a quarter. Its outline begins at the reentrant corner."""
     return prism("l-block", [(0.5, 0.5), (0.5, 1), (0, 1), (0, 0), (1, 0), (1, 0.5)])
 
 
 def ball(d):
-    """The unit ball, with a surface of triangles for tools that take no other: an octahedron whose
-    sides are cut so that edges are about d long, put on the sphere."""
+    """Returns the unit ball, with a surface of triangles for tools that need one. The surface is an
+    octahedron projected onto the sphere, whose sides are divided so that edges are about d long."""
     rows = max(1, round(0.6 * math.pi / d))
     numbers, vertices, triangles = {}, [], []
 
@@ -139,7 +141,7 @@ def ball(d):
                     found.append((corner(signs, i + 1, j + 1), corner(signs, i, j + 1),
                                   corner(signs, i + 1, j)))
                 triangles += [list(t[::turn]) for t in found]
-    # Equal angles instead of equal steps: the triangles are more alike.
+    # Equal angles instead of equal steps give more similar triangles.
     places = np.sin(0.5 * math.pi * np.array(vertices, float) / rows)
     return Body("ball", places / np.linalg.norm(places, axis=1)[:, None], triangles)
 
@@ -161,7 +163,7 @@ def read_obj(path):
 
 
 def read_stl(path):
-    """A binary one; corners in one place are one vertex."""
+    """Reads a binary STL file. Coincident corners become one vertex."""
     triangle = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     corners = np.frombuffer(Path(path).read_bytes(), triangle, offset=84)["corners"].astype(float)
     vertices, numbers = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cases: a domain and a spacing d = constant + slope * distance from a point, from a horizontal
-line or from a loop."""
+"""The cases: a domain and a spacing d = constant + slope * distance from a point, a horizontal line
+or a loop."""
 import dataclasses
 import math
 from pathlib import Path
@@ -18,8 +18,8 @@ def square():
 
 
 def annulus(d):
-    """Radii 0.4 and 1; regular polygons with sides of about d, so that no tool is made to follow
-    corners finer than its nodes."""
+    """Returns a ring with radii 0.4 and 1. Regular polygons with sides of about d ensure that no
+    tool has to follow corners finer than its nodes."""
     loops = []
     for radius in (1, 0.4):
         count = max(3, round(2 * math.pi * radius / d))
@@ -37,7 +37,7 @@ class Case:
     slope: float
     x0: float = 0
     y0: float = 0
-    x_counts: int = 1  # in the distance; 0: it is that from the line y = y0
+    x_counts: int = 1  # 0 if the distance is that from the line y = y0
     has_formula = True
 
     def spacing(self, points):
@@ -45,7 +45,7 @@ class Case:
                                                      points[:, 1] - self.y0)
 
     def formula(self, root="sqrt", power="^2"):
-        """The spacing as text, for tools that read formulas."""
+        """Returns the spacing as text for tools that read formulas."""
         if self.slope == 0:
             return repr(self.constant)
         across = f"(x-({self.x0!r})){power} + " if self.x_counts else ""
@@ -56,12 +56,12 @@ class Case:
                                    slope=float(factor * self.slope))
 
     def expected_nodes(self):
-        """As many as hexagonal lattices of this spacing have: 2 / (sqrt(3) d^2) per area, and on
-        the boundary half a node more per d."""
+        """Returns the number of nodes of hexagonal lattices with this spacing: 2 / (sqrt(3) d^2)
+        per area, and half a node more per d on the boundary."""
         return self.inner_nodes() + self.boundary_nodes()
 
     def inner_nodes(self):
-        # Where d varies with y alone, and steeply, nearly all samples are spent on that.
+        # If d varies with y alone, and steeply, nearly all samples are used in this direction.
         per_side = (1000, 1000) if self.x_counts else (10, 100000)
         low, high = self.domain.vertices.min(0), self.domain.vertices.max(0)
         x, y = [a + (b - a) * (np.arange(n) + 0.5) / n for a, b, n in zip(low, high, per_side)]
@@ -79,13 +79,13 @@ class Case:
         return nodes
 
     def with_nodes(self, nodes):
-        """The same with every spacing scaled, so that about so many nodes fit."""
+        """Returns the case with all spacings scaled for about this number of nodes."""
         inner, boundary = self.inner_nodes(), self.boundary_nodes()
         return self.scaled((boundary + math.sqrt(boundary ** 2 + 4 * nodes * inner)) / (2 * nodes))
 
     def with_nodes_by_constant(self, nodes):
-        """The same where d grows as fast whatever the number of nodes: that goes with
-        1 / constant, and only the constant is changed."""
+        """Returns the case with another constant for about this number of nodes. The growth of d
+        stays the same, so that the number of nodes is proportional to 1 / constant."""
         case = self
         for _ in range(12):
             constant = float(case.constant * case.expected_nodes() / nodes)
@@ -95,8 +95,8 @@ class Case:
 
 @dataclasses.dataclass
 class CaseAroundLoop(Case):
-    """d = constant + slope * distance from a convex loop, up to a largest d, which it has before it
-    comes to the outline. The loop begins with its sharpest corner."""
+    """A spacing d = constant + slope * distance from a convex loop, up to a largest d, which is
+    reached before the outline. The loop begins with its sharpest corner."""
     loop: np.ndarray = None
     largest: float = math.inf
     has_formula = False
@@ -106,8 +106,8 @@ class CaseAroundLoop(Case):
         return np.minimum(d, self.largest)
 
     def continued_spacing(self, points):
-        """For tables: inside the loop d goes on to fall. Who looks up d outside, beside the loop,
-        then sees no bend of d at it."""
+        """Returns d for tables. d continues to fall inside the loop, so that an interpolation
+        outside near the loop sees no kink."""
         beside = self.slope * distance_to_loop(points, self.loop)
         inside = from_loops([self.loop]).contains(points)
         d = self.constant + np.where(inside, -beside, beside)
@@ -117,10 +117,11 @@ class CaseAroundLoop(Case):
         return np.hypot(*(self.loop - np.roll(self.loop, 1, 0)).T).sum()
 
     def inner_nodes(self):
-        """Within s of a convex loop of length P are P s + pi s^2 of area."""
+        """Returns the number of inner nodes. The area within s of a convex loop of length P is P s
+        + pi s^2."""
         least, length = min(self.constant, self.largest), self.loop_length()
         way = (self.largest - least) / self.slope
-        # The integral of (P + 2 pi s) / d^2 over s = (d - least) / slope.
+        # This is the integral of (P + 2 pi s) / d^2 over s = (d - least) / slope.
         near = ((length * self.slope - 2 * math.pi * least) * (1 / least - 1 / self.largest)
                 + 2 * math.pi * math.log(self.largest / least)) / self.slope ** 2
         far = self.domain.area() - length * way - math.pi * way ** 2
@@ -132,8 +133,8 @@ class CaseAroundLoop(Case):
                       + (self.domain.perimeter() - length) / self.largest)
 
 
-# Spacings in proportion as in ../bench.cpp; with_nodes() gives them their size. The square's grows
-# from 1 in the middle to 10 in the corners, d = h0 (1 + 9 r / 0.7071).
+# The spacings are proportional to those in ../bench.cpp, and with_nodes() scales them. The square's
+# grows from 1 in the middle to 10 in the corners: d = h0 (1 + 9 r / 0.7071).
 def make_uniform_square(nodes):
     return Case("uniform-square", "unit square, uniform", square(), 1, 0).with_nodes(nodes)
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs our cases and those peers that are installed, judges all node sets with one evaluator that
-is none of ours, prints the table, and writes it as Markdown, JSON and pictures. Builds nothing.
-docs/benchmarks.md tells what to install."""
+"""Runs PNPBS and the installed peers on our cases and evaluates all node sets with an independent
+evaluator. Prints the table and writes it as Markdown, JSON and pictures. Builds nothing.
+docs/benchmarks.md says what to install."""
 import argparse
 import json
 import os
@@ -41,7 +41,7 @@ HIDDEN = {"--pnpbs": "PROGRAM", "--path": "FOLDER", "--output": "FOLDER"}
 
 
 class Plane:
-    """What is compared, with which tools, and how it is judged and shown."""
+    """A kind of comparison: the cases, the tools, the evaluation and the table."""
     file = "comparison"
     cases = cases.CASES
     table = plane_table
@@ -53,7 +53,7 @@ class Plane:
                 *with_triangle.tools(), *with_jigsaw.tools()]
 
     def measured(self, outcomes, case):
-        """Medians over the repetitions, and the measures of the last node set."""
+        """Returns medians over the repetitions, and the measures of the last node set."""
         return {"seconds": statistics.median(o.seconds for o in outcomes),
                 "inner_seconds": median_or_none([o.inner_seconds for o in outcomes]),
                 "peak_bytes": statistics.median(o.peak_bytes for o in outcomes),
@@ -81,7 +81,7 @@ class Space:
 
 
 class Shape:
-    """Spacing from the shape, in the plane and in space."""
+    """The comparison of spacings from the shape, in the plane and in space."""
     file = "comparison_shape"
     cases = shape_cases.CASES
     table = shape_table
@@ -163,7 +163,7 @@ def arguments():
 
 
 def sort_out(args):
-    """Tools that can run with their versions, and what is left out with the reason."""
+    """Returns the tools that can run with their versions, and the left-out ones with the reason."""
     wanted = [t for t in KINDS[args.kind].tools(args)
               if not args.tools or any(word.lower() in t.name.lower() for word in args.tools)]
     left_out = []
@@ -173,7 +173,8 @@ def sort_out(args):
 
 
 def version_or_why_not(name, is_there, needs, ask_version, left_out):
-    """The version of a tool that starts and is supported; of others None, and the reason in left_out."""
+    """Returns the version of a tool that starts and is supported. Otherwise returns None and adds
+    the reason to left_out."""
     try:
         if is_there:
             return ask_version()
@@ -240,7 +241,7 @@ def run_all(args):
 
 
 def compare_forces(args, with_lammps, nodes):
-    """Medians over the repetitions, tool by tool."""
+    """Returns medians over the repetitions for each tool."""
     runs = []
     with tempfile.TemporaryDirectory(prefix="pnpbs-compare-") as folder:
         for _ in range(args.repeat):
@@ -257,7 +258,7 @@ def write_json(args, results):
 
 
 def write(args, results):
-    """The JSON, the page, and the pictures that the plane has."""
+    """Writes the JSON file, the page, and the pictures, which exist for the plane only."""
     write_json(args, results)
     kind, pictures = KINDS[results["kind"]], {}
     if results["kind"] == "plane":

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The distance of many points from segments in the plane or triangles in space, by SciPy's tree of
-samples of theirs: exact to the pieces that the nearest samples lie on."""
+"""The distance of many points from segments in the plane or triangles in space, by a SciPy tree of
+samples on them. It is exact with respect to the pieces of the nearest samples."""
 import numpy as np
 from scipy.spatial import cKDTree
 
-NEAREST = 12  # samples whose pieces are looked at
+NEAREST = 12  # number of nearest samples whose pieces are examined
 
 
 class DistanceToBoundary:
-    """Pieces (count, 2 or 3, dimension): segments, triangles. Farther away than `step`, where other
-    pieces than those looked at can be nearer, the distance is too large by a few hundredths of step
-    at most."""
+    """Distances to pieces (count, 2 or 3, dimension), which are segments or triangles. Farther away
+    than `step` other pieces than the examined ones can be nearer. The distance is then too large by
+    at most a few hundredths of step."""
 
     def __init__(self, pieces, step):
         self.pieces = np.asarray(pieces, float)
@@ -21,7 +21,7 @@ class DistanceToBoundary:
         return self.nearest(points)[0]
 
     def nearest(self, points):
-        """Distances and the numbers of the pieces."""
+        """Returns distances and the numbers of the pieces."""
         looked_at = self.tree.query(points, min(NEAREST, len(self.samples)))[1]
         looked_at = looked_at.reshape(len(points), -1)
         away, number = np.full(len(points), np.inf), np.zeros(len(points), int)
@@ -34,7 +34,8 @@ class DistanceToBoundary:
 
 
 def samples_of(pieces, step):
-    """Points at most `step` apart on every piece, corners included, and the piece of each."""
+    """Returns points at most `step` apart on every piece, corners included, and the piece of each
+    point."""
     sides = np.linalg.norm(pieces - np.roll(pieces, 1, 1), axis=2).max(1)
     counts = np.maximum(1, np.ceil(sides / step)).astype(int)
     points, numbers = [], []
@@ -47,7 +48,7 @@ def samples_of(pieces, step):
 
 
 def lattice(count, corners):
-    """Barycentric weights of points that cut each side into so many parts."""
+    """Returns barycentric weights of points that divide each side into this number of parts."""
     i = np.arange(count + 1)
     if corners == 2:
         return np.column_stack([i, count - i]) / count
@@ -57,7 +58,7 @@ def lattice(count, corners):
 
 
 def distances(points, pieces):
-    """Of each point from the piece in the same row."""
+    """Returns the distance of each point from the piece in the same row."""
     if pieces.shape[1] == 2:
         return from_segment(points, pieces[:, 0], pieces[:, 1])
     a, b, c = pieces.transpose(1, 0, 2)

@@ -7,8 +7,8 @@ GROUP = 16  # segments
 
 
 def distance_to_loop(points, loop):
-    """Exact. No farther than the nearest corner: groups of segments are passed by where their
-    circle is."""
+    """Returns exact distances. Groups of segments whose circle is farther away than the nearest
+    corner are skipped."""
     square = cKDTree(loop).query(points)[0] ** 2
     for first in range(0, len(loop), GROUP):
         corners = loop[np.arange(first, min(first + GROUP, len(loop)) + 1) % len(loop)]
@@ -20,7 +20,7 @@ def distance_to_loop(points, loop):
 
 
 def square_to_segments(points, corners):
-    """Squared distance to the nearest of the segments from corner to corner."""
+    """Returns the squared distance to the nearest of the segments from corner to corner."""
     x, y = np.ascontiguousarray(points.T)
     least = np.full(len(points), np.inf)
     for (ax, ay), (bx, by) in zip(corners, corners[1:]):

@@ -13,11 +13,11 @@ class Domain:
     holes: np.ndarray     # (count, 2), a point in each hole
 
     def ends(self):
-        """First and second ends of the segments."""
+        """Returns the first and the second ends of the segments."""
         return self.vertices[self.segments[:, 0]], self.vertices[self.segments[:, 1]]
 
     def area(self):
-        """Of simple closed curves, one within another, by the even-odd rule."""
+        """Returns the area of simple closed curves, one inside another, by the even-odd rule."""
         areas = [abs(loop_area(self.vertices[loop])) for loop in self.loops()]
         return 2 * max(areas) - sum(areas)
 
@@ -26,7 +26,8 @@ class Domain:
         return np.hypot(*(b - a).T).sum()
 
     def loops(self):
-        """The closed curves: arrays of vertex numbers, the one that encloses the others first."""
+        """Returns the closed curves as arrays of vertex numbers. The one that encloses the others
+        is first."""
         after = {}
         for a, b in self.segments.tolist():
             after.setdefault(a, []).append(b)
@@ -44,8 +45,9 @@ class Domain:
         return sorted(found, key=lambda loop: -abs(loop_area(self.vertices[loop])))
 
     def contains(self, points):
-        """Even-odd rule for many points at once: each segment turns the points to its left in
-        the strip of heights that it spans. Sorted by height, a strip is a slice."""
+        """Returns whether many points are inside, by the even-odd rule. Each segment toggles the
+        points to its left in the strip of heights that it spans. With points sorted by height a
+        strip is a slice."""
         order = np.argsort(points[:, 1], kind="stable")
         x, y = points[order].T
         inside = np.zeros(len(points), bool)
@@ -59,7 +61,7 @@ class Domain:
         return result
 
     def write_poly(self, path, markers=None):
-        """`markers` is the tag of each segment."""
+        """Writes a .poly file. `markers` is the tag of each segment."""
         lines = [f"{len(self.vertices)} 2 0 0"]
         lines += [f"{i} {x!r} {y!r}" for i, (x, y) in enumerate(self.vertices.tolist(), 1)]
         tags = [""] * len(self.segments) if markers is None else [f" {tag}" for tag in markers]
@@ -77,7 +79,7 @@ def loop_area(xy):
 
 
 def read_poly(path):
-    """Triangle's .poly, numbered from 0 or 1."""
+    """Reads a .poly file of Triangle with numbers from 0 or 1."""
     rows = iter([line.split("#")[0].split() for line in Path(path).read_text().splitlines()
                  if line.split("#")[0].strip()])
     vertices = [next(rows) for _ in range(int(next(rows)[0]))]
@@ -90,7 +92,7 @@ def read_poly(path):
 
 
 def from_loops(loops, holes=()):
-    """A domain of closed curves, each an array of its corners."""
+    """Returns a domain of closed curves, each an array of its corners."""
     segments, count = [], 0
     for loop in loops:
         numbers = np.arange(len(loop))

@@ -1,25 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Judges a node set, whoever made it, by a Delaunay triangulation of SciPy (Qhull).
+"""Evaluates a node set of any tool by a Delaunay triangulation of SciPy (Qhull).
 
-Triangles with their centroid outside the domain are dropped. Boundary edges are not forced: where
-nodes across a thin strip of land see each other, triangles lie across it. They count as "crossing",
-and in the measures of all triangles. "wide" measures leave them and their neighbours out, and what
-no node set can mend, as ../evaluate.hpp does: triangles at a boundary edge shorter than 0.7 d, and
-those through whose centroid some chord of the domain is shorter than 3 d."""
+Triangles with their centroid outside the domain are removed. Boundary edges are not enforced. Where
+nodes see each other across a thin strip of land, triangles cross it. These count as "crossing" and
+in the measures of all triangles. "wide" measures exclude them and their neighbours. Like
+../evaluate.hpp, they also exclude what no node set can improve: triangles at a boundary edge
+shorter than 0.7 d, and those through whose centroid some chord of the domain is shorter than 3 d.
+"""
 import numpy as np
 from scipy.spatial import Delaunay, cKDTree
 
-CHORDS = 12        # directions in which the width of the domain is looked at
+CHORDS = 12        # directions in which the width of the domain is measured
 NARROW = 3         # spacings
 SHORT_EDGE = 0.7   # spacings
-BANDS = 8          # of d, equal in log d
-FEWEST = 100       # edges that a band must have
-RINGS = 3          # of triangles from the boundary, in which the domain can be narrow
+BANDS = 8          # of d, with equal steps in log d
+FEWEST = 100       # least number of edges of a band
+RINGS = 3          # rings of triangles from the boundary in which the domain can be narrow
 HISTOGRAM = np.linspace(0.5, 1, 51)
 
 
 def evaluate(points, domain, spacing):
-    """Points (n, 2), a Domain and a function of points; a dict of measures, all plain numbers."""
+    """Evaluates points (n, 2) for a Domain and a spacing function of points. Returns a dict of
+    measures, all of them plain numbers."""
     points = np.ascontiguousarray(points, float)
     d = spacing(points)
     mesh = Mesh(points, domain)
@@ -59,8 +61,8 @@ def evaluate(points, domain, spacing):
 
 
 def band_means(d, ratio):
-    """The mean of edge over d in each band of d, from the finest on; bands of few edges left
-    out."""
+    """Returns the mean of edge over d in each band of d, from the finest on, without bands of few
+    edges."""
     low, high = np.log(d.min()), np.log(d.max())
     if high - low < 0.1:
         return [float(ratio.mean())]
@@ -71,12 +73,13 @@ def band_means(d, ratio):
 
 
 def lower_quantile(values, share):
-    """As in ../evaluate.cpp: so large a share of the values is below, none in between."""
+    """Returns the value below which this share of the values lies, without interpolation, as in
+    ../evaluate.cpp."""
     return float(np.partition(values, int(share * len(values)))[int(share * len(values))])
 
 
 class Mesh:
-    """The Delaunay triangles inside the domain, and across which edge each has which other."""
+    """The Delaunay triangles inside the domain with their neighbours."""
 
     def __init__(self, points, domain):
         whole = Delaunay(points)
@@ -84,14 +87,15 @@ class Mesh:
             raise ValueError(f"{len(whole.coplanar)} nodes coincide with others")
         kept = domain.contains(points[whole.simplices].mean(1))
         kept &= ~flat_on_boundary(points, whole.simplices, domain)
-        number = np.full(len(kept) + 1, -1)  # the last one for Qhull's -1, outside the hull
+        # The last entry stands for Qhull's -1, outside the hull.
+        number = np.full(len(kept) + 1, -1)
         number[:-1][kept] = np.arange(kept.sum())
         self.points = points
         self.triangles = whole.simplices[kept]
         self.neighbours = number[whole.neighbors[kept]]  # -1 across the boundary
 
     def edges(self):
-        """The edge opposite each corner, three rows for each triangle."""
+        """Returns the edge opposite each corner, three rows for each triangle."""
         return self.triangles[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)
 
     def boundary_edges(self):
@@ -99,8 +103,9 @@ class Mesh:
 
 
 def flat_on_boundary(points, triangles, domain):
-    """Between nodes in a straight row of the boundary Qhull sees triangles of no height, as high
-    as rounding makes the row crooked: part of no mesh. Flat ones elsewhere are kept."""
+    """Returns which triangles are degenerate between nodes in a straight row of the boundary.
+    Rounding gives them a tiny height, and they are no part of a mesh. Flat triangles elsewhere are
+    kept."""
     corners = points[triangles]
     sides = np.hypot(*(corners - np.roll(corners, 1, 1)).transpose(2, 0, 1))
     longest = sides.max(1)
@@ -121,24 +126,26 @@ def area(points, triangles):
 
 
 def side_lengths(points, triangles):
-    """Opposite each corner."""
+    """Returns the lengths of the sides opposite each corner."""
     a, b, c = points[triangles].transpose(1, 0, 2)
     return np.stack([np.hypot(*(c - b).T), np.hypot(*(a - c).T), np.hypot(*(b - a).T)])
 
 
 def shape(points, triangles):
-    """Quality 2 r_in / R, 1 for an equilateral triangle, and the least angle in degrees."""
+    """Returns the quality 2 r_in / R, 1 for an equilateral triangle, and the least angle in
+    degrees."""
     sides = side_lengths(points, triangles)
     whole = area(points, triangles)
     quality = 16 * whole ** 2 / (sides.prod(0) * sides.sum(0))
-    # The least angle is the one opposite the shortest side, between the two others.
+    # The least angle is opposite the shortest side, between the two others.
     short, middle, long = np.sort(sides, 0)
     cosine = (middle ** 2 + long ** 2 - short ** 2) / (2 * middle * long)
     return quality, np.degrees(np.arctan2(2 * whole / (middle * long), cosine))
 
 
 def cell_radius(points, triangles):
-    """The farthest corner of each node's Voronoi cell: the largest circumradius around it."""
+    """Returns the farthest corner of each node's Voronoi cell, which is the largest circumradius
+    around it."""
     radius = side_lengths(points, triangles).prod(0) / (4 * area(points, triangles))
     largest = np.zeros(len(points))
     for corner in range(3):
@@ -147,7 +154,7 @@ def cell_radius(points, triangles):
 
 
 def across_boundary(mesh, domain):
-    """Which triangles have an edge, not one of the boundary, that crosses a segment."""
+    """Returns which triangles have an inner edge that crosses a segment."""
     first, corner = np.nonzero(mesh.neighbours > np.arange(len(mesh.triangles))[:, None])
     second = mesh.neighbours[first, corner]
     edges = mesh.edges().reshape(-1, 3, 2)[first, corner]
@@ -165,8 +172,8 @@ def across_boundary(mesh, domain):
 
 
 def cross(a, b, p, q):
-    """Whether the segment ab passes through those pq, by more than rounding."""
-    def height(u, v, w):  # of w over the line uv, in units of its length
+    """Returns whether the segment ab crosses those pq by more than rounding."""
+    def height(u, v, w):  # height of w over the line uv, in units of its length
         e, r = v - u, w - u
         return (e[..., 0] * r[..., 1] - e[..., 1] * r[..., 0]) / (e ** 2).sum(-1)
 
@@ -178,12 +185,13 @@ def cross(a, b, p, q):
 
 
 def touching(mesh, chosen):
-    """Which triangles have an edge in common with a chosen one."""
-    return (np.append(chosen, False)[mesh.neighbours]).any(1)  # the last one is beyond the boundary
+    """Returns which triangles have an edge in common with a chosen one."""
+    # The last entry stands for triangles beyond the boundary.
+    return (np.append(chosen, False)[mesh.neighbours]).any(1)
 
 
 def mendable(mesh, d):
-    """Which triangles a better node set could mend."""
+    """Returns which triangles a better node set could improve."""
     edges = mesh.boundary_edges()
     length = np.hypot(*(mesh.points[edges[:, 0]] - mesh.points[edges[:, 1]]).T)
     by_short_edge = np.zeros(len(d), bool)
@@ -195,7 +203,7 @@ def mendable(mesh, d):
         near[mesh.triangles[touched].ravel()] = True
     wide = ~by_short_edge[mesh.triangles].any(1)
     in_question = np.flatnonzero(wide & near[mesh.triangles].any(1))
-    for first in range(0, len(in_question), 20000):  # a bound on memory
+    for first in range(0, len(in_question), 20000):  # limits the memory
         some = in_question[first:first + 20000]
         wide[some] = ~narrow(mesh, some, d[mesh.triangles[some]].mean(1))
     return wide
@@ -205,7 +213,7 @@ def narrow(mesh, triangles, d):
     middle = mesh.points[mesh.triangles[triangles]].mean(1)
     found = np.zeros(len(triangles), bool)
     for chord in range(CHORDS):
-        # Off the directions in which lattices have their rows.
+        # These directions differ from those of the rows of lattices.
         angle = (chord + 0.2718) * np.pi / CHORDS
         ahead = np.array([np.cos(angle), np.sin(angle)])
         length = (way_to_boundary(mesh, triangles, middle, ahead, NARROW * d)
@@ -215,12 +223,13 @@ def narrow(mesh, triangles, d):
 
 
 def way_to_boundary(mesh, start, origin, ahead, most):
-    """From origins inside their start triangles, straight ahead through the triangles, to the
-    boundary; at most `most`. All rays go on at once, each by a triangle in a round."""
+    """Returns the distance to the boundary from origins inside their start triangles, straight
+    ahead through the triangles, at most `most`. All rays advance together, each by one triangle per
+    round."""
     way = most.copy()
-    ray = np.arange(len(start))  # those still under way
+    ray = np.arange(len(start))  # rays that have not arrived
     at, before = start.copy(), np.full(len(start), -1)
-    for _ in range(100):  # one that goes round a node for ever is long
+    for _ in range(100):  # a ray that circles a node for ever counts as long
         if len(ray) == 0:
             break
         corners = mesh.points[mesh.triangles[at]]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Judges nodes whose sizes come from the shape, by SciPy's Delaunay triangulation of them: how far they
-follow a d that is known, or what sizes they have where the boundary is curved or the domain narrow."""
+"""Evaluates nodes whose sizes come from the shape, by SciPy's Delaunay triangulation. It measures
+how well they follow a known d, or their sizes where the boundary is curved or the domain narrow."""
 import numpy as np
 from distance_to_boundary import DistanceToBoundary
 from evaluate import Mesh
@@ -8,17 +8,17 @@ from evaluate_volume import EDGES, restricted
 from scipy.spatial import cKDTree
 from shape_cases import ACROSS, PER_TURN
 
-BANDS = 8         # of d, equal in log d
-FEWEST = 100      # edges that a band must have
-ON_BOUNDARY = 0.1  # of the length of a node's shortest edge: nearer to the boundary, it is on it
-SMOOTH = 40       # degrees that pieces of a smooth boundary turn by at most
-FACING = 20       # degrees that the two sides of a gap may lean
-RAYS = 1000       # that look for gaps, at most
+BANDS = 8         # of d, with equal steps in log d
+FEWEST = 100      # least number of edges of a band
+ON_BOUNDARY = 0.1  # relative to a node's shortest edge: a node nearer to the boundary is on it
+SMOOTH = 40       # largest angle in degrees between adjacent pieces of a smooth boundary
+FACING = 20       # largest angle in degrees between the two sides of a gap
+RAYS = 1000       # maximum number of rays that search for gaps
 
 
 def evaluate(points, case):
     points = np.ascontiguousarray(points, float)
-    # Of the whole boundary, whatever d grows from.
+    # The boundary is the whole one, whatever d grows from.
     boundary = DistanceToBoundary(case.shape.pieces, case.largest / 4)
     shortest = cKDTree(points).query(points, 2)[0][:, 1]
     away, piece = boundary.nearest(points)
@@ -32,7 +32,7 @@ def evaluate(points, case):
 
 
 def edges_of(points, on_boundary, case):
-    """Each once, (count, 2)."""
+    """Returns each edge once, as (count, 2)."""
     if case.shape.dimension == 2:
         edges = Mesh(points, case.domain).edges()
     else:
@@ -41,7 +41,8 @@ def edges_of(points, on_boundary, case):
 
 
 def followed(points, edges, length, on_boundary, case):
-    """Edge over the mean of d at its ends, and the edges for which that is farthest from 1."""
+    """Returns measures of edge lengths over the mean d at their ends, and the edge for which this
+    ratio differs most from 1."""
     d = case.spacing(points)[edges].mean(1)
     ratio = length / d
     at_boundary = on_boundary[edges].all(1)
@@ -69,11 +70,12 @@ def band_means(d, ratio):
 
 
 def sizes(points, edges, length, on_boundary, piece, case):
-    """A node's size is the mean length of its edges."""
+    """Returns measures of the nodes' sizes, which are the mean lengths of their edges."""
     count = np.bincount(edges.ravel(), minlength=len(points))
     size = np.bincount(edges.ravel(), np.repeat(length, 2), len(points)) / np.maximum(count, 1)
     growth = np.abs(size[edges[:, 0]] - size[edges[:, 1]]) / length
-    turn = 2 * np.pi / np.maximum(curvature(case)[piece], 1e-300)  # the circumference
+    # Circumference of the circle of curvature.
+    turn = 2 * np.pi / np.maximum(curvature(case)[piece], 1e-300)
     asked = on_boundary & (turn / PER_TURN < case.largest) & (count > 0)
     per_turn = turn[asked] / size[asked]
     places, width = gaps(case)
@@ -88,13 +90,14 @@ def sizes(points, edges, length, on_boundary, piece, case):
 
 
 def quantiles(values):
-    """The least twentieth is below, and half."""
+    """Returns the 5 % quantile and the median."""
     return [float(q) for q in np.quantile(values, [0.05, 0.5])] if len(values) else None
 
 
 def curvature(case):
-    """Of each piece of the input: by how its normal turns to that of those beside it, the largest
-    over the distance of their middles. Edges and corners, where it turns by more, do not count."""
+    """Returns the curvature of each piece of the input: the largest turn of the normal towards an
+    adjacent piece, divided by the distance of their centres. Edges and corners, where it turns by
+    more, do not count."""
     pieces, result = case.shape.pieces, np.zeros(len(case.shape.pieces))
     normal, middle = normals(pieces), pieces.mean(1)
     ends = case.domain.segments if pieces.shape[1] == 2 else case.domain.triangles()
@@ -105,7 +108,8 @@ def curvature(case):
     order = np.argsort(keys, kind="stable")
     together = keys[order][1:] == keys[order][:-1]
     first, second = number[order][:-1][together], number[order][1:][together]
-    if pieces.shape[1] == 2:  # segments may run either way: straight on is away from the shared end
+    # Segments have either direction, so "ahead" is away from the shared end.
+    if pieces.shape[1] == 2:
         shared = case.domain.vertices[sides.ravel()[order[:-1][together]]]
         back, on = ((way / np.linalg.norm(way, axis=1)[:, None])
                     for way in (shared - middle[first], middle[second] - shared))
@@ -114,7 +118,7 @@ def curvature(case):
         cosine = (normal[first] * normal[second]).sum(1)
     angle = np.arccos(np.clip(cosine, -1, 1))
     way = np.linalg.norm(middle[first] - middle[second], axis=1)
-    if pieces.shape[1] == 3:  # across their common side alone, not along it
+    if pieces.shape[1] == 3:  # uses the component across the common side only
         shared = case.domain.vertices[sides.reshape(-1, 2)[order[:-1][together]]]
         along = shared[:, 1] - shared[:, 0]
         along /= np.linalg.norm(along, axis=1)[:, None]
@@ -136,8 +140,8 @@ def normals(pieces):
 
 
 def gaps(case):
-    """Places on the boundary from which a ray inward meets a facing side so near that d must be less
-    than the largest, and the way to it; the places are the middles of these ways."""
+    """Returns the gaps that need a d below the largest: positions and widths. A ray inward from the
+    boundary meets a facing side, and the position is the middle of this ray."""
     pieces = case.shape.pieces
     normal, middle = normals(pieces), pieces.mean(1)
     tiny = 1e-6 * case.shape.width()
@@ -150,12 +154,13 @@ def gaps(case):
 
 
 def way_ahead(origin, ahead, own, pieces, inward):
-    """To the nearest of all pieces, if it faces the ray's own; else infinite."""
+    """Returns the distance along a ray to the nearest of all pieces if this piece faces the ray, else
+    infinity."""
     a, sides = pieces[:, 0], pieces[:, 1:] - pieces[:, :1]
     matrix = np.concatenate([sides, np.broadcast_to(-ahead, (len(pieces), 1, len(ahead)))], 1)
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse_volume = 1 / np.linalg.det(matrix)
-        # Cramer's rule: each row in turn replaced by the way from the piece's first corner.
+        # Cramer's rule replaces each row in turn by the vector from the piece's first corner.
         shares = []
         for row in range(matrix.shape[1]):
             replaced = matrix.copy()

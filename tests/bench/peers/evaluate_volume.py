@@ -1,24 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Judges tetrahedra, whoever made them, and then the nodes alone, by SciPy's Delaunay triangulation
-(Qhull) restricted to the body: the tetrahedra with their centroid inside, less the flat ones of
-four boundary nodes that lie open to the outside, one after the other, as ../evaluate_volume.cpp
-has it. The nodes of the tool's own boundary faces are boundary nodes."""
+"""Evaluates the tetrahedra of any tool, and then the nodes alone.
+
+The nodes are evaluated by SciPy's Delaunay triangulation (Qhull) restricted to the body: tetrahedra
+with their centroid inside, without flat ones of four boundary nodes that are open to the outside,
+which are removed one by one as in ../evaluate_volume.cpp. Nodes of the tool's own boundary faces
+are boundary nodes."""
 import numpy as np
 from evaluate import lower_quantile
 from scipy.spatial import Delaunay
 
 FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # opposite each corner
 EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
-OTHERS = np.array([[2, 3], [1, 3], [1, 2], [0, 3], [0, 2], [0, 1]])  # the corners beside an edge
-FEWEST = 100     # edges that a band must have
-FLAT = 0.02      # volume over the cube of the longest edge; 0.118 if regular
-NOTHING = 1e-10  # likewise: what Qhull has between nodes on one sphere, but for rounding
+# The corners that do not belong to the edge.
+OTHERS = np.array([[2, 3], [1, 3], [1, 2], [0, 3], [0, 2], [0, 1]])
+FEWEST = 100     # least number of edges of a band
+# Limit of the volume over the cube of the longest edge, which is 0.118 for a regular tetrahedron.
+FLAT = 0.02
+# The same ratio for tetrahedra of nodes on one sphere, whose volume is rounding error.
+NOTHING = 1e-10
 HISTOGRAM = np.linspace(0, 1, 51)
 
 
 def evaluate(points, tetrahedra, body, spacing):
-    """Points (n, 3), tetrahedra (m, 4), a Body and a function of points; a dict of measures, all
-    plain numbers. Nodes without a tetrahedron do not count."""
+    """Evaluates points (n, 3) and tetrahedra (m, 4) for a Body and a spacing function of points.
+    Returns a dict of measures, all of them plain numbers. Nodes without a tetrahedron do not count.
+    """
     used, corners = np.unique(tetrahedra, return_inverse=True)
     points, tetrahedra = np.ascontiguousarray(points[used], float), corners.reshape(-1, 4)
     on_boundary = np.zeros(len(points), bool)
@@ -59,8 +65,8 @@ def measures(points, tetrahedra, on_boundary, d, body):
 
 
 def octave_means(d, ratio):
-    """The mean of edge over d in each octave of d, from the finest on; those of few edges left
-    out, and all in one where d hardly varies."""
+    """Returns the mean of edge over d in each octave of d, from the finest on, without octaves of
+    few edges. There is one band if d hardly varies."""
     if len(d) == 0 or d.max() < 1.1 * d.min():
         return [float(ratio.mean())] if len(d) else []
     count = int(np.ceil(np.log2(d.max() / d.min())))
@@ -75,13 +81,14 @@ def volume(points, tetrahedra):
 
 
 def shape(points, tetrahedra):
-    """Quality 3 r_in / R, 1 for a regular tetrahedron, and the least dihedral angle in degrees."""
+    """Returns the quality 3 r_in / R, 1 for a regular tetrahedron, and the least dihedral angle in
+    degrees."""
     corners = points[tetrahedra]
     normals = np.cross(corners[:, FACES[:, 1]] - corners[:, FACES[:, 0]],
                        corners[:, FACES[:, 2]] - corners[:, FACES[:, 0]])
     surface = 0.5 * np.linalg.norm(normals, axis=2).sum(1)
     edge = np.linalg.norm(corners[:, EDGES[:, 1]] - corners[:, EDGES[:, 0]], axis=2)
-    # The products of opposite edges are the sides of a triangle that has the radius in its area.
+    # The products of opposite edges are the sides of a triangle whose area gives the circumradius.
     a, b, c = (edge * edge[:, ::-1])[:, :3].T
     under_root = np.maximum((a + b + c) * (a + b - c) * (a - b + c) * (b + c - a), 0)
     six_volumes = 6 * volume(points, tetrahedra)
@@ -99,7 +106,7 @@ def shape(points, tetrahedra):
 
 
 def triangle_shape(points, triangles):
-    """Quality 2 r_in / R and the least angle in degrees."""
+    """Returns the quality 2 r_in / R and the least angle in degrees."""
     corners = points[triangles]
     opposite = np.roll(corners, -1, 1) - np.roll(corners, 1, 1)
     sides = np.linalg.norm(opposite, axis=2)
@@ -111,17 +118,19 @@ def triangle_shape(points, triangles):
 
 
 def boundary_faces(tetrahedra):
-    """The faces of one tetrahedron alone, (count, 3)."""
+    """Returns the faces that belong to one tetrahedron only, as (count, 3)."""
     faces = tetrahedra[:, FACES].reshape(-1, 3)
     _, first, count = np.unique(np.sort(faces, 1), axis=0, return_index=True, return_counts=True)
     return faces[first[count == 1]]
 
 
 def restricted(points, on_boundary, body):
-    """The tetrahedra of the nodes' Delaunay triangulation that fill the body. Nodes on one sphere are
-    cut at will, which may leave some of no volume: they do not count."""
+    """Returns the tetrahedra of the nodes' Delaunay triangulation that fill the body. The
+    triangulation of nodes on one sphere is arbitrary and may contain tetrahedra of no volume, which
+    are removed."""
     whole = Delaunay(points)
-    inside = np.append(body.contains(points[whole.simplices].mean(1)), False)  # -1: beyond the hull
+    # The last entry stands for -1, beyond the hull.
+    inside = np.append(body.contains(points[whole.simplices].mean(1)), False)
     corners = points[whole.simplices]
     edge = np.linalg.norm(corners[:, EDGES[:, 1]] - corners[:, EDGES[:, 0]], axis=2)
     height = volume(points, whole.simplices) / edge.max(1) ** 3

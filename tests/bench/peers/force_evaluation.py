@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a force evaluation costs: ours, and that of LAMMPS, a molecular dynamics code that knows
-nothing of node placement but evaluates short-range pair forces from adjacency lists as we do."""
+"""The cost of a force evaluation by PNPBS and by LAMMPS. LAMMPS is a molecular dynamics code that
+does not place nodes, but also evaluates short-range pair forces from adjacency lists."""
 import json
 import math
 import re
@@ -10,10 +10,11 @@ from cases import make_uniform_square
 from measure import measure
 
 STEPS = 300
-LIST_RADIUS = 1.6  # spacings: PNPBS's default, and LAMMPS's cutoff and skin here
+# In spacings: the default of PNPBS, and here the sum of LAMMPS's cutoff and skin.
+LIST_RADIUS = 1.6
 
-# A periodic hexagonal lattice of spacing 1, each atom moved a little. Without an integrator no
-# atom moves, so lists are made once.
+# A periodic hexagonal lattice of spacing 1 with small displacements. Without an integrator no atom
+# moves, so the lists are made once.
 LAMMPS_INPUT = """units lj
 dimension 2
 boundary p p p
@@ -34,7 +35,7 @@ run {steps}
 
 
 def lammps_rows(nodes, folder, time_limit):
-    # Two atoms in each of the columns x rows cells.
+    # Each of the columns x rows cells has two atoms.
     columns = math.ceil(math.sqrt(nodes / 2 * math.sqrt(3)))
     rows = math.ceil(nodes / 2 / columns)
     (folder / "in.lammps").write_text(
@@ -55,13 +56,13 @@ def read_lammps(text, style):
     atoms = int(re.search(r"Loop time of \S+ on 1 procs for \d+ steps with (\d+) atoms", text)[1])
     pair = float(re.search(r"^Pair\s*\|\s*\S+\s*\|\s*(\S+)", text, re.MULTILINE)[1])
     listed = int(re.search(r"Total # of neighbors = (\d+)", text)[1])
-    # Each pair is in one of its atoms' lists; we count it at both.
+    # LAMMPS lists each pair once; we count it for both atoms.
     return {"tool": f"LAMMPS, {style}", "nodes": atoms, "listed": 2 * listed / atoms,
             "nanoseconds": 1e9 * pair / (atoms * STEPS), "what": "forces alone, each pair once"}
 
 
 def pnpbs_row(program, nodes, folder, time_limit):
-    """A run of exactly so many steps; the list lengths are those of its end."""
+    """Runs exactly this number of steps. The list lengths are those at the end."""
     case = make_uniform_square(nodes)
     case.domain.write_poly(folder / "case.poly")
     command = [program, "--domain", "case.poly", "--spacing", case.formula(), "--report",
@@ -79,7 +80,7 @@ def pnpbs_row(program, nodes, folder, time_limit):
 
 
 def lammps_version():
-    """Raises DoesNotStart."""
+    """Returns the version of LAMMPS. Raises DoesNotStart."""
     said = tool.answer_of("lmp", "-h")
     told = re.search(r"Simulator - (.*)", said)
     if not told:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Time and memory of a command, the same way for every tool.
+"""Measures time and memory of a command in the same way for every tool.
 
-The command is a child of a small process of its own: Linux counts the memory of the process that
-a child is forked from as the child's peak, and this one has SciPy and millions of nodes in it."""
+The command is a child of a small separate process. Linux counts the memory of the process that
+forks a child towards the child's peak, and this process contains SciPy and millions of nodes."""
 import dataclasses
 import json
 import os
@@ -44,7 +44,7 @@ class Failed(Exception):
 @dataclasses.dataclass
 class Measured:
     seconds: float      # wall time, start and files included
-    cpu_seconds: float  # that the system gave it, whatever else ran
+    cpu_seconds: float  # CPU time, independent of other processes
     peak_bytes: int
     status: int
     stdout: str

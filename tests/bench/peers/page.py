@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results as tables: for the terminal and as a page in Markdown. What the columns are says a
-`table`: plane_table, volume_table, shape_table, which has another for each kind of case."""
+"""The results as tables for the terminal and as a page in Markdown. A `table` defines the columns:
+plane_table, volume_table, or shape_table, which has a different table for each kind of case."""
 from tables import grouped, table_head, table_row
 
 
 def speed(result):
-    """Nodes per second, without start and files where the tool tells it."""
+    """Returns nodes per second, without start and files if the tool reports this time."""
     return result["measures"]["nodes"] / (result["inner_seconds"] or result["seconds"])
 
 
@@ -20,12 +20,12 @@ def row(result, table):
 
 
 def part(table, group):
-    """The table of these cases."""
+    """Returns the table of these cases."""
     return table.of(group[0]["case"]) if hasattr(table, "of") else table
 
 
 def groups(results):
-    """By case and size, in the order they were run."""
+    """Returns the results by case and size, in the order of the runs."""
     found = {}
     for result in results["placements"]:
         found.setdefault((result["case"], result["asked"]), []).append(result)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of the plane, and what its columns say."""
+"""The table of cases in the plane and the definition of its columns."""
 from page import speed, told
 from tables import grouped
 

@@ -7,7 +7,7 @@ from page import groups, speed, title
 
 
 def draw(results, folder):
-    """Writes the pictures that there is something for; their names by what they show."""
+    """Writes all pictures that have data. Returns their names by content."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -19,7 +19,7 @@ def draw(results, folder):
     if not done:
         return {}
     names = list(dict.fromkeys(r["tool"] for group in done.values() for r in group))
-    # One colour for a tool, other shapes for its settings.
+    # A tool has one colour, and its settings have different markers.
     makers = list(dict.fromkeys(name.split(",")[0] for name in names))
     style = {}
     for name in names:
@@ -51,7 +51,8 @@ def draw(results, folder):
 
 
 def save(figure, path):
-    """With 128 colours: a quarter of the bytes. Pillow comes with matplotlib."""
+    """Saves with 128 colours, which takes a quarter of the bytes. Pillow is installed with
+    matplotlib."""
     from PIL import Image
 
     whole = io.BytesIO()
@@ -60,7 +61,7 @@ def save(figure, path):
 
 
 def speed_panel(axis, group, style):
-    """1 - quality, so that both axes can be logarithmic: better is lower, faster is right."""
+    """Plots 1 - quality, so that both axes can be logarithmic: lower is better, right is faster."""
     for r in group:
         colour, marker, _ = style[r["tool"]]
         axis.plot(speed(r), 1 - r["measures"]["quality_mean"], marker, color=colour, ms=7,

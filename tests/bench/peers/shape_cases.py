@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Spacing from the shape: the same d = min(largest, constant + slope * distance from the boundary)
-for every tool, and what each makes of the shape by itself."""
+"""Cases of spacing from the shape: the same d = min(largest, constant + slope * distance from the
+boundary) for every tool, and each tool's own sizes for the shape."""
 import dataclasses
 import math
 from functools import cached_property
@@ -14,18 +14,18 @@ from domain import Domain, from_loops, read_poly
 from volume_cases import NODES_PER_CUBE
 
 RANGE = 8       # the largest d over the least
-PER_TURN = 20   # nodes around a circle, of sizes that a tool finds itself
-ACROSS = 3      # nodes across a gap, likewise
-GROWTH = 0.15   # of d over the distance from what asks for it, likewise
-FINEST = 100    # the largest d over the least, likewise
-GRID = {2: 400, 3: 30}  # points a side, at which d is looked at to count nodes
+PER_TURN = 20   # nodes around a circle, for a tool's own sizes
+ACROSS = 3      # nodes across a gap, for a tool's own sizes
+GROWTH = 0.15   # growth of d per distance, for a tool's own sizes
+FINEST = 100    # the largest d over the least, for a tool's own sizes
+GRID = {2: 400, 3: 30}  # points per side at which d is evaluated to count nodes
 
 
 @dataclasses.dataclass(frozen=True)
 class Shape:
     """A Domain or a Body, and those of its pieces that d grows from."""
     domain: object
-    grows_from: tuple = None  # the pieces' numbers, first and behind the last; None: all
+    grows_from: tuple = None  # numbers of the pieces, first and one past the last; None: all
 
     @property
     def dimension(self):
@@ -33,13 +33,13 @@ class Shape:
 
     @cached_property
     def pieces(self):
-        """All of the boundary, (count, corners, dimension)."""
+        """Returns all pieces of the boundary, (count, corners, dimension)."""
         return self.domain.vertices[self.domain.segments if self.dimension == 2
                                     else self.domain.triangles()]
 
     @cached_property
     def grid(self):
-        """Even points inside, for integrals."""
+        """Returns evenly distributed inner points for integrals."""
         low, high = self.domain.vertices.min(0), self.domain.vertices.max(0)
         count = GRID[self.dimension]
         sides = [a + (b - a) * (np.arange(count) + 0.5) / count for a, b in zip(low, high)]
@@ -57,7 +57,7 @@ class Shape:
 
 
 def measure_of(pieces):
-    """Lengths of segments, areas of triangles."""
+    """Returns lengths of segments or areas of triangles."""
     if pieces.shape[1] == 2:
         return np.linalg.norm(pieces[:, 1] - pieces[:, 0], axis=1)
     return 0.5 * np.linalg.norm(np.cross(pieces[:, 1] - pieces[:, 0], pieces[:, 2] - pieces[:, 0]),
@@ -72,7 +72,7 @@ class ShapeCase:
     constant: float
     slope: float
     largest: float
-    automatic: bool = False  # the sizes are the tool's, of constant at least
+    automatic: bool = False  # the tool chooses the sizes, which are at least constant
 
     @property
     def domain(self):
@@ -80,7 +80,7 @@ class ShapeCase:
 
     @cached_property
     def distance(self):
-        """From what d grows from."""
+        """Returns the distance from the pieces that d grows from."""
         return DistanceToBoundary(self.shape.source(), self.constant)
 
     def spacing(self, points):
@@ -90,7 +90,7 @@ class ShapeCase:
         return np.minimum(self.largest, self.constant + self.slope * away)
 
     def with_nodes(self, nodes):
-        """The same with such d, that about so many nodes fit; the slope stays."""
+        """Returns the case with a d for about this number of nodes and the same slope."""
         dimension, case = self.shape.dimension, self
         away = DistanceToBoundary(self.shape.source(), self.shape.width() / 300)(self.shape.grid)
         for _ in range(20):
@@ -109,7 +109,8 @@ class ShapeCase:
         return per_cell * inner + 0.5 * boundary
 
     def even(self, nodes):
-        """With one d for about so many nodes: what a tool needs without a field of sizes."""
+        """Returns the case with a constant d for about this number of nodes, which a tool uses
+        without a field of sizes."""
         case, nowhere = self, np.zeros(1)
         for _ in range(20):
             factor = (case.expected_nodes(nowhere) / nodes) ** (1 / self.shape.dimension)
@@ -139,7 +140,8 @@ def followed(name, nodes):
 
 
 def automatic(name, nodes):
-    """No wish but for the bounds: the largest d is that of a fifth of the nodes, all alike."""
+    """Returns a case with bounds of d only. The largest d is the constant one for a fifth of the
+    nodes."""
     title, shape, _ = SHAPES[name]
     case = ShapeCase(f"auto-{name}", f"{title}, sizes by the tool itself", shape(), 1, 0, 1)
     largest = case.even(nodes / 5).constant

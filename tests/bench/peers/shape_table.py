@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of spacing from the shape, and what their columns say."""
+"""The tables of spacing from the shape and the definition of their columns."""
 from page import told
 from tables import grouped
 
@@ -7,7 +7,7 @@ HEADING = "Spacing from the shape: comparison with other tools"
 
 
 class Followed:
-    """Where d is prescribed."""
+    """The table of cases with a prescribed d."""
     TITLES = ["tool", "nodes", "CPU s", "CPU s for the sizes", "CPU s at one d", "edge over d",
               "1 % to 99 %", "by bands of d", "on the boundary", "inside", "farthest off, at"]
     SHORT = ["tool", "nodes", "CPU s", "sizes", "one d", "edge/d", "1 % to 99 %", "bands", "boundary",
@@ -24,7 +24,7 @@ class Followed:
 
 
 class Automatic:
-    """Where the sizes are the tool's own."""
+    """The table of cases with the tool's own sizes."""
     TITLES = ["tool", "nodes", "CPU s", "CPU s for the sizes", "CPU s at one d",
               "least, mean and largest size", "growth, 99 % below", "nodes per turn: 5 % below, median",
               "at", "sizes across gaps: 5 % below, median", "gaps"]

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A spacing that no formula has, for tools that read none: its values where grid lines cross,
-linear in each direction between them."""
+"""A spacing without a formula, for tools that read tables: its values at crossings of grid lines,
+with linear interpolation in each direction."""
 import bisect
 
 import numpy as np
 
 FINEST = 2         # rows across the loop, in units of the least d
-ROWS = 20          # across the loop, at least
-GROWTH = 0.1       # of the gaps between lines, over the distance from the loop
+ROWS = 20          # least number of rows across the loop
+GROWTH = 0.1       # growth of the gaps between lines per distance from the loop
 
 
 class SpacingTable:
@@ -15,7 +15,7 @@ class SpacingTable:
         self.x, self.y, self.values = x, y, values  # a column of values for each x
 
     def at(self, x, y):
-        """At many points; beyond the rim as on it."""
+        """Interpolates at many points. Values beyond the border are those at the border."""
         i, u = place(self.x, x)
         j, v = place(self.y, y)
         low = (1 - v) * self.values[i, j] + v * self.values[i, j + 1]
@@ -23,7 +23,8 @@ class SpacingTable:
         return (1 - u) * low + u * high
 
     def at_one(self):
-        """A function of x and y, for one point inside at a time, without NumPy: faster so."""
+        """Returns a function of x and y for one inner point at a time. It does not use NumPy, which
+        is slower here."""
         xs, ys, values = self.x.tolist(), self.y.tolist(), self.values.tolist()
 
         def at(x, y):
@@ -38,7 +39,8 @@ class SpacingTable:
         return at
 
     def write(self, path):
-        """Counts of lines, x of the columns, y of the rows, values column by column."""
+        """Writes the counts of lines, x of the columns, y of the rows, and the values column by
+        column."""
         with open(path, "w") as file:
             file.write(f"{len(self.x)} {len(self.y)}\n")
             for row in (self.x, self.y, *self.values):
@@ -53,18 +55,18 @@ def read_table(path):
 
 
 def place(lines, t):
-    """The gap between lines that each t is in, and its share of it."""
+    """Returns the gap between lines that contains each t, and the relative position of t in it."""
     gap = np.clip(np.searchsorted(lines, t, "right") - 1, 0, len(lines) - 2)
     return gap, np.clip((t - lines[gap]) / (lines[gap + 1] - lines[gap]), 0, 1)
 
 
 def table_of(case):
-    """Around the loop of a case: columns through all its corners, so that between them its sides
-    are straight, rows dense across it."""
+    """Returns a table around the loop of a case. Columns pass through all corners of the loop, so
+    that its sides are straight between them. Rows are dense across the loop."""
     low, high = case.domain.vertices.min(0), case.domain.vertices.max(0)
     bottom, top = case.loop[:, 1].min(), case.loop[:, 1].max()
     finest = min(FINEST * case.constant, (top - bottom) / ROWS)
-    tip = case.loop[0, 1]  # where d has its sharpest corner
+    tip = case.loop[0, 1]  # where the contours of d have their sharpest corner
     rows = tip + finest * np.arange(np.floor((bottom - tip) / finest),
                                     np.ceil((top - tip) / finest) + 1)
     x = with_lines_beyond(low[0], np.unique(case.loop[:, 0]), high[0], finest)
@@ -74,7 +76,7 @@ def table_of(case):
 
 
 def with_lines_beyond(low, lines, high, finest):
-    """Ever farther apart the farther from those there are, the last at the ends."""
+    """Adds lines on both sides with growing distances, the last ones at the ends."""
     outside = finest / GROWTH * ((1 + GROWTH) ** np.arange(1, 1000) - 1)
     below, above = lines[0] - outside, lines[-1] + outside
     return np.concatenate([[low], below[below > low][::-1], lines, above[above < high], [high]])

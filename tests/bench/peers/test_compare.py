@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""compare.py from its command line: a case of 500 nodes with ours and the peers that are here, a
-peer that fails, and a machine that has none. PNPBS_COMMAND is the command to compare."""
+"""Tests of compare.py from its command line: a case of 500 nodes with PNPBS and the installed
+peers, a peer that fails, and a machine without peers. PNPBS_COMMAND is the command to compare."""
 import importlib.util
 import json
 import os
@@ -64,7 +64,7 @@ class Compare(unittest.TestCase):
         self.assertIn("dmsh, optimesh", [t["name"] for t in results["left_out"]])
         self.assertEqual(results["forces"][0]["tool"], "PNPBS")
         self.assertTrue(5 < results["forces"][0]["listed"] < 8, results["forces"])
-        # The command on the page names no folder of this machine.
+        # The command on the page contains no folder of this machine.
         self.assertNotIn(str(self.folder), words)
         if importlib.util.find_spec("matplotlib"):
             for name in ("quality_speed", "histogram"):
@@ -79,7 +79,7 @@ class Compare(unittest.TestCase):
         self.assertEqual((again / "comparison.md").read_text(), words)
 
     def test_d_without_a_formula(self):
-        """Each tool follows d in its own way of having it."""
+        """Each tool follows d, whatever form of the spacing it uses."""
         done = compare(self.output, "--nodes", "8000", "--cases", "graded-airfoil", "--no-forces",
                        "--tools", "PNPBS,Delaunay,Triangle,unoptimised")
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
@@ -91,7 +91,7 @@ class Compare(unittest.TestCase):
             self.assertTrue(0.8 < min(m["edge_bands"]) < max(m["edge_bands"]) < 1.1, result)
 
     def test_in_space(self):
-        """Ours by all kinds of bodies, and the peers that are here in one."""
+        """PNPBS runs on all kinds of bodies, and the installed peers on one."""
         done = compare(self.output, "--volumes", "--nodes", "600", "--cases", "uniform-cube")
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
         self.judge_volumes(done.stdout)
@@ -108,7 +108,7 @@ class Compare(unittest.TestCase):
             self.assertGreater(result["measures"]["angle_least"], 10, result)
 
     def test_spacing_from_the_shape(self):
-        """By PNPBS in both kinds of cases, and by the peers that are here in one."""
+        """PNPBS runs both kinds of cases, and the installed peers one."""
         done = compare(self.output, "--shape", "--nodes", "1500", "--cases", "follow-airfoil")
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
         for result in self.results("comparison_shape")["placements"]:
@@ -148,7 +148,7 @@ class Compare(unittest.TestCase):
             self.assertIn(result["tool"], printed)
 
     def fake(self, name, text):
-        """A folder for --path with a program of that name and those lines of shell."""
+        """Creates a folder for --path with a program of this name and text."""
         folder = self.folder / "bin"
         folder.mkdir(exist_ok=True)
         (folder / name).write_text(text)
@@ -170,12 +170,12 @@ class Compare(unittest.TestCase):
         self.assertIn("| PNPBS, default | ", words)
 
     def test_a_tool_that_does_not_start_is_left_out(self):
-        """By a status, by an interpreter that is not there, by an answer that is something else's.
-        What is left runs, and nothing has failed."""
+        """A tool is broken if it returns a bad status, if its interpreter is missing, or if its
+        answer is that of another program. The other tools run, and nothing has failed."""
         fake = self.fake("lmp", "#!/bin/sh\necho 'lmp: no libfftw3.so.3' >&2\nexit 127\n")
         self.fake("gmsh", "#!/nowhere/sh\n")
         self.fake("jigsaw", "#!/bin/sh\necho 'a saw for wood'\n")
-        alone = {"PATH": str(fake)}  # or the next program of that name would be tried
+        alone = {"PATH": str(fake)}  # otherwise the next program with this name would be used
         done = compare(self.output, "--cases", "uniform-square", "--tools", "PNPBS,gmsh,JIGSAW",
                        environment=alone)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -192,7 +192,7 @@ class Compare(unittest.TestCase):
             self.assertIn(reason, why[name])
             self.assertIn(f"- {name}: {why[name]}", page)
 
-        # One of another name that answers, and one that says nothing.
+        # A program of another name answers, and one prints nothing.
         for text, reason in (("echo 'line printer'\n", "not that of LAMMPS: line printer"),
                              ("exit 0\n", "it says nothing")):
             self.fake("lmp", "#!/bin/sh\n" + text)
@@ -203,7 +203,7 @@ class Compare(unittest.TestCase):
             self.assertIn(reason, why["LAMMPS"])
 
     def test_a_version_that_is_not_supported_is_left_out(self):
-        """As Debian 12's gmsh is, whose Distance fields have no Sampling."""
+        """The gmsh of Debian 12 has Distance fields without the option Sampling."""
         fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && echo 4.8.4 && exit 0\n"
                                  "echo \"Unknown option 'Sampling'\" >&2\nexit 1\n")
         for kind, file in (([], "comparison"), (["--volumes"], "comparison_volumes"),
@@ -246,10 +246,12 @@ class Compare(unittest.TestCase):
         self.assertIn("needs the command jigsaw", done.stderr)
 
     def test_interrupt(self):
-        """Between the first run, ours, and the end of a fake one that would last very long."""
+        """The signal arrives between the first run, by PNPBS, and the end of a fake run that would
+        last very long."""
         fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && exec echo 4.13.1\n"
                                  f"touch {self.folder}/begun\nexec sleep 3000\n")
-        # In a group of its own, so that the signal reaches all of it, as from a terminal.
+        # The process group is separate, so that the signal reaches all of its processes, as from a
+        # terminal.
         running = subprocess.Popen(
             [sys.executable, "-B", PROGRAM, "--nodes", "500", "--cases", "uniform-square",
              "--tools", "PNPBS,gmsh", "--no-forces", "--output", self.output, "--path", fake,

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The evaluator, the cases and the measuring of compare.py against what is known exactly."""
+"""Tests of the evaluator, the cases and the measurement of compare.py against exact values."""
 import math
 import sys
 import tempfile
@@ -36,7 +36,7 @@ def unit_lattice(width, height):
 
 class Exact(unittest.TestCase):
     def test_hexagonal_lattice(self):
-        """A hexagon of side 12, cut along the rows: 6 * 12^2 equilateral triangles."""
+        """A hexagon of side 12, cut along the rows, has 6 * 12^2 equilateral triangles."""
         side = 12
         nodes = np.array([(i + 0.5 * j, 0.5 * math.sqrt(3) * j)
                           for i in range(-side, side + 1) for j in range(-side, side + 1)
@@ -55,7 +55,7 @@ class Exact(unittest.TestCase):
         self.assertAlmostEqual(m["angle_least"], 60, 6)
         self.assertAlmostEqual(m["cell_99_percent"], 1 / math.sqrt(3), 9)
         self.assertEqual(m["histogram"][-1], m["triangles"])
-        # All but those in the corners, where a chord is shorter than 3.
+        # Triangles in the corners, where a chord is shorter than 3, do not count.
         self.assertLess(m["wide_triangles"], m["triangles"])
         self.assertGreater(m["wide_triangles"], m["triangles"] - 6 * 9)
 
@@ -63,7 +63,7 @@ class Exact(unittest.TestCase):
         domain = cases.from_loops([rectangle(0, 0, 10, 6)])
         m = evaluate(unit_lattice(10, 6), domain, one_everywhere)
         self.assertEqual(m["triangles"], 120)
-        # Legs 1: r_in = 1 - sqrt(1/2), R = sqrt(1/2).
+        # With legs of 1 the radii are r_in = 1 - sqrt(1/2), R = sqrt(1/2).
         self.assertAlmostEqual(m["quality_mean"], 2 * math.sqrt(2) - 2, 9)
         self.assertAlmostEqual(m["quality_least"], 2 * math.sqrt(2) - 2, 9)
         self.assertAlmostEqual(m["angle_least"], 45, 9)
@@ -83,12 +83,13 @@ class Exact(unittest.TestCase):
         self.assertEqual(two["quality_mean"], one["quality_mean"])
 
     def test_bands(self):
-        """A lattice with d of one half of it: the bands tell what the mean does not."""
+        """d differs by a factor between the halves of a lattice. The bands show what the mean does
+        not."""
         nodes, domain = unit_lattice(40, 40), cases.from_loops([rectangle(0, 0, 40, 40)])
         m = evaluate(nodes, domain, lambda points: np.where(points[:, 0] < 19.5, 0.5, 2.0))
         even = evaluate(nodes, domain, one_everywhere)
         self.assertEqual(even["edge_bands"], [even["edge_mean"]])
-        # The diagonal edges that join the halves are in a band of their own.
+        # The diagonal edges that join the halves are in a separate band.
         first, *_, last = m["edge_bands"]
         self.assertAlmostEqual(first / (2 * even["edge_mean"]), 1, 2)
         self.assertAlmostEqual(last / (0.5 * even["edge_mean"]), 1, 2)
@@ -100,10 +101,11 @@ class Exact(unittest.TestCase):
         self.assertAlmostEqual(m["quality_least"], 2 * 1 / 2.5, 12)  # r_in 1, R 2.5
         self.assertAlmostEqual(m["angle_least"], math.degrees(math.asin(0.6)), 9)
         self.assertEqual(m["wide_triangles"], 0)
-        self.assertIsNone(m["cell_99_percent"])  # no inner node
+        self.assertIsNone(m["cell_99_percent"])  # there is no inner node
 
     def test_quality_and_angle_of_random_triangles(self):
-        """By Heron's formula and the cosine rule at all three corners."""
+        """The expected values come from Heron's formula and the cosine rule at all three corners.
+        """
         points = np.random.default_rng(3).random((300, 2))
         triangles = np.arange(300).reshape(-1, 3)
         quality, angle = evaluator.shape(points, triangles)
@@ -117,7 +119,7 @@ class Exact(unittest.TestCase):
             self.assertAlmostEqual(angle[t], math.degrees(min(angles)), 5)
 
     def test_hole(self):
-        """A ring of width 2 is narrow everywhere; its hole has no triangles."""
+        """A ring of width 2 is narrow everywhere. Its hole has no triangles."""
         domain = cases.from_loops([rectangle(0, 0, 8, 8), rectangle(2, 2, 6, 6)], [(4, 4)])
         nodes = unit_lattice(8, 8)
         hole = (np.abs(nodes - 4) < 2).all(1)
@@ -133,7 +135,7 @@ class Exact(unittest.TestCase):
             evaluate(np.vstack([nodes, nodes[7]]), domain, one_everywhere)
 
     def test_slanted_straight_rows_make_no_triangle(self):
-        """Rounding makes them crooked, and Qhull sees triangles in some of them."""
+        """Rounding makes straight rows crooked, and Qhull returns triangles in some of them."""
         share = np.linspace(0, 1, 38)[:-1, None]
         random = np.random.default_rng(2)
         for _ in range(20):
@@ -142,13 +144,13 @@ class Exact(unittest.TestCase):
             rows = [a + share * (b - a) for a, b in zip(corners, following)]
             nodes = np.vstack([*rows, corners.mean(0)])
             m = evaluate(nodes, cases.from_loops([corners]), one_everywhere)
-            self.assertEqual(m["triangles"], 3 * 37)  # a fan about the middle
+            self.assertEqual(m["triangles"], 3 * 37)  # a fan around the middle
             self.assertAlmostEqual(m["covered"], 1, 9)
 
 
 class Widths(unittest.TestCase):
     def test_chords_against_all_segments(self):
-        """Marching through triangles finds the chords that the domain's segments cut off."""
+        """Rays through triangles give the same chords as the domain's segments."""
         random = np.random.default_rng(1)
         domain = cases.from_loops([rectangle(0, 0, 14, 9), rectangle(4, 3, 7, 6)], [(5, 5)])
         nodes = unit_lattice(14, 9)
@@ -184,7 +186,8 @@ def shortest_chord(p, domain):
 
 class Crossing(unittest.TestCase):
     def test_thin_land(self):
-        """Nodes on both sides of a slit of width 0.1, 1 apart, staggered: they see each other."""
+        """Nodes lie on both sides of a slit of width 0.1, staggered and 1 apart. They see each
+        other across it."""
         slit = rectangle(1, 1.95, 7, 2.05)
         domain = cases.from_loops([rectangle(0, 0, 8, 4), slit], [(4, 2)])
         lattice = unit_lattice(8, 4)
@@ -239,7 +242,7 @@ class Cases(unittest.TestCase):
         for name, make in cases.CASES.items():
             self.assertAlmostEqual(make(7000).expected_nodes() / 7000, 1, 3, name)
         square = cases.make_uniform_square(10000)
-        # 2 / (sqrt(3) d^2) + 2 / d
+        # The expected number is 2 / (sqrt(3) d^2) + 2 / d.
         d = square.constant
         self.assertAlmostEqual(2 / math.sqrt(3) / d ** 2 + 2 / d, 10000, 3)
         graded = cases.make_graded_square(10000)
@@ -247,7 +250,7 @@ class Cases(unittest.TestCase):
         self.assertAlmostEqual(there[1] / there[0], 10, 3)
 
     def test_line(self):
-        """Both integrals of 1 / d and 1 / d^2 are known."""
+        """The integrals of 1 / d and 1 / d^2 are known."""
         case = cases.make_graded_line(7000)
         least, far = case.constant, case.constant + 0.1
         along_y = np.log(far / least) / 0.2 * 2
@@ -270,7 +273,8 @@ class Airfoil(unittest.TestCase):
         self.random = np.random.default_rng(7)
 
     def beside(self, count):
-        """Points of the domain beside the airfoil, as many in each octave of the distance."""
+        """Returns points of the domain beside the airfoil, with the same number in each octave of
+        the distance."""
         start = self.case.loop[self.random.integers(0, len(self.case.loop), count)]
         angle = self.random.uniform(0, 2 * math.pi, count)
         way = 10 ** self.random.uniform(-5, 0.3, count)
@@ -278,8 +282,8 @@ class Airfoil(unittest.TestCase):
         return points[self.case.domain.contains(points)]
 
     def test_domain(self):
-        """The thickness of the section is a polynomial in sqrt(x): its area is known, but for the
-        camber, which makes it longer by a thousandth."""
+        """The thickness of the section is a polynomial in sqrt(x), so that its area is known. The
+        camber enlarges it by a thousandth."""
         loop = self.case.loop
         section = 1.2 * (0.2969 / 1.5 - 0.1260 / 2 - 0.3516 / 3 + 0.2843 / 4 - 0.1036 / 5)
         self.assertAlmostEqual(loop_area(loop) / section, 1.001, 3)
@@ -293,7 +297,7 @@ class Airfoil(unittest.TestCase):
         self.assertEqual(inside.tolist(), [False, True, True, False])
 
     def test_distance(self):
-        """Against one segment after the other."""
+        """Compares the distance with the minimum over single segments."""
         loop = self.case.loop.tolist()
         points = np.vstack([self.beside(200), self.case.loop[::40], [[0.5, 0.02], [0.9, 0.003]]])
         for (x, y), found in zip(points, distance_to_loop(points, self.case.loop)):
@@ -313,7 +317,7 @@ class Airfoil(unittest.TestCase):
         self.assertEqual(there[2:].tolist(), [0.15, 0.15])
 
     def test_nodes(self):
-        """Against sums over the cells of the table, which are small where d is."""
+        """Compares with sums over the cells of the table, which are small where d is small."""
         table = table_of(self.case)
         middle = [0.5 * (lines[1:] + lines[:-1]) for lines in (table.x, table.y)]
         points = np.column_stack([a.ravel() for a in np.meshgrid(*middle, indexing="ij")])
@@ -325,8 +329,8 @@ class Airfoil(unittest.TestCase):
                                1, 6)
 
     def off(self, table):
-        """How far off d a table is: for 99 % of points that are many at both ends of the airfoil,
-        where it is worst, and at most."""
+        """Returns the relative error of a table, as the 99 % quantile and the maximum. Many points
+        lie at both ends of the airfoil, where the error is largest."""
         points = self.beside(20000)
         share = np.abs(table.at(*points.T) / self.case.spacing(points) - 1)
         return np.quantile(share, 0.99), share.max()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What spacing from the shape is judged by, on shapes whose measures are known."""
+"""Tests of the evaluation of spacing from the shape, on shapes with known measures."""
 import dataclasses
 import math
 import sys
@@ -35,7 +35,7 @@ def rectangle(width, height, step=None):
 
 
 def turned_round(shape):
-    """The same with every second segment the other way."""
+    """Returns the shape with every second segment reversed."""
     segments = shape.domain.segments.copy()
     segments[::2] = segments[::2, ::-1]
     return Shape(dataclasses.replace(shape.domain, segments=segments))
@@ -126,7 +126,8 @@ class Sizes(unittest.TestCase):
         self.assertIsNone(m["per_turn"])
 
     def test_feature_size(self):
-        """Of a circle it is the radius, of a strip half its width, but for corners."""
+        """The feature size of a circle is its radius, that of a strip half its width except near
+        corners."""
         found = with_jigsaw_shape.feature_size(circle(200, 3) + 1e-9 * np.sin(np.arange(200))[:, None])
         self.assertTrue(np.allclose(found, 3, rtol=0.01))
         x = np.arange(0, 4, 0.02)
@@ -136,7 +137,7 @@ class Sizes(unittest.TestCase):
 
 
 class Told(unittest.TestCase):
-    """What tools are told; none of them need be there."""
+    """Tests of the input of the tools, which need not be installed."""
 
     def test_words(self):
         case = CASES["follow-airfoil"](5000)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The evaluator and the cases of compare.py in space against what is known exactly."""
+"""Tests of the evaluator and the cases of compare.py in space against exact values."""
 import math
 import sys
 import tempfile
@@ -16,7 +16,7 @@ import volume_cases as cases  # noqa: E402
 from adapters import with_gmsh_volume  # noqa: E402
 from evaluate_volume import boundary_faces, evaluate, measures, restricted, shape  # noqa: E402
 
-CUBIC_QUALITY = 3 / math.sqrt(10)  # of the body-centred cubic lattice
+CUBIC_QUALITY = 3 / math.sqrt(10)  # quality of the body-centred cubic lattice
 
 
 def one_everywhere(points):
@@ -24,7 +24,7 @@ def one_everywhere(points):
 
 
 def body_centred(cells):
-    """Corners and middles of cubic cells."""
+    """Returns the corners and centres of cubic cells."""
     corners, middles = (np.stack(np.meshgrid(*[np.arange(n, dtype=float)] * 3), -1).reshape(-1, 3)
                         for n in (cells + 1, cells))
     return np.vstack([corners, middles + 0.5])
@@ -45,8 +45,8 @@ class Shapes(unittest.TestCase):
             self.assertAlmostEqual(a, math.degrees(math.acos(1 / 3)), 11)
 
     def test_sliver(self):
-        """A square whose corners go up and down in turn by h: at its sides the faces meet at an
-        angle with the cosine 1 / (1 + 4 h^2)."""
+        """The corners of a square are moved up and down in turn by h. At its sides the faces meet
+        at an angle with the cosine 1 / (1 + 4 h^2)."""
         for wanted in (0.1, 5, 15, 25):
             h = 0.5 * math.sqrt(1 / math.cos(math.radians(wanted)) - 1)
             corners = np.array([[1, 0, h], [-1, 0, h], [0, 1, -h], [0, -1, -h]])
@@ -54,7 +54,8 @@ class Shapes(unittest.TestCase):
             self.assertAlmostEqual(angle[0], wanted, 9)
             surface = 4 * math.sqrt(1 + 4 * h * h)
             self.assertAlmostEqual(quality[0], 12 * h / (surface * math.sqrt(1 + h * h)), 9)
-            # Its nodes alone make the same; it is all there is, so nothing lies open.
+            # The triangulation of the nodes alone is the same tetrahedron. It is the only one, so
+            # it is not removed as an open one.
             m = measures(corners, np.array([[0, 1, 2, 3]]), np.zeros(4, bool), np.ones(4), cube(1))
             self.assertEqual((m["below_20"], m["below_10"]), (wanted < 20, wanted < 10))
             self.assertAlmostEqual(m["covered"], 4 * h / 3, 12)
@@ -65,7 +66,8 @@ class Shapes(unittest.TestCase):
         self.assertEqual((quality[0], angle[0]), (0, 0))
 
     def test_random_tetrahedra(self):
-        """By the sphere through the corners as three planes, and by the angles between normals."""
+        """The expected values come from the sphere through the corners as the solution of three
+        plane equations, and from the angles between normals."""
         corners = np.random.default_rng(3).random((400, 3))
         tetrahedra = np.arange(400).reshape(-1, 4)
         quality, angle = shape(corners, tetrahedra)
@@ -87,7 +89,8 @@ class Shapes(unittest.TestCase):
 
 class Lattices(unittest.TestCase):
     def test_body_centred_lattice(self):
-        """Its tetrahedra, two halves of the square between each two middles side by side."""
+        """The tetrahedra of the lattice are two halves of the square between each two adjacent
+        centres."""
         cells = 4
         numbers = {tuple(p): k for k, p in enumerate(body_centred(cells).tolist())}
         tetrahedra = []
@@ -110,7 +113,8 @@ class Lattices(unittest.TestCase):
         self.assertEqual(m["histogram"][int(CUBIC_QUALITY * 50)], m["tetrahedra"])
 
     def box(self, points):
-        """A box's tetrahedra from its nodes alone; in the middle they are those of the lattice."""
+        """Returns the tetrahedra of a box from its nodes alone. In the middle they are those of the
+        lattice."""
         middle = points.mean(0)
         on_boundary = (np.abs(points - middle) > 2 - 1e-9).any(1)
         return restricted(points, on_boundary, cube(4)), on_boundary
@@ -127,7 +131,7 @@ class Lattices(unittest.TestCase):
         self.assertAlmostEqual(m["quality_mean_inside"], CUBIC_QUALITY, 9)
 
     def test_flat_ones_at_the_boundary(self):
-        """Nodes a little off their planes have flat tetrahedra between them."""
+        """Nodes slightly off their planes have flat tetrahedra between them."""
         points = body_centred(4)
         _, on_boundary = self.box(points)
         body = cube(4)
@@ -141,7 +145,7 @@ class Lattices(unittest.TestCase):
         self.assertEqual(len(boundary_faces(found)), 6 * 16 * 2)
 
     def test_exactly_on_a_sphere(self):
-        """The corners of cubes: Qhull cuts them at will, and nothing without volume is left."""
+        """Qhull divides cubes arbitrarily. No tetrahedron without volume remains."""
         points = body_centred(3)[:64]
         found = restricted(points, np.zeros(64, bool), cube(3))
         m = measures(points, found, np.zeros(64, bool), np.ones(64), cube(3))
@@ -149,7 +153,8 @@ class Lattices(unittest.TestCase):
         self.assertGreater(m["angle_least"], 30)
 
     def test_octaves(self):
-        """d of one half of a lattice is an eighth: the octaves tell what the mean does not."""
+        """d of one half of a lattice is an eighth of the other. The octaves show what the mean does
+        not."""
         points = body_centred(8)
         tetrahedra = restricted(points, np.zeros(len(points), bool), cube(8))
         d = np.where(points[:, 0] < 4.2, 0.125, 1)
@@ -196,7 +201,7 @@ class Bodies(unittest.TestCase):
 
 
 def boundary_edges(triangles):
-    """Those that are not in two triangles, once each way."""
+    """Returns the edges that do not have two triangles in opposite directions."""
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     there, back = ({tuple(e) for e in some.tolist()} for some in (edges, edges[:, ::-1]))
     return there ^ back if len(there) == len(edges) else there

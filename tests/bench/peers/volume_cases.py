@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cases in space: a body and a spacing d = constant + slope * distance from a point."""
+"""Cases in space: a body and a spacing d = constant + slope * distance from a point."""
 import dataclasses
 import math
 
 import bodies
 import numpy as np
 
-# Nodes to a volume d^3: where the mean of a body-centred cubic lattice's edges is d.
+# The nodes per volume d^3 of a body-centred cubic lattice whose mean edge is d.
 NODES_PER_CUBE = 1.575
 
 
@@ -23,7 +23,7 @@ class VolumeCase:
         return self.constant + self.slope * np.linalg.norm(points - np.array(self.centre), axis=1)
 
     def formula(self, root="sqrt", power="^2"):
-        """The spacing as text, for tools that read formulas."""
+        """Returns the spacing as text for tools that read formulas."""
         if self.slope == 0:
             return repr(self.constant)
         squares = " + ".join(f"({axis}-({c!r})){power}" for axis, c in zip("xyz", self.centre))
@@ -34,7 +34,8 @@ class VolumeCase:
                                    slope=float(factor * self.slope))
 
     def expected_nodes(self):
-        """Those of a lattice of this spacing, and half a node more per d^2 of the surface."""
+        """Returns the number of nodes of a lattice with this spacing, plus half a node per d^2 of
+        the surface."""
         return self.inner_nodes() + self.boundary_nodes()
 
     def inner_nodes(self):
@@ -45,7 +46,8 @@ class VolumeCase:
         return NODES_PER_CUBE * self.body.volume() * np.mean(self.spacing(grid) ** -3)
 
     def boundary_nodes(self):
-        """By points that are even on each triangle."""
+        """Returns half the number of nodes on the surface, with evenly distributed points on each
+        triangle for the integral of 1 / d^2."""
         share = (np.arange(40) + 0.5) / 40
         u, v = (w.ravel()[:, None] for w in np.meshgrid(np.sqrt(share), share))
         a, b, c = self.body.vertices[self.body.triangles()].transpose(1, 0, 2)
@@ -56,7 +58,7 @@ class VolumeCase:
                          for area, p, q, r in zip(areas, a, b, c))
 
     def with_nodes(self, nodes):
-        """The same with every spacing scaled, so that about so many nodes fit."""
+        """Returns the case with all spacings scaled for about this number of nodes."""
         inner, boundary, factor = self.inner_nodes(), self.boundary_nodes(), 1
         for _ in range(20):
             factor *= ((inner / factor ** 3 + boundary / factor ** 2) / nodes) ** (1 / 3)
@@ -68,14 +70,15 @@ def make_uniform_cube(nodes):
 
 
 def make_graded_cube(nodes):
-    """d grows from 1 in the middle to 5 in the corners."""
+    """Returns a case in which d grows from 1 in the middle to 5 in the corners."""
     case = VolumeCase("graded-cube", "unit cube, d graded 1:5", bodies.box(), 0.02,
                       0.02 * 4 / 0.866, (0.5, 0.5, 0.5))
     return case.with_nodes(nodes)
 
 
 def make_ball(nodes):
-    """The sphere for tools that take triangles has them of side d."""
+    """Returns a case on the ball. For tools that need triangles its surface has triangles of side
+    d."""
     case = VolumeCase("uniform-ball", "ball, uniform", bodies.ball(0.3), 0.1).with_nodes(nodes)
     return dataclasses.replace(case, body=bodies.ball(case.constant))
 

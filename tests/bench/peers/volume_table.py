@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of space, and what its columns say."""
+"""The table of cases in space and the definition of its columns."""
 from page import told
 from tables import grouped
 
@@ -30,7 +30,7 @@ def quality(m):
 
 
 def share(m, what):
-    """As a number where there are few, else in percent."""
+    """Returns a small number as it is and others in percent."""
     percent = 100 * m[what] / m["tetrahedra"]
     return grouped(m[what]) if percent < 0.01 else f"{percent:.2f} %"
 

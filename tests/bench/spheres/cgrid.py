@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A C-grid of Voronoi cells on a sphere, from points alone or from a file of MPAS, and the operators of
-TRiSK on it (Ringler, Thuburn, Klemp and Skamarock, Journal of Computational Physics 229 (2010),
-3065-3090). Shares no code with the library: the triangles are those of SciPy's convex hull."""
+"""A C-grid of Voronoi cells on a sphere, from points alone or from an MPAS file, and the operators
+of TRiSK on it (Ringler, Thuburn, Klemp and Skamarock, Journal of Computational Physics 229 (2010),
+3065-3090). It shares no code with the library: The triangles are those of SciPy's convex hull."""
 import numpy as np
 import scipy.sparse
 from scipy.spatial import ConvexHull
@@ -20,17 +20,18 @@ def dot(a, b):
 
 
 def signed_area(a, b, c):
-    """Of spherical triangles; positive if counter-clockwise from outside."""
+    """Returns the area of spherical triangles, positive if counter-clockwise seen from outside."""
     return 2 * np.arctan2(dot(a, np.cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a))
 
 
 def circumcentres(a, b, c):
-    """The normals of the planes through three points. By differences, since triangles are small."""
+    """Returns the unit normals of the planes through three points. Differences are more precise for
+    small triangles."""
     return unit(np.cross(b - a, c - a))
 
 
 def hull(points):
-    """Delaunay triangles, counter-clockwise from outside."""
+    """Returns Delaunay triangles, counter-clockwise seen from outside."""
     triangles = ConvexHull(points).simplices.astype(np.int64)
     a, b, c = points[triangles].swapaxes(0, 1)
     turned = dot(a, np.cross(b - a, c - a)) < 0
@@ -39,9 +40,9 @@ def hull(points):
 
 
 class CGrid:
-    """Points are on the unit sphere; lengths and areas are those on a sphere of the given radius.
-    The normal of an edge points from its first cell to the second, its tangent from its first vertex
-    to the second, to the left of the normal."""
+    """A C-grid. Points are on the unit sphere, and lengths and areas are those on a sphere of the
+    given radius. The normal of an edge points from its first cell to the second, its tangent from
+    its first vertex to the second, which is on the left of the normal."""
 
     ARRAYS = ("cell", "edge", "vertex", "cells_on_edge", "vertices_on_edge", "cells_on_vertex", "dc",
               "dv", "area", "triangle_area", "kites", "weights")
@@ -60,7 +61,8 @@ class CGrid:
         triangles = hull(points) if triangles is None else triangles
         corners = points[triangles]
         vertex = circumcentres(*corners.swapaxes(0, 1))
-        # Half an edge is a side of a triangle: from a corner to the next, with the triangle to the left.
+        # Half an edge is a side of a triangle, from a corner to the next, with the triangle on the
+        # left.
         begin, end = triangles.ravel(), np.roll(triangles, -1, 1).ravel()
         low, high = np.minimum(begin, end), np.maximum(begin, end)
         _, edge_of, count = np.unique(low * len(points) + high, return_inverse=True, return_counts=True)
@@ -73,7 +75,8 @@ class CGrid:
         vertices[edge_of[~forward], 0] = triangle[~forward]
         edge = unit(points[cells].sum(1))
 
-        # The kite of a corner: between the middles of the two sides there and the vertex.
+        # The kite of a corner lies between the midpoints of the two sides at the corner and the
+        # vertex.
         middle = edge[edge_of].reshape(-1, 3, 3)
         kites = np.column_stack([
             signed_area(corners[:, k], middle[:, k], vertex)
@@ -81,12 +84,12 @@ class CGrid:
         area = np.bincount(triangles.ravel(), kites.ravel(), len(points))
         dc, dv = arc(*points[cells].swapaxes(0, 1)), arc(*vertex[vertices].swapaxes(0, 1))
 
-        # A place is an edge seen from one of its cells. Counter-clockwise around the cell of a corner,
-        # the side that begins there comes before the one that ends there.
-        place = 2 * edge_of + ~forward                       # of a side, at its begin
-        other = 2 * edge_of + forward                        # at its end
+        # An index denotes an edge seen from one of its cells. Counter-clockwise around the cell of
+        # a corner, the side that begins there comes before the one that ends there.
+        place = 2 * edge_of + ~forward                       # index of a side at its begin
+        other = 2 * edge_of + forward                        # index at its end
         after = np.empty(2 * len(dc), np.int64)
-        between = np.empty(2 * len(dc))                      # share of the kite on the way
+        between = np.empty(2 * len(dc))                      # share of the kite in between
         after[place] = np.roll(other.reshape(-1, 3), 1, 1).ravel()
         between[place] = (kites / area[triangles]).ravel()
         return cls(radius, cell=points, edge=edge, vertex=vertex, cells_on_edge=cells,
@@ -96,7 +99,7 @@ class CGrid:
 
     @classmethod
     def from_file(cls, path):
-        """A grid of a whole sphere, as MPAS reads it."""
+        """Reads a grid of a whole sphere from an MPAS file."""
         import netCDF4
         with netCDF4.Dataset(path) as file:
             file.set_auto_mask(False)
@@ -118,29 +121,29 @@ class CGrid:
                        triangle_area=file["areaTriangle"][:], kites=file["kiteAreasOnVertex"][:],
                        weights=weights)
 
-    # Operators, as sparse matrices.
+    # The operators are sparse matrices.
 
     def _matrix(self, values, rows, columns, shape):
         return scipy.sparse.csr_matrix(
             (np.ravel(values), (np.ravel(rows), np.ravel(columns))), shape)
 
     def _on_edges(self, values, columns, count):
-        """Of two values of each edge."""
+        """Returns the matrix of two values of each edge."""
         rows = np.broadcast_to(np.arange(len(self.dc))[:, None], columns.shape)
         return self._matrix(np.broadcast_to(values, columns.shape), rows, columns,
                             (len(self.dc), count))
 
     def divergence(self):
-        """At cells, of what flows across edges."""
+        """Returns the divergence at cells of velocities across edges."""
         out = self._on_edges(self.dv[:, None] * [1, -1], self.cells_on_edge, len(self.area))
         return scipy.sparse.diags_array(1 / self.area) @ out.T.tocsr()
 
     def gradient(self):
-        """Across edges, of values at cells."""
+        """Returns the gradient across edges of values at cells."""
         return self._on_edges([[-1, 1]] / self.dc[:, None], self.cells_on_edge, len(self.area))
 
     def curl(self):
-        """At vertices, of velocities across edges."""
+        """Returns the curl at vertices of velocities across edges."""
         around = self._on_edges(self.dc[:, None] * [-1, 1], self.vertices_on_edge,
                                 len(self.triangle_area))
         return scipy.sparse.diags_array(1 / self.triangle_area) @ around.T.tocsr()
@@ -157,14 +160,14 @@ class CGrid:
                             (len(self.kites), len(self.area)))
 
     def kinetic_energy(self):
-        """At cells, of squares of velocities across edges."""
+        """Returns the matrix from squares of velocities across edges to kinetic energy at cells."""
         half = self._on_edges((self.dc * self.dv / 4)[:, None], self.cells_on_edge, len(self.area))
         return scipy.sparse.diags_array(1 / self.area) @ half.T.tocsr()
 
 
 def tangential_weights(after, between, dc, dv):
-    """What makes velocities along edges of those across them: around each cell, one half less the
-    shares of the kites on the way from the one edge to the other."""
+    """Returns the matrix from velocities across edges to those along edges. Around each cell a
+    weight is one half minus the shares of the kites between the two edges."""
     start = np.arange(len(after))
     outward = 1 - 2 * (start % 2)
     rows, columns, values = [], [], []
@@ -182,8 +185,8 @@ def tangential_weights(after, between, dc, dv):
 
 
 def differences(grid, other):
-    """The largest between two grids of the same cells, relative to the largest value, by array. Edges and
-    vertices are matched by their cells."""
+    """Returns the largest difference between two grids of the same cells, relative to the largest
+    value, by array. Edges and vertices are matched by their cells."""
     n = len(grid.cell)
 
     def orders(name):

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points on the unit sphere to compare with: icosahedral ones, and their Lloyd iterations."""
+"""Points on the unit sphere for comparison: icosahedral ones, and their Lloyd iterations."""
 import numpy as np
 
 from cgrid import circumcentres, dot, hull, signed_area, unit
 
 
 def icosahedron():
-    """With two of its 12 corners at the poles."""
+    """Returns an icosahedron with two of its 12 corners at the poles."""
     z = 1 / np.sqrt(5)
     ring = np.arange(5) * 2 * np.pi / 5
     points = [[0, 0, 1]]
@@ -16,7 +16,7 @@ def icosahedron():
 
 
 def bisected(levels):
-    """10 4^levels + 2 points: the middles of all sides, again and again."""
+    """Returns 10 4^levels + 2 points by repeated bisection of all sides."""
     points = icosahedron()
     triangles = hull(points)
     for _ in range(levels):
@@ -31,16 +31,17 @@ def bisected(levels):
 
 
 class Cells:
-    """The Voronoi cells, for their centroids."""
+    """The Voronoi cells of points, with which centroids are computed."""
 
     def __init__(self, points):
         self.triangles = hull(points)
         begin, end = self.triangles.ravel(), np.roll(self.triangles, -1, 1).ravel()
         order = np.lexsort((begin < end, np.maximum(begin, end), np.minimum(begin, end)))
-        right, left = order.reshape(-1, 2).T  # sides of triangles on either side of an edge
+        right, left = order.reshape(-1, 2).T  # sides of the triangles on both sides of an edge
         self.cells = np.column_stack([begin[left], end[left]])
         self.beside = np.column_stack([right // 3, left // 3])
-        self.facing = self.triangles[right // 3, (right + 2) % 3]  # the corner of the right one
+        # The opposite corner of the right triangle.
+        self.facing = self.triangles[right // 3, (right + 2) % 3]
 
     def is_delaunay(self, points):
         a, b, c = points[self.triangles].swapaxes(0, 1)
@@ -50,7 +51,8 @@ class Cells:
         return np.all(dot(a, normal) > 0) and np.all(height < 1e-14)
 
     def centroids(self, points, density):
-        """By triangles between a cell's point and its edges, each with the density at its middle."""
+        """Returns the centroids of the cells. The integrals use the triangles between a cell's
+        point and its edges, each with the density at its centre."""
         vertices = circumcentres(*points[self.triangles].swapaxes(0, 1))
         v, w = vertices[self.beside].swapaxes(0, 1)
         sums = np.zeros((len(points), 3))
@@ -68,7 +70,7 @@ def constant(x):
 
 
 def centroidal(points, rounds, density=constant):
-    """Lloyd's iteration."""
+    """Runs Lloyd's iteration."""
     cells = Cells(points)
     for _ in range(rounds):
         points = cells.centroids(points, density)

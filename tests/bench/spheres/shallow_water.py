@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The shallow-water equations in vector-invariant form by TRiSK, with fluxes of potential vorticity that
-conserve energy (Ringler et al. 2010), and a case of Williamson, Drake, Hack, Jakob and
-Swarztrauber (Journal of Computational Physics 102 (1992), 211-224). Lengths in metres, times in seconds."""
+"""The shallow-water equations in vector-invariant form by TRiSK, and a test case.
+
+The fluxes of potential vorticity conserve energy (Ringler et al. 2010). The case is from
+Williamson, Drake, Hack, Jakob and Swarztrauber (Journal of Computational Physics 102 (1992),
+211-224). Lengths are in metres, times in seconds."""
 import math
 
 import numpy as np
@@ -11,10 +13,10 @@ GRAVITY, ROTATION = 9.80616, 7.292e-5
 
 
 class ShallowWater:
-    """Depths at cells and velocities across edges."""
+    """A model with depths at cells and velocities across edges."""
 
     def __init__(self, grid, coriolis, bottom=0.0):
-        """coriolis: at vertices; bottom: at cells."""
+        """`coriolis` has values at vertices, `bottom` at cells."""
         self.grid, self.coriolis, self.bottom = grid, coriolis, bottom + np.zeros(len(grid.area))
         self.divergence, self.gradient, self.curl = grid.divergence(), grid.gradient(), grid.curl()
         self.to_edges, self.to_vertices = grid.cells_to_edges(), grid.cells_to_vertices()
@@ -29,7 +31,7 @@ class ShallowWater:
         return -(self.divergence @ flux), along - self.gradient @ head
 
     def step(self, h, u, dt):
-        """Classical Runge-Kutta of fourth order."""
+        """Makes a step of the classical Runge-Kutta scheme of fourth order."""
         sum_h, sum_u = np.zeros_like(h), np.zeros_like(u)
         at_h, at_u = h, u
         for weight, ahead in ((1, 0.5), (2, 0.5), (2, 1), (1, 0)):
@@ -47,15 +49,16 @@ class ShallowWater:
 
 
 def norms(found, exact, area):
-    """l2 and l_inf, relative (Williamson et al. 1992)."""
+    """Returns the relative l2 and l_inf errors (Williamson et al. 1992)."""
     off = found - exact
     return (math.sqrt(np.sum(area * off**2) / np.sum(area * exact**2)), abs(off).max() / abs(exact).max())
 
 
 class SteadyFlow:
-    """Their test case 2: a steady zonal flow in geostrophic balance, its axis tilted by an angle."""
+    """Test case 2 of Williamson et al.: a steady zonal flow in geostrophic balance, with its axis
+    tilted by an angle."""
 
-    SPEED, HEAD = 2 * math.pi / 12, 2.94e4  # radii a day; metres^2 / second^2
+    SPEED, HEAD = 2 * math.pi / 12, 2.94e4  # radii per day; metres^2 / second^2
 
     def __init__(self, grid, angle):
         axis = np.array([-math.sin(angle), 0, math.cos(angle)])
@@ -69,7 +72,7 @@ class SteadyFlow:
         self.wave = math.sqrt(self.HEAD) + speed
 
     def run(self, days, courant):
-        """Errors at the end, changes of mass and energy, and the time step."""
+        """Returns the errors at the end, the changes of mass and energy, and the time step."""
         grid, model = self.model.grid, self.model
         steps = math.ceil(days * DAY * self.wave / (courant * grid.dc.min()))
         dt = days * DAY / steps

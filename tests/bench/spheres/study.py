@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Grids of MPAS by the command, as a finite volume model sees them: errors of TRiSK's operators, and of a
-steady flow of shallow water, beside icosahedral grids with about as many cells.
+"""Measures MPAS grids of the command for a finite volume model.
+
+The measures are the errors of TRiSK's operators and of a steady flow of shallow water, beside
+icosahedral grids with about the same number of cells.
 
   tests/bench/spheres/study.py [--pnpbs build/release/bin/pnpbs] [--levels 4,5] [--lloyd 10,300]
-                               [--pnpbs-arguments='--set effort=best']... [--days 5] [--output FILE]
+                               [--pnpbs-arguments='--set effort=best']... [--days 5]
+                               [--output FILE]
   tests/bench/spheres/study.py --grids file --file GRID.nc...
 
 Writes tables in Markdown. Needs NumPy, SciPy and netCDF4."""
@@ -32,20 +35,21 @@ from shallow_water import SteadyFlow  # noqa: E402
 from tables import give, grouped, table_head, table_row  # noqa: E402
 
 RADIUS = 6371220.0
-# From 60 km at a point in North America to 240 km opposite: some 40 900 nodes.
+# d grows from 60 km at a point in North America to 240 km on the opposite side, which gives about
+# 40 900 nodes.
 GRADED = "60e3 + 90e3*(1 - (-0.13302*x - 0.75441*y + 0.64279*z)/6371220)"
 GRIDS = ["icosahedral", "pnpbs", "graded"]
 COURANT = 0.5
 
 
 def placed(args, spacing, nodes, more):
-    """A grid by the command, with about so many nodes."""
+    """Creates a grid with the command, with about this number of nodes."""
     command = [args.pnpbs.absolute(), "--sphere", RADIUS, "--spacing", spacing, "--nodes", nodes,
                "--format", "mpas", "--output", "grid.nc", "--quiet", *shlex.split(more)]
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True,
                               stdin=subprocess.DEVNULL, text=True, check=False)
-        if done.returncode not in (0, 3, 4):  # 3: not yet at rest, 4: misses d somewhere
+        if done.returncode not in (0, 3, 4):  # 3: not at rest, 4: d is missed somewhere
             sys.exit(f"pnpbs: status {done.returncode}: {done.stderr.strip()}")
         return CGrid.from_file(Path(folder) / "grid.nc")
 
@@ -56,7 +60,7 @@ def graded_density(x):
 
 
 def grids(args):
-    """Their names and what makes them."""
+    """Yields the names of grids and the functions that create them."""
     for level in args.levels:
         nodes = 10 * 4**level + 2
         yield from with_lloyd(args, "icosahedral", "icosahedral",
@@ -106,7 +110,7 @@ def shape_row(name, grid):
 
 
 def measured(args):
-    """Rows of the three tables."""
+    """Returns the rows of the three tables."""
     named = list(grids(args))
     progress, shapes, operators, flows = Progress(len(named)), [], [], []
     for name, make in named:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The study of grids of MPAS, small: its grids and operators by properties that are known, the command's grid
-beside one from its points, and the tables. PNPBS_COMMAND is the command."""
+"""Tests of the small study of MPAS grids: its grids and operators by known properties, the
+command's grid against one from its points, and the tables. PNPBS_COMMAND is the command."""
 import math
 import os
 import subprocess
@@ -35,8 +35,9 @@ class Grids(unittest.TestCase):
                 self.assertAlmostEqual(areas.sum() / (4 * math.pi * RADIUS**2), 1, 13)
 
     def test_weights(self):
-        """Antisymmetric in the measure of energy, and divergences of what they give are averages of the
-        divergences at cells: no others do both."""
+        """The weights are antisymmetric in the measure of energy, and the divergences of their
+        results are averages of the divergences at cells. Only these weights have both properties.
+        """
         grid = CGrid.from_points(np.random.default_rng(1).standard_normal((200, 3)), RADIUS)
         measured = (grid.weights.multiply(1 / grid.dv)).tocsr().multiply(grid.dc[:, None])
         self.assertLess(abs(measured + measured.T).max(), 1e-10)
@@ -48,7 +49,7 @@ class Grids(unittest.TestCase):
         np.testing.assert_allclose(found, wanted, atol=1e-10 * abs(wanted).max())
 
     def test_identities(self):
-        """No curl of a gradient; sums of divergences are zero."""
+        """The curl of a gradient is zero, and so is the sum of a divergence."""
         grid = CGrid.from_points(np.random.default_rng(1).standard_normal((200, 3)))
         values = np.random.default_rng(3).standard_normal(200)
         slope = grid.gradient() @ values
@@ -56,7 +57,7 @@ class Grids(unittest.TestCase):
         self.assertLess(abs(np.sum(grid.area * (grid.divergence() @ slope))), 1e-10)
 
     def test_lloyd(self):
-        """Points come to their cells' centroids, of density 1 and one that grows."""
+        """Points move to the centroids of their cells, for density 1 and for one that grows."""
         points = np.random.default_rng(1).standard_normal((100, 3))
         points /= np.linalg.norm(points, axis=1)[:, None]
         even = centroidal(points, 200)
@@ -72,7 +73,8 @@ class Operators(unittest.TestCase):
         x /= np.linalg.norm(x, axis=1)[:, None]
         way = np.cross(x, np.random.default_rng(2).standard_normal((20, 3)))
         for field in (STREAM, POTENTIAL):
-            # Along great circles; the sum of second derivatives along two of them is the Laplacian.
+            # The derivatives are along great circles. The sum of second derivatives along two
+            # perpendicular ones is the Laplacian.
             sides = way / np.linalg.norm(way, axis=1)[:, None]
             second, step = 0, 1e-3
             for side in (sides, np.cross(x, sides)):
@@ -102,7 +104,7 @@ class Flow(unittest.TestCase):
         self.assertLess(abs(gains.sum() + turns.sum()), 1e-12 * (abs(gains).sum() + abs(turns).sum()))
 
     def test_conservation(self):
-        """Mass to rounding; energy but for the error of the time steps."""
+        """Mass is conserved within rounding, and energy except for the error of the time steps."""
         grid = CGrid.from_points(bisected(3), RADIUS)
         runs = [SteadyFlow(grid, 0.7).run(1, courant) for courant in (0.5, 0.25)]
         for run in runs:

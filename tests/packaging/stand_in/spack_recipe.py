@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stands in for Spack: reads a recipe and keeps what its directives say."""
+"""A stand-in for Spack that reads a recipe and records its directives."""
 
 import contextlib
 import re
@@ -8,7 +8,7 @@ import types
 
 
 class Recipe:
-    """What a package.py has said: its class, and its directives in order."""
+    """The class of a package.py, and its directives in order."""
 
     def __init__(self, path):
         self.variants, self.versions, self.dependencies, self.conflicts = {}, {}, [], []
@@ -26,7 +26,8 @@ class Recipe:
         sys.modules.update(modules)
         try:
             names = {"__name__": "package"}
-            exec(compile(path.read_text(), str(path), "exec"), names)  # the recipe is our own
+            # The recipe is part of this repository.
+            exec(compile(path.read_text(), str(path), "exec"), names)
         finally:
             sys.modules.clear()
             sys.modules.update(before)
@@ -60,7 +61,7 @@ class Recipe:
         self.conditions.pop()
 
     def cmake_args(self, variants):
-        """What CMake is told, {option: value}, with these variants."""
+        """Returns the options passed to CMake with these variants as {option: value}."""
         package = self.package()
         package.variants = variants
         package.spec = {re.match(r"[\w-]+", spec)[0]: types.SimpleNamespace(prefix="/somewhere")
@@ -73,7 +74,7 @@ class Recipe:
 
 
 class Package:
-    """What a recipe's class calls."""
+    """Base class with the methods that a recipe's class calls."""
 
     def define(self, option, value):
         if isinstance(value, bool):

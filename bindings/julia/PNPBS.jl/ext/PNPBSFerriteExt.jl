@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Grids of Ferrite.jl. Loaded by Julia 1.9 and later when both packages are.
+# Converts meshes to grids of Ferrite.jl. Julia 1.9 and later load this when both packages are
+# loaded.
 module PNPBSFerriteExt
 
 import Ferrite
@@ -25,7 +26,8 @@ function Ferrite.Grid(mesh::PNPBS.DistributedMesh)
     return Ferrite.Grid(cells, nodes; cellsets = cellsets, facetsets = facetsets)
 end
 
-# Of its first cell, the facet that lacks the opposite corner.
+# Returns the facets as those of their first cells. The facet is the one without the opposite
+# corner.
 function facets_of_cells(mesh, cells)
     return map(axes(mesh.facets, 2)) do k
         element = Int(mesh.facet_elements[1, k])
@@ -35,7 +37,7 @@ function facets_of_cells(mesh, cells)
     end
 end
 
-# Without what has the tag 0, which is none.
+# Returns the members by tag. Tag 0 means no tag and is left out.
 function sets_by_tag(tags, members)
     sets = Dict{String,Vector{eltype(members)}}()
     for (tag, member) in zip(tags, members)

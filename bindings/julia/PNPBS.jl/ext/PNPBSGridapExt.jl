@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Discrete models of Gridap.jl. Loaded by Julia 1.9 and later when both packages are.
+# Converts meshes to discrete models of Gridap.jl. Julia 1.9 and later load this when both packages
+# are loaded.
 module PNPBSGridapExt
 
 using Gridap.Arrays: Table
@@ -42,9 +43,9 @@ end
 
 on_surfaces(mesh) = size(mesh.elements, 1) == mesh.dim
 
-# Where a vertex, edge, triangle or cell lies: on curves or surfaces with these tags, in order, in
-# regions with these tags, and on the boundary or not. An entity of Gridap is all that lies in the
-# same place.
+# The location of a vertex, edge, triangle or cell: the sorted tags of its curves or surfaces, those
+# of its regions, and whether it is on the boundary. An entity of Gridap consists of all faces with
+# the same location.
 struct Place
     tags::Vector{Int32}
     regions::Vector{Int32}
@@ -68,7 +69,7 @@ function labels_of(mesh, topology)
     return labels
 end
 
-# The entities of the faces of each dimension, and the place of each entity.
+# Returns the entities of the faces of each dimension, and the location of each entity.
 function entities_of_faces(mesh, topology)
     dim = num_cell_dims(topology)
     places = Place[Place(Int32[], Int32[], false)]
@@ -95,7 +96,7 @@ function entities_of_faces(mesh, topology)
     return entities, places
 end
 
-# The entity whose place is on this curve or surface, or in this region, as well.
+# Returns the entity whose location also includes this curve or surface, or this region.
 function entity_with!(places, entity, tag, kind)
     old = places[entity]
     with(tags) = tag in tags ? tags : sort([tags; tag])
@@ -107,13 +108,13 @@ function entity_with!(places, entity, tag, kind)
     return length(places)
 end
 
-# A face and its own faces, with their dimensions.
+# Returns a face and its own faces, with their dimensions.
 function faces_in(topology, dim, face)
     own = ((d, f) for d in 0:(dim - 1) for f in get_faces(topology, dim, d)[face])
     return Iterators.flatten((((dim, face),), own))
 end
 
-# Gridap's numbers of the mesh's facets.
+# Returns Gridap's numbers of the mesh's facets.
 function facet_numbers(mesh, topology)
     dim = num_cell_dims(topology)
     of_cells, vertices = get_faces(topology, dim, dim - 1), get_faces(topology, dim - 1, 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Loaded by Julia 1.9 and later when both packages are.
+# Passes MPI.jl to PNPBS. Julia 1.9 and later load this when both packages are loaded.
 module PNPBSMPIExt
 
 import MPI

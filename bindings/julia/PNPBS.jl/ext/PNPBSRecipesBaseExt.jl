@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Pictures by Plots.jl. Loaded by Julia 1.9 and later when PNPBS and RecipesBase are, which Plots.jl
-# brings.
+# Recipes for Plots.jl. Julia 1.9 and later load this when PNPBS and RecipesBase, which Plots.jl
+# loads, are loaded.
 module PNPBSRecipesBaseExt
 
 import PNPBS

@@ -8,7 +8,7 @@ module LibPNPBS
 
 include("library.jl")
 
-# The header's names for its types. Handles are keys of the library's, not addresses; callbacks are
+# The type names of the header. Handles are keys in the library and not addresses. Callbacks are
 # pointers made by `@cfunction` (see callbacks.jl).
 const pnpbs_status = Int32
 const pnpbs_context = Ptr{Cvoid}

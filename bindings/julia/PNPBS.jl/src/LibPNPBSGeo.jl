@@ -15,7 +15,7 @@ const pnpbs_geo_grid = Ptr{Cvoid}
 const opened = Ref{Ptr{Cvoid}}(C_NULL)
 
 function open_library()
-    LibPNPBS.symbol(:pnpbs_version)  # opens the one that it calls, first
+    LibPNPBS.symbol(:pnpbs_version)  # opens libpnpbs first, which this library calls
     name = Sys.islinux() ? "libpnpbs_geo.so.0" : "libpnpbs_geo.$(Libdl.dlext)"
     beside = joinpath(LibPNPBS.common_folder(LibPNPBS.library_path()), name)
     opened[] = try

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What a solver needs to assemble the rows of its nodes where elements lie across ranks.
+# Elements and sums with which a solver assembles the rows of its nodes if elements lie across
+# ranks.
 
 """
     incident_elements(placement) -> Matrix{Int64}

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Julia functions as the library's callbacks. A static trampoline gets the function through the
-# `user` pointer (closures in @cfunction do not exist on every processor). No exception may pass
-# through the library: the trampoline keeps it in the context and returns nonzero, and `check`
-# throws it when the call has come back.
+# Passes Julia functions to the library as callbacks. A static trampoline gets the function through
+# the `user` pointer (closures in @cfunction do not exist on every processor). No exception may pass
+# through the library. The trampoline stores it in the context and returns a nonzero value, and
+# `check` throws it after the call has returned.
 
-# Mutable, because its address is what the library holds; whoever hands it over keeps it alive.
+# It is mutable because the library holds its address. The caller that passes it must keep it alive.
 mutable struct Callback
     f::Any
     context::Any
@@ -12,8 +12,8 @@ end
 
 user_pointer(callback::Callback) = pointer_from_objref(callback)
 
-# Calls `f(callback)`, whose result is the library's, unless an exception is on its way already.
-# Here Ctrl-C acts: in Julia's code, not in the library's.
+# Calls `f(callback)` and returns its result to the library, unless an exception is already pending.
+# Ctrl-C takes effect here, in Julia's code and not in the library's.
 function guarded(f, user::Ptr{Cvoid})
     callback = unsafe_pointer_to_objref(user)::Callback
     context = callback.context
@@ -26,9 +26,9 @@ function guarded(f, user::Ptr{Cvoid})
     end
 end
 
-# The call `f()` of the library, which may take long. Ctrl-C does not end it in the middle, which
-# nothing of the library's would survive, but in the next callback: the monitor, which every
-# placement has, is called about once in a second.
+# Makes the call `f()` of the library, which may take long. Ctrl-C must not end it at an arbitrary
+# point, which would leave the library in an invalid state. It ends the call in the next callback:
+# Every placement has a monitor, which is called about once per second.
 function interruptible(f, context)
     context.thrown = nothing
     context.sigint_disabled = true
@@ -39,7 +39,7 @@ function interruptible(f, context)
     end
 end
 
-# Copies, so that a function that keeps or changes its argument does no harm.
+# The argument is copied, so that a function that keeps or changes it does no harm.
 copied(values::Ptr{Float64}, size...) = copy(unsafe_wrap(Array, values, size))
 
 function store!(out::Ptr{Float64}, values::AbstractArray{<:Real}, wanted, what)
@@ -83,13 +83,13 @@ function call_level_set(n::Int64, dim::Int32, coordinates::Ptr{Float64}, values:
     end
 end
 
-# Only `true` stops: a monitor that ends with a print returns nothing.
+# Only `true` stops the run, as a monitor that ends with a print returns nothing.
 function call_monitor(fraction::Float64, step::Int64, nodes::Int64, max_speed::Float64,
                       user::Ptr{Cvoid})
     return guarded(callback -> callback.f(fraction, step, nodes, max_speed) === true, user)
 end
 
-# Pointers are of this process, so they are made when the package is loaded.
+# Pointers are valid in one process only, so they are created when the package is loaded.
 const spacing_pointer = Ref{Ptr{Cvoid}}(C_NULL)
 const curve_pointer = Ref{Ptr{Cvoid}}(C_NULL)
 const level_set_pointer = Ref{Ptr{Cvoid}}(C_NULL)

@@ -18,7 +18,8 @@ function reinterpret_columns(::Type{T}, matrix::Matrix{S}) where {T,S}
     return reinterpret(T, vec(matrix))
 end
 
-# Nothing but numbers of one type, at any depth: an SVector is a structure that holds a tuple.
+# Returns whether a type consists of numbers of one type at any depth. An SVector, for example, is a
+# structure that holds a tuple.
 consists_of(::Type{S}, ::Type{S}) where {S} = true
 consists_of(T::Type, S::Type) =
     isbitstype(T) && fieldcount(T) > 0 && all(F -> consists_of(F, S), fieldtypes(T))

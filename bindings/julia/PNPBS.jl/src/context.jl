@@ -28,12 +28,12 @@ context on several ranks is not closed, because the others might never close the
 mutable struct Context
     handle::LibPNPBS.pnpbs_context
     on_ranks::Bool
-    # Open domains, placements, transfers and particles. They are kept here because the library
+    # The open domains, placements, transfers and particles. They are kept here because the library
     # holds pointers to their callbacks until they are closed.
     children::Vector{Any}
-    # What a callback has thrown during the call in progress, and where.
+    # The exception that a callback has thrown during the current call, and its backtrace.
     thrown::Union{CapturedException,Nothing}
-    sigint_disabled::Bool  # during a call that may take long
+    sigint_disabled::Bool  # true during a call that may take long
 
     Context(handle::LibPNPBS.pnpbs_context, on_ranks::Bool) =
         new(handle, on_ranks, [], nothing, false)
@@ -47,7 +47,7 @@ end
 
 function Context(comm::Integer; library::Union{AbstractString,Nothing} = nothing, options...)
     handle = Ref{LibPNPBS.pnpbs_context}(C_NULL)
-    # Open MPI counts the text's end as a part of it, and MPI.jl keeps it.
+    # Open MPI counts the terminating zero as a part of the text, and MPI.jl does not remove it.
     check_without_context(
         library === nothing ? LibPNPBS.pnpbs_context_create_f(comm, handle) :
         LibPNPBS.pnpbs_context_create_checked_f(comm, rstrip(library, '\0'), handle))
@@ -98,15 +98,15 @@ Base.show(io::IO, context::Context) =
     print(io, "PNPBS.Context(", isopen(context) ? context.on_ranks ? "over ranks" : "one process" :
                                 "closed", ")")
 
-# What the library is given for an object: never the handle of a closed one.
+# Returns the handle of an object for the library. Throws if the object is closed.
 function live(object)
     isopen(object) ||
         throw(PNPBSError(:error_handle, "this $(nameof(typeof(object))) has been closed"))
     return object.handle
 end
 
-# Every status of a call on a context passes here. What a callback threw comes first: the library's
-# own message could only say that a callback failed.
+# Checks the status of every call on a context. An exception of a callback takes precedence, as the
+# library's own message could only say that a callback failed.
 function check(context::Context, code)
     thrown, context.thrown = context.thrown, nothing
     thrown === nothing || throw_again(thrown)
@@ -114,8 +114,8 @@ function check(context::Context, code)
     return status_name(code)
 end
 
-# The exception as it was. Julia shows as its cause where the callback threw it: a backtrace cannot
-# be given to `throw`.
+# Throws the original exception. A backtrace cannot be passed to `throw`, so the point where the
+# callback threw is shown as its cause.
 function throw_again(thrown::CapturedException)
     try
         throw(thrown)
@@ -146,7 +146,7 @@ function set!(context::Context; options...)
     return context
 end
 
-# The three ways of the library to set an option, for either kind of handle.
+# The three functions of the library that set an option, for both kinds of handles.
 set_option(handle, key, value::Integer) = LibPNPBS.pnpbs_context_set_int64(handle, key, value)
 set_option(handle, key, value::Real) = LibPNPBS.pnpbs_context_set_double(handle, key, value)
 set_option(handle, key, value) = LibPNPBS.pnpbs_context_set(handle, key, string(value))

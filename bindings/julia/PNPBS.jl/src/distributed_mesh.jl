@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# A rank's part of a mesh in plain arrays: nothing of the library's is left to be closed.
+# A rank's part of a mesh in plain arrays. No object of the library has to be closed.
 
 """
     DistributedMesh(placement; ghost_layers = 0)
@@ -111,7 +111,7 @@ function write_mesh(placement::Placement, prefix::AbstractString; ghost_layers::
     return placement
 end
 
-# Returns body(mesh) of the library's mesh, which does not outlive that.
+# Returns body(mesh), where the mesh of the library exists during this call only.
 function with_mesh(body, placement, ghost_layers)
     context = placement.context
     handle = Ref{LibPNPBS.pnpbs_mesh}(C_NULL)

@@ -454,7 +454,7 @@ function simplify!(d, domain::Domain; tolerance::Real = 0.25, smallest::Real = 0
 end
 simplify!(d::Real, domain::Domain; options...) = simplify!(evenly(d), domain; options...)
 
-# A number as a spacing function.
+# Returns a number as a spacing function.
 evenly(d::Real) = x -> fill(Float64(d), size(x, 2))
 
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# From the library's status to Julia's symbols and exceptions.
+# Converts the library's status to symbols and exceptions.
 
 const STATUS_NAMES = Dict{Int,Symbol}(
     getfield(LibPNPBS, name) => Symbol(lowercase(string(name)[7:end]))
@@ -33,16 +33,17 @@ end
 
 string_or_empty(text::Cstring) = convert(Ptr{UInt8}, text) == C_NULL ? "" : unsafe_string(text)
 
-# The message of the last error on a context; of this thread with a null handle.
+# Returns the message of the last error on a context, or with a null handle that of this thread.
 last_error(context::Ptr{Cvoid}) = string_or_empty(LibPNPBS.pnpbs_last_error(context))
 
-# What could not be made has no context to hold the message.
+# Checks the status of a call that creates a context, which does not exist after a failure and so
+# has no message.
 function check_without_context(code)
     code < 0 && throw(PNPBSError(status_name(code), last_error(C_NULL)))
     return nothing
 end
 
-# Checked by the length here, so that the message tells what the caller knows.
+# The length is checked here, so that the message uses the caller's terms.
 function require_length(values, n, what)
     length(values) == n ||
         throw(DimensionMismatch("$what has length $(length(values)); $n expected"))
@@ -62,7 +63,7 @@ end
 
 as_point(point, dim, what) = (require_length(point, dim, what); Float64[point...])
 
-# Tags as the library takes them: nothing for its default, one for all, or one for each.
+# Converts tags for the library: nothing for its default, one for all, or one for each.
 as_tags(::Nothing, n, what) = C_NULL
 as_tags(tag::Integer, n, what) = fill(Int32(tag), n)
 function as_tags(tags::AbstractVector, n, what)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Values of a solver at nodes: a vector with an entry for each node, or an array whose last index is
-# that of the node; the others count components.
+# that of the node. The other indices count components.
 
 components_of(values::AbstractArray) = prod(size(values)[1:(end - 1)])
 places_of(values::AbstractArray) = size(values, ndims(values))
 
-# As the library reads it: without gaps.
+# Returns the values without gaps in memory, as the library reads them.
 dense(values::Array{Float64}) = values
 dense(values::AbstractArray) = Array{Float64}(values)
 
@@ -84,7 +84,7 @@ underflows; one of an infinity and 0 is NaN. Collective.
 """
 function dot_over_nodes(placement::Placement, x::AbstractArray{<:Real}, y::AbstractArray{<:Real})
     products = zeros(size(x)[1:(end - 1)])
-    # Of different shapes, no length at all: an error on all ranks.
+    # Fields of different shapes get the length -1, which is an error on all ranks.
     n = components_of(x) == components_of(y) ? min(places_of(x), places_of(y)) : -1
     check(placement, LibPNPBS.pnpbs_placement_dot(live(placement), n, components_of(x), dense(x),
                                                   dense(y), products))

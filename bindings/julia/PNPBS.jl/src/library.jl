@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Where the shared library is, and its functions by name. It is looked for when it is first needed,
-# so that an image made by precompilation never remembers a path.
+# Finds the shared library and its functions by name. The search happens when it is first needed, so
+# that a precompiled image never contains a path.
 using Libdl
 
 const PACKAGE = Base.UUID("c5532396-b5c1-415c-b7a9-3fa63870194d")
-# The interface this package is written for. While the major version is 0, a new minor one may
-# change it.
+# The version of the interface that this package is written for. While the major version is 0, a new
+# minor version may change it.
 const INTERFACE = (0, 2)
 const opened = Ref{Ptr{Cvoid}}(C_NULL)
 const opened_path = Ref("")
 
-# LocalPreferences.toml, from Julia 1.6 on.
+# Returns the path in LocalPreferences.toml, which exists from Julia 1.6 on.
 function preferred_library()
     isdefined(Base, :get_preferences) || return nothing
     return get(Base.get_preferences(PACKAGE), "library", nothing)
 end
 
-# An installed package lies in <prefix>/share/pnpbs/julia/PNPBS.jl, the library in <prefix>/lib.
+# Returns the library of an installed package, which is in <prefix>/share/pnpbs/julia/PNPBS.jl,
+# while the library is in <prefix>/lib.
 function installed_beside()
     prefix = normpath(@__DIR__, "..", "..", "..", "..", "..")
     folders = [joinpath(prefix, "lib"), joinpath(prefix, "lib64"),
@@ -26,15 +27,15 @@ function installed_beside()
     return found === nothing ? nothing : best_level(names[found], processor_flags())
 end
 
-# Where it searches for a library, glibc's loader takes the best in folders for the levels of x86-64
-# processors. It does not where it is given a path. Features by the x86-64 psABI, in the names that
-# Linux has for them; the best level first.
+# If glibc's loader searches for a library, it takes the best one in folders for the levels of
+# x86-64 processors. It does not do this if it gets a path. The features of each level are those of
+# the x86-64 psABI by the names that Linux uses. The best level is first.
 const V2_FLAGS = ["cx16", "lahf_lm", "popcnt", "pni", "sse4_1", "sse4_2", "ssse3"]
 const V3_FLAGS = [V2_FLAGS; ["abm", "avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "xsave"]]
 const V4_FLAGS = [V3_FLAGS; ["avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl"]]
 const LEVELS = ["x86-64-v4" => V4_FLAGS, "x86-64-v3" => V3_FLAGS, "x86-64-v2" => V2_FLAGS]
 
-# Of the first processor, none if the system does not tell.
+# Returns the features of the first processor, or none if the system does not report them.
 function processor_flags(cpuinfo = "/proc/cpuinfo")
     isfile(cpuinfo) || return String[]
     for line in eachline(cpuinfo)
@@ -43,13 +44,15 @@ function processor_flags(cpuinfo = "/proc/cpuinfo")
     return String[]
 end
 
-# Of the library for all processors: others of ours lie beside it.
+# Returns the folder of the library for all processors. The libraries for other levels are in
+# subfolders of it.
 function common_folder(path)
     folder = dirname(path)
     return basename(dirname(folder)) == "glibc-hwcaps" ? dirname(dirname(folder)) : folder
 end
 
-# The best library beside this one that a processor with these features can run, or this one.
+# Returns the best library in the subfolders that a processor with these features can run, or this
+# one.
 function best_level(path, flags)
     for (level, needed) in LEVELS
         other = joinpath(dirname(path), "glibc-hwcaps", level, "libpnpbs.so.0")
@@ -70,11 +73,12 @@ function library_path()
     for candidate in (get(ENV, "PNPBS_LIBRARY", nothing), preferred_library(), installed_beside())
         (candidate === nothing || isempty(candidate)) || return String(candidate)
     end
-    # By the name its users are linked with: the one without a number comes with development only.
+    # This is the name that programs are linked with. The name without a number exists only in
+    # installations for development.
     return Sys.islinux() ? "libpnpbs.so.0" : "libpnpbs"
 end
 
-# Two different interfaces must not meet: what would come of it is a crash.
+# Throws if the library has another interface than this package, which would lead to a crash.
 function require_interface(major, minor, path)
     (major, minor) == INTERFACE ||
         error("$path is PNPBS $major.$minor, but this package is for $(join(INTERFACE, '.')); ",
@@ -89,9 +93,9 @@ function require_version(library, path)
     return require_interface(major[], minor[], path)
 end
 
-# GCC's OpenMP reads how threads wait when it is loaded. By default they spin for a millisecond, and
-# where other programs keep the machine busy, a run takes many times as long. What processes of the
-# caller find in their environment stays.
+# GCC's OpenMP reads the wait policy of threads when it is loaded. By default threads spin for a
+# millisecond, so that a run takes many times as long on a busy machine. The environment that child
+# processes inherit does not change.
 function with_threads_that_sleep(work)
     any(name -> haskey(ENV, name), ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")) && return work()
     return withenv(work, "GOMP_SPINCOUNT" => "1000")

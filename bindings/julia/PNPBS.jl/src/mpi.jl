@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Contexts on communicators of MPI.jl. Nothing here needs MPI.jl to be loaded: an extension hands its
-# module over where Julia has extensions (1.9 and later); elsewhere it is looked for when needed.
+# Contexts on communicators of MPI.jl. Nothing here needs MPI.jl to be loaded. If Julia has
+# extensions (1.9 and later), one passes the module MPI. In earlier versions it is looked up when
+# needed.
 
 const MPI_PACKAGE = Base.PkgId(Base.UUID("da04e1cc-30fd-572f-bb4f-1f8673147195"), "MPI")
 
-# MPI.jl 0.20.19 and later have the conversion. For earlier ones: a C int is the Fortran handle itself
-# (MPICH). Anything else (a pointer in Open MPI, an unsigned integer in MPItrampoline) MPI converts;
-# all are passed as integers of a pointer's size are.
+# Returns the Fortran handle of a communicator. MPI.jl 0.20.19 and later have this conversion. In
+# earlier ones a C int is the Fortran handle itself (MPICH). MPI converts other values (a pointer in
+# Open MPI, an unsigned integer in MPItrampoline). All of them are passed like integers of a
+# pointer's size.
 function fortran_handle(MPI::Module, value)
     api = isdefined(MPI, :API) ? MPI.API : MPI
     isdefined(api, :MPI_Comm_c2f) && return api.MPI_Comm_c2f(value)
@@ -19,7 +21,7 @@ function converted_by_library(library, value)
     return ccall(convert_handle, Cint, (UInt,), UInt(value))
 end
 
-# Open contexts that MPI.Finalize must end, in the order in which they were made: the same one on
+# The open contexts that MPI.Finalize must end, in the order of their creation, which is the same on
 # all ranks.
 const contexts_of_mpi = Context[]
 
@@ -38,7 +40,7 @@ function close_with_mpi(MPI::Module, context)
     return nothing
 end
 
-# MPI.Comm's value means something only while MPI runs; otherwise the library says what is wrong.
+# The value of an MPI.Comm is valid only while MPI runs. Otherwise the library reports the error.
 function context_on(MPI::Module, comm; options...)
     running = MPI.Initialized() && !MPI.Finalized()
     handle = running ? fortran_handle(MPI, comm.val) : Int32(0)
@@ -47,11 +49,11 @@ function context_on(MPI::Module, comm; options...)
     return set!(context; options...)
 end
 
-# Before Julia 1.9, and where a later one has not loaded the extension. The extension's method is
-# the more specific one.
+# This method is for Julia before 1.9, and for a later one that has not loaded the extension, whose
+# method is more specific.
 Context(comm; options...) = context_on(mpi_of(comm), comm; options...)
 
-# MPI.jl, if it is loaded and `comm` is its own.
+# Returns MPI.jl if it is loaded and `comm` belongs to it.
 function mpi_of(comm)
     MPI = get(Base.loaded_modules, MPI_PACKAGE, nothing)
     MPI !== nothing && comm isa MPI.Comm || throw(ArgumentError(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Particles in plain arrays, and the library's own of them, which writes files.
+# Particles in plain arrays, and the library's object, which writes files.
 
 """
     Particles(placement, body)

@@ -15,8 +15,8 @@ mutable struct Placement
     handle::LibPNPBS.pnpbs_placement
     context::Context
     domain::Domain
-    # Kept alive: the library holds their addresses. The nodes there are remember the spacing that
-    # they were placed with, so a spacing that is replaced is needed until the next run.
+    # These are kept alive because the library holds their addresses. The current nodes refer to the
+    # spacing that they were placed with, so a replaced spacing is needed until the next run.
     spacing::Union{Callback,Nothing}
     spacings_before::Vector{Callback}
     monitor::Callback
@@ -133,7 +133,7 @@ function set_spacing!(f, placement::Placement; per_point::Bool = false)
     return keep_spacing!(placement, callback)
 end
 
-# 2 for triangles, also on a sphere.
+# Returns the dimension of the triangles or tetrahedra: 2 for triangles, also on a sphere.
 extent_of_elements(placement) = sphere_radius(placement) > 0 ? 2 : ndims(placement)
 
 function set_spacing!(placement::Placement, values::AbstractArray{<:Real}; origin, step)
@@ -149,7 +149,7 @@ function set_spacing!(placement::Placement, values::AbstractArray{<:Real}; origi
 end
 
 function set_spacing!(placement::Placement, d::AbstractVector{<:Real})
-    # A wrong length is the library's to find: it tells all ranks.
+    # The library checks the length, as it reports an error to all ranks.
     check(placement,
           LibPNPBS.pnpbs_placement_set_spacing_at_nodes(live(placement), length(d),
                                                         convert(Vector{Float64}, d)))
@@ -260,7 +260,7 @@ function set_monitor!(f, placement::Placement)
     return placement
 end
 
-# The library's monitor stays: it is where Ctrl-C acts.
+# The library keeps a monitor, because Ctrl-C takes effect in it.
 set_monitor!(placement::Placement, ::Nothing) = set_monitor!(keep_going, placement)
 
 keep_going(fraction, step, nodes, max_speed) = false
@@ -293,8 +293,8 @@ function set_nodes!(placement::Placement, coordinates::AbstractMatrix{<:Real};
     points = as_points(coordinates, ndims(placement), "coordinates")
     n = size(points, 2)
     wrong = ids !== nothing && length(ids) != n
-    # Where the ids are too many or too few on one rank, the library hears of it, and so do the
-    # other ranks, which would wait otherwise.
+    # If the number of ids is wrong on one rank, the library gets a number of -1. The other ranks,
+    # which would wait otherwise, then get an error too.
     given = ids === nothing ? C_NULL : convert(Vector{Int64}, ids)
     code = LibPNPBS.pnpbs_placement_set_nodes(live(placement), wrong ? -1 : n, points, given)
     wrong && require_length(ids, n, "ids")
@@ -303,7 +303,8 @@ function set_nodes!(placement::Placement, coordinates::AbstractMatrix{<:Real};
 end
 
 # ---------------------------------------------------------------- running -----------------------
-# What takes long, and Ctrl-C ends with an InterruptException; the placement goes on to be usable.
+# Makes a call that takes long. Ctrl-C ends it with an InterruptException, and the placement can be
+# used afterwards.
 function compute(placement::Placement, call, arguments...)
     handle = live(placement)
     return check(placement, interruptible(() -> call(handle, arguments...), placement.context))

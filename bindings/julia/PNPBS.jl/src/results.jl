@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What a placement holds, copied out. Local indices count this rank's nodes from 1, then its ghosts;
-# global ids are the library's, from 0, the same for any number of ranks.
+# Copies of the results of a placement. Local indices count this rank's nodes from 1, then its
+# ghosts. Global ids are the library's, from 0, the same for any number of ranks.
 
-# Arrays for n results: those of earlier ones, as far as they can be used again. Julia can change the
-# length of a vector, but not the size of a matrix.
+# Returns arrays for n results, which are earlier arrays where possible. Julia can change the length
+# of a vector, but not the size of a matrix.
 fitted!(values::Vector, n) = resize!(values, n)
 fitted!(values::Matrix{T}, rows, n) where {T} =
     size(values) == (rows, n) ? values : zeros(T, rows, n)
@@ -447,10 +447,10 @@ function write_files(placement::Placement, paths::AbstractVector{<:AbstractStrin
     return check(placement, code)
 end
 
-# Returns call(n, paths, formats) with what the library takes for them.
+# Returns call(n, paths, formats) with the arguments converted for the library.
 function with_file_names(call, paths, formats)
     formats === nothing || require_length(formats, length(paths), "formats")
-    # Strings of ours, kept alive while the library reads through the pointers to them.
+    # These strings are kept alive while the library reads through the pointers to them.
     own_paths = String.(paths)
     own_formats = formats === nothing ? nothing :
                   Union{String,Nothing}[f === nothing ? f : string(f) for f in formats]

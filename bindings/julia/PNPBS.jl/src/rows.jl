@@ -26,7 +26,7 @@ function Base.getindex(rows::CompressedRows, i::Int)
     return view(rows.entries, rows.offsets[i]:(rows.offsets[i + 1] - 1))
 end
 
-# From the library's 0-based offsets and indices, in place.
+# Converts the library's 0-based offsets and indices in place.
 function rows_of_indices(offsets::Vector{Int64}, indices::Vector{Int64})
     return CompressedRows(offsets .+= 1, indices .+= 1)
 end

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Shapes as geographers have them: GeoJSON, shapefiles and what else GDAL reads, projected.
+# Geographic shapes: GeoJSON, shapefiles and other formats that GDAL reads, projected.
 
 """
     Shapes(path; layer = nothing, projection = nothing, unit = nothing, tag_field = nothing)
@@ -31,7 +31,7 @@ end
 function Shapes(path::AbstractString; layer = nothing, projection = nothing, unit = nothing,
                 tag_field = nothing)
     handle = Ref{LibPNPBSGeo.pnpbs_geo_shapes}(C_NULL)
-    # What is left out is "" in C.
+    # Absent arguments are "" in C.
     check_geo(LibPNPBSGeo.pnpbs_geo_read(path, something(layer, ""), something(projection, ""),
                                          something(unit, ""), something(tag_field, ""), handle))
     return Shapes(handle[])
@@ -46,7 +46,7 @@ function Shapes(f::Function, path::AbstractString; options...)
     end
 end
 
-# That library has its own last message.
+# libpnpbs_geo has its own last message.
 function check_geo(code)
     code < 0 && throw(PNPBSError(status_name(code),
                                  string_or_empty(LibPNPBSGeo.pnpbs_geo_last_error())))
@@ -55,7 +55,7 @@ end
 
 Base.isopen(shapes::Shapes) = shapes.handle != C_NULL
 
-# What was added to domains stays there.
+# The shapes that were added to domains stay there.
 function Base.close(shapes::Shapes)
     handle = Ref(shapes.handle)
     isopen(shapes) && check_geo(LibPNPBSGeo.pnpbs_geo_destroy(handle))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the library tells about itself. All local, and without a context.
+# Information about the library. All functions are local and need no context.
 
 """
     library_version() -> VersionNumber
@@ -44,7 +44,8 @@ discard_unfinished_files() = check_without_context(LibPNPBS.pnpbs_discard_unfini
 
 row_count(count) = (n = Ref{Int32}(0); check_without_context(count(n)); 0:(n[] - 1))
 
-# A row of a table: names of columns that are strings, and the function that fills them.
+# Returns a row of a table, given the names of the columns that are strings and the function that
+# fills them.
 function text_row(columns::NTuple{N,Symbol}, fill!) where {N}
     texts = [Ref{Cstring}() for _ in columns]
     check_without_context(fill!(texts...))

@@ -24,7 +24,7 @@ returns the number of nodes where this was not possible). A value that is not fi
 mutable struct Transfer
     handle::LibPNPBS.pnpbs_transfer
     context::Context
-    shape::Dims  # of the values at one node
+    shape::Dims  # shape of the values at one node
 end
 
 function Transfer(placement::Placement, values::AbstractArray{<:Real}; order::Integer = 1)
@@ -98,7 +98,7 @@ Collective.
 function at_points(transfer::Transfer, points::AbstractMatrix{<:Real})
     n = size(points, 2)
     values = zeros(transfer.shape..., n)
-    # Of another dimension, no number of points at all: an error on all ranks.
+    # Points of another dimension get the number -1, which is an error on all ranks.
     right = size(points, 1) == ndims(transfer)
     check(transfer.context, LibPNPBS.pnpbs_transfer_at_points(live(transfer), right ? n : -1,
                                                               dense(points), values))

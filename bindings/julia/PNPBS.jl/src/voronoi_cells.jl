@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Voronoi cells in plain arrays: nothing of the library's is left to be closed.
+# Voronoi cells in plain arrays. No object of the library has to be closed.
 
 """
     VoronoiCells(placement)

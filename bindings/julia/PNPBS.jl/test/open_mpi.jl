@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The few functions of Open MPI that the tests need, by their names in the library. Programs use
-# MPI.jl instead.
+# The few functions of Open MPI that the tests need, by their names in the library. Programs should
+# use MPI.jl instead.
 module OpenMPI
 
 using Libdl
@@ -8,7 +8,7 @@ using Libdl
 const libmpi = "libmpi.so.40"
 const library = Ref{Ptr{Cvoid}}(C_NULL)
 
-# Open MPI loads modules of its own that want its symbols.
+# Open MPI loads its own modules, which need its symbols.
 __init__() = (library[] = dlopen(libmpi, RTLD_LAZY | RTLD_GLOBAL))
 
 mpi(name) = dlsym(library[], name)
@@ -52,7 +52,7 @@ function exchange(values::Vector{Int64}, rank, count)
     return received
 end
 
-# The datatype of a number, and the operation of a function.
+# Returns the datatype of a number, or the operation of a function.
 datatype(::Type{Int64}) = int64()
 datatype(::Type{Float64}) = mpi(:ompi_mpi_double)
 operation(::typeof(+)) = mpi(:ompi_mpi_op_sum)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Solve, estimate, change d, place again.
+# Tests of adaptive loops: solve, estimate the error, change d, place nodes again.
 
 mean(values) = sum(values) / length(values)
 
-# Nodes that d asks for on a triangulation: a triangle with edges d has an area of sqrt(3)/4 d^2.
+# Returns the number of triangles per unit area that d demands: A triangle with edges of length d
+# has an area of sqrt(3)/4 d^2.
 wanted_triangles(d) = 1 / (sqrt(3) / 4 * d^2)
 
 @testset "adapting" begin
@@ -13,7 +14,7 @@ wanted_triangles(d) = 1 / (sqrt(3) / 4 * d^2)
         run!(placement)
         @test size(triangles(placement), 2) ≈ wanted_triangles(0.08) rtol = 0.1
 
-        # Values at the nodes there are.
+        # The values are given at the current nodes.
         x = nodes(placement).points
         set_spacing!(placement, [0.03 + 0.05 * t for t in x[1, :]])
         run!(placement)
@@ -23,7 +24,7 @@ wanted_triangles(d) = 1 / (sqrt(3) / 4 * d^2)
         @test fails(() -> set_spacing!(placement, [0.1, 0.2]), :error_argument, "2")
         @test fails(() -> set_spacing!(placement, -placed.spacing), :error_spacing, "-0.0")
 
-        # A grid, the first index along x.
+        # The first index of a grid goes along x.
         values = [0.03 + 0.05 * i for i in 0:1, j in 0:2]
         set_spacing!(placement, values; origin = (0, 0), step = (1, 0.5))
         run!(placement)
@@ -33,7 +34,7 @@ wanted_triangles(d) = 1 / (sqrt(3) / 4 * d^2)
                     :error_argument, "step")
         @test_throws DimensionMismatch set_spacing!(placement, values; origin = (0, 0), step = 1)
 
-        # Functions, one after the other; those before may be collected.
+        # Functions are replaced in turn, and the garbage collector may free the previous ones.
         for k in 1:3
             set_spacing!(x -> fill(0.05 + 0.02k, size(x, 2)), placement)
             GC.gc()

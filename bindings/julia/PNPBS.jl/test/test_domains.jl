@@ -2,7 +2,8 @@
 
 @testset "domains" begin
     Context() do context
-        # A plate with a round hole, an elliptic hole by a callback, and an inner line.
+        # The domain is a plate with a round hole, an elliptic hole by a callback, and an inner
+        # line.
         plate = Domain(context)
         add_polyline!(plate, [0 4 4 0; 0 0 2 2]; tags = [1, 2, 3, 4])
         add_arc!(plate, (1, 1), 0.5; tag = 5)
@@ -31,13 +32,14 @@
     end
 end
 
-# Where a curve begins, which its shape alone does not tell; arguments that no other one equals.
+# The begin of a curve is tested, which its shape alone does not determine. All arguments have
+# different values.
 @testset "open curves" begin
     Context() do context
         domain = add_polyline!(Domain(context), [0 2 2 0; 0 0 1 1])
         add_arc!(domain, (1, 0.25), 0.5; from = pi / 4, to = 3pi / 4, role = :inner, tag = 2)
         add_curve!(t -> [1.5cos.(t) 0.75sin.(t)]', domain, 0.1, 0.7; role = :inner, tag = 3)
-        # An angle of the user's decides what is a corner, and so a node of its own.
+        # The user's angle decides which vertices are corners, and therefore nodes.
         add_polyline!(domain, [0.1 0.15 0.2; 0.5 0.51 0.5]; role = :inner, closed = false,
                       tags = [4, 5], corner_angle = 20.0)
         segments, tags = outline(domain)
@@ -48,7 +50,7 @@ end
     end
 end
 
-# More vertices than segments, and tags of each that the other has not.
+# There are more vertices than segments, and each has tags that the other one does not have.
 @testset "tags of graphs" begin
     Context() do context
         graph = add_pslg!(Domain(context), [0 2 2 0 1; 0 0 1 1 0.5], [1 2 3 4; 2 3 4 1];
@@ -61,7 +63,7 @@ end
 
 @testset "graphs finer than d" begin
     Context() do context
-        # A circle of 400 segments, and one of four within it.
+        # The domain is a circle of 400 segments with one of four segments inside.
         turn = 2pi .* (0:399) ./ 400
         xy = hcat([cos.(turn) sin.(turn)]', [0.1 0 -0.1 0; 0 0.1 0 -0.1])
         ends = [1:404 [2:400; 1; 402:404; 401]]'
@@ -104,10 +106,10 @@ end
         @test measure(inset) ≈ (1 - 2 * 0.042)^2 rtol = 0 atol = 1e-9
         @test Set(outline(inset).tags) == Set(7)
         @test measure(offset(-Inf, -0.042)) ≈ measure(inset) rtol = 0 atol = 1e-9
-        # More points on the way round the outer corners.
+        # A finer resolution has more points on the arcs at outer corners.
         finer(resolution) = length(outline(offset(0.1, 0, 0.42; resolution = resolution)).tags)
         @test finer(0.01) > 2 * finer(0.05)
-        # Between four straight lines.
+        # The area lies between four straight lines.
         left, right = 0.042 / 0.979, 0.958 / 1.021
         area = 0.916(right - left) - 0.021(right^2 - left^2)
         graded_inset = offset(x -> 0.1 .+ 0.05 .* x[1, :], -Inf, -0.42)
@@ -126,7 +128,7 @@ end
 
 @testset "graphs and .poly" begin
     Context() do context
-        # A square with a square hole; the graph's indices count from 1.
+        # The domain is a square with a square hole. The graph's indices count from 1.
         xy = [0 3 3 0 1 2 2 1; 0 0 3 3 1 1 2 2]
         ends = [1 2 3 4 5 6 7 8; 2 3 4 1 6 7 8 5]
         graph = add_pslg!(Domain(context), xy, ends; holes = reshape([1.5, 1.5], 2, 1),
@@ -143,7 +145,7 @@ end
         @test fails(() -> read_poly!(Domain(context), "/none.poly"), :error_file, "/none.poly")
         @test fails(() -> parse_poly!(Domain(context), "4 2 x"; name = "mine"), :error_file, "mine")
 
-        # A region between a boundary and an inner curve, taken out by a point.
+        # A point removes the region between a boundary and an inner curve.
         ring = add_polyline!(Domain(context), [0 3 3 0; 0 0 3 3])
         add_polyline!(ring, [1 2 2 1; 1 1 2 2]; role = :inner)
         add_hole!(ring, [1.5, 1.5])

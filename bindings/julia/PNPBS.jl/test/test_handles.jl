@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Closing, in every order, and using what is closed.
+# Tests of closing in every order, and of the use of closed objects.
 
 @testset "closing" begin
     context = Context()
@@ -62,7 +62,8 @@ end
     end
 end
 
-# MPI.jl from 0.20.19 on, which has the conversion, and one for MPICH, whose handles are Fortran's.
+# One stand-in is like MPI.jl from 0.20.19 on, which has the conversion. The other one is for MPICH,
+# whose handles equal Fortran's.
 module Converting
 module API
 const libmpi = "/none"
@@ -80,7 +81,7 @@ end
     @test PNPBS.fortran_handle(Earlier, Cint(41)) === Cint(41)
     @test_throws ErrorException PNPBS.fortran_handle(Earlier, C_NULL)
     @test_throws ArgumentError Context("world")
-    # MPI has not been started in this process, or the library has none.
+    # MPI has not been started in this process, or the library was built without MPI.
     e = thrown(() -> Context(0))
     @test e isa PNPBSError && e.status in (:error_mpi, :error_unsupported) && !isempty(e.message)
 end

@@ -1,3 +1,3 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One file for each tool. Each has a function tools() that lists its Tool objects, one for each
-setting compared."""
+"""Adapters of the compared tools, one file for each. Each file has a function tools() that lists
+its Tool objects, one for each setting compared."""

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of a spacing on an even grid: an ESRI ASCII grid knows no other."""
+"""Writes a table of a spacing on an even grid, as an ESRI ASCII grid has even steps."""
 import math
 
 import numpy as np
 from measure import Failed
 from spacing_table import table_of
 
-# Steps in x and y in units of the least d, an eighth of the radius of the airfoil's nose at most.
+# The steps in x and y in units of the least d, which is at most an eighth of the radius of the
+# airfoil's nose.
 STEPS, MOST_STEP = (12, 6), 0.002
 MOST_VALUES = 3e7
 
@@ -27,6 +28,7 @@ def write_grid(case, path):
 
 
 def even_lines(low, high, step, through):
-    """From low or before to high or beyond, one of them through the loop's sharpest corner."""
+    """Returns coordinates from below `low` to above `high`. One of them passes through the loop's
+    sharpest corner."""
     return through + step * np.arange(math.floor((low - through) / step),
                                       math.ceil((high - through) / step) + 1)

@@ -18,7 +18,7 @@ def geometry(job):
 
 
 def points_of_spacing(job):
-    """The middles of cubes, cut until they are at most 2 d wide."""
+    """Returns the centres of cubes that are divided until they are at most 2 d wide."""
     low, high = job.vertices.min(0), job.vertices.max(0)
     middles, width, found = 0.5 * (low + high)[None, :], (high - low).max(), []
     cut = np.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)]) / 4

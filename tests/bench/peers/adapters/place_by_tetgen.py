@@ -7,7 +7,7 @@ from meshpy import tet
 from place_in_space import Job
 
 
-DONE = 1e-3  # the share of too large ones that may be left: what is cut leaves others, on and on
+DONE = 1e-3  # share of too large tetrahedra that may remain, as each division creates others
 
 
 def largest_volume(job, points):
@@ -30,7 +30,8 @@ def place(job):
         wanted = largest_volume(job, corners.mean(1))
         if (volume > wanted).mean() <= DONE:
             return mesh
-        # d at the centroid says little about a large tetrahedron: each pass takes an eighth.
+        # d at the centroid says little about a large tetrahedron, so each pass reduces the volume
+        # by a factor of at most eight.
         mesh.element_volumes.setup()
         for k, bound in enumerate(np.maximum(wanted, 0.125 * volume).tolist()):
             mesh.element_volumes[k] = bound

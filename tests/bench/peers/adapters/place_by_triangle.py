@@ -22,7 +22,8 @@ def place(job):
         wanted = job.largest_area(*corners.mean(1).T)
         if (area <= wanted).all():
             return mesh
-        # d at the centroid says little about a large triangle: each pass takes a quarter.
+        # d at the centroid says little about a large triangle, so each pass reduces the area by a
+        # factor of at most four.
         mesh["triangle_max_area"] = np.maximum(wanted, 0.25 * area)
         mesh = triangle.triangulate(mesh, f"rp{angle}a")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the scripts that run a Python package as a tool have in common: arguments and files."""
+"""Common parts of the scripts that run a Python package as a tool: arguments and files."""
 import dataclasses
 import math
 import sys
@@ -24,14 +24,15 @@ class Formula:
         return self.constant + self.slope * np.hypot(self.x_counts * (x - self.x0), y - self.y0)
 
     def at_one(self):
-        """A function of x and y, for one point at a time, without NumPy: faster so."""
+        """Returns a function of x and y for one point at a time. It does not use NumPy, which is
+        slower here."""
         return lambda x, y: self.constant + self.slope * math.hypot(
             self.x_counts * (x - self.x0), y - self.y0)
 
 
 class Job:
-    """IN.poly OUT.node SPACING... AREA_BOUND LEAST_ANGLE, where SPACING is CONSTANT SLOPE X0 Y0
-    X_COUNTS or the file of a table"""
+    """The arguments IN.poly OUT.node SPACING... AREA_BOUND LEAST_ANGLE, where SPACING is CONSTANT
+    SLOPE X0 Y0 X_COUNTS or the file of a table."""
 
     def __init__(self):
         poly, self.output, *spacing, bound, angle = sys.argv[1:]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the scripts that run a Python package in space have in common: JOB.npz OUT.npz, where the job
-has the body and the spacing as write_job() puts them there."""
+"""Common parts of the scripts that run a Python package in space. Their arguments are JOB.npz
+OUT.npz, and write_job() writes the body and the spacing of the job."""
 import json
 import sys
 import time
@@ -36,7 +36,7 @@ class Job:
         self.started = time.perf_counter()
 
     def finish(self, points, tetrahedra):
-        """What was begun is done; the time of writing does not count."""
+        """Ends the measured time and writes the result. The time of writing does not count."""
         seconds = time.perf_counter() - self.started
         np.savez(sys.argv[2], points=np.asarray(points), tetrahedra=np.asarray(tetrahedra))
         print(f"seconds {seconds:.6f}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What compare.py asks of a tool that places nodes, and what they have in common."""
+"""The interface between compare.py and a tool that places nodes, and common parts of the tools."""
 import dataclasses
 import importlib.util
 import re
@@ -19,7 +19,7 @@ BUILD = Path(__file__).resolve().parents[4] / "build"
 class Outcome:
     points: np.ndarray       # (n, 2)
     seconds: float           # wall time of the process, start and files included
-    inner_seconds: float     # as the tool tells it, without start and files; None if it does not
+    inner_seconds: float     # reported by the tool, without start and files, or None
     peak_bytes: int
     more: dict = dataclasses.field(default_factory=dict)
 
@@ -29,48 +29,49 @@ class VolumeOutcome:
     points: np.ndarray       # (n, 3)
     tetrahedra: np.ndarray   # (m, 4)
     used: Measured           # of the process, start and files included
-    inner_seconds: float     # as the tool tells it, without start and files; None if it does not
+    inner_seconds: float     # reported by the tool, without start and files, or None
 
 
 @dataclasses.dataclass
 class ShapeOutcome:
     points: np.ndarray       # (n, 2 or 3)
-    used: list               # Measured of its processes, one after the other, start and files included
-    field_seconds: float     # CPU seconds for the sizes alone; None if a tool has no such step
-    even_points: int         # nodes that it placed with one d everywhere
+    used: list               # Measured of its successive processes, start and files included
+    field_seconds: float     # CPU seconds of the sizes alone; None if a tool has no such step
+    even_points: int         # number of nodes placed with a constant d
     even_seconds: float      # CPU seconds for those, start and files included
 
 
 class DoesNotStart(Exception):
-    """A tool that is there cannot be used; the text says why."""
+    """An installed tool cannot be used; the text says why."""
 
 
 class NotSupported(Exception):
-    """A tool is of a version that cannot do what is compared; the text says which, and what is needed."""
+    """The version of a tool lacks what is compared; the text says which version it is and which is
+    needed."""
 
 
 class Tool:
-    name = ""      # as the table has it, with the setting
-    setting = ""   # one line on what it was told to do
-    needs = ""     # what would make it available
+    name = ""      # name in the table, with the setting
+    setting = ""   # one line that describes the setting
+    needs = ""     # what the user must install
 
     def available(self):
         raise NotImplementedError
 
     def version(self):
-        """Asked of the tool itself, so that one that is there but broken or too old is found out
-        before the first case. Raises DoesNotStart, NotSupported."""
+        """Returns the version that the tool itself reports, so that a broken or too old tool is
+        detected before the first case. Raises DoesNotStart, NotSupported."""
         raise NotImplementedError
 
     def run(self, case, folder, time_limit):
-        """Places the nodes of a case, with files in a folder. Outcome, in space VolumeOutcome; raises
-        measure.Failed."""
+        """Places the nodes of a case, with files in a folder. Returns an Outcome, in space a
+        VolumeOutcome. Raises measure.Failed."""
         raise NotImplementedError
 
 
 class ByShape:
-    """A tool of cases that are a shape: it has place(case, folder, time_limit), which returns
-    points, a list of Measured, and the CPU seconds for the sizes alone or None."""
+    """A tool of cases that are a shape. Its method place(case, folder, time_limit) returns points,
+    a list of Measured, and the CPU seconds for the sizes alone or None."""
 
     def run(self, case, folder, time_limit):
         points, used, field_seconds = self.place_in(folder / "sizes", case, time_limit)
@@ -88,7 +89,7 @@ def command(name):
 
 
 def built(name):
-    """A program of ours in one of the build folders, or None."""
+    """Returns the path of a PNPBS program in one of the build folders, or None."""
     for build in ("release", "main", "debug"):
         for path in (BUILD / build / name, BUILD / build / "bin" / name,
                      BUILD / build / "tests" / "bench" / name):
@@ -111,8 +112,8 @@ def version_of_package(name):
 
 
 def answer_of(*command, any_status=False, time_limit=60):
-    """What a command prints that is asked for its version. Raises DoesNotStart, also where it ends
-    with another status than 0, unless any will do."""
+    """Returns the output of a command that prints its version. Raises DoesNotStart, also if its
+    exit status is not 0, unless any status is accepted."""
     try:
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True,
                               errors="replace", stdin=subprocess.DEVNULL, timeout=time_limit,
@@ -128,7 +129,7 @@ def answer_of(*command, any_status=False, time_limit=60):
 
 
 def require_version(version, least, why):
-    """Raises NotSupported where the numbers that a version begins with are below those of another."""
+    """Raises NotSupported if the leading numbers of a version are below those of another."""
     def numbers(text):
         return [int(part) for part in re.match(r"[\d.]*", text)[0].split(".") if part]
 
@@ -145,12 +146,12 @@ def require_import(package):
 
 
 def python(script, *arguments):
-    """Command for a script beside the adapters, in the Python that runs compare.py."""
+    """Returns the command for a script in this folder, with the Python that runs compare.py."""
     return [sys.executable, "-B", Path(__file__).with_name(script), *arguments]
 
 
 def words_of_spacing(case, folder):
-    """What scripts and programs of ours take for d: numbers, or the name of a table."""
+    """Returns d in the form that our scripts and programs read: numbers, or the name of a table."""
     if case.has_formula:
         return [repr(value)
                 for value in (case.constant, case.slope, case.x0, case.y0, case.x_counts)]
@@ -159,7 +160,7 @@ def words_of_spacing(case, folder):
 
 
 def told_seconds(text):
-    """The value of the line "seconds 1.23"."""
+    """Returns the value of the line "seconds 1.23"."""
     for line in text.splitlines():
         if line.startswith("seconds "):
             return float(line.split()[1])
@@ -167,13 +168,13 @@ def told_seconds(text):
 
 
 def read_node(path, dimension=2):
-    """Triangle's .node file, or TetGen's."""
+    """Reads a .node file of Triangle or TetGen."""
     with open(path) as file:
         count = int(file.readline().split()[0])
         return np.loadtxt(file, usecols=range(1, dimension + 1), max_rows=count, ndmin=2)
 
 
 def read_npz(path):
-    """Points and tetrahedra, as scripts of ours write them."""
+    """Reads points and tetrahedra that our scripts have written."""
     with np.load(path) as found:
         return found["points"], found["tetrahedra"]

@@ -3,7 +3,7 @@
 from adapters import tool
 from measure import measure
 
-# Longest edge over d for which the mesher's mean edge is about d.
+# The longest edge over d for which the mesher's mean edge is about d.
 EDGE_BOUND = 1.45
 
 

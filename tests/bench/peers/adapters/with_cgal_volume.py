@@ -4,8 +4,9 @@ import numpy as np
 from adapters import tool
 from measure import measure
 
-# Over d: longest piece of a feature edge, largest circumradii of triangles and tetrahedra for which about
-# the wanted number of nodes comes out, distance of triangles from the surface.
+# In units of d: the longest piece of a feature edge and the largest circumradii of triangles and
+# tetrahedra for which about the wanted number of nodes results, and the distance of triangles from
+# the surface.
 EDGE, FACET, CELL, DISTANCE = 1, 0.85, 0.95, 0.1
 FEATURE_ANGLE = 40  # degrees
 

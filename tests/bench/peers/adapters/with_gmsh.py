@@ -10,16 +10,16 @@ from measure import Failed, measure
 
 AS_COMMAND = "import gmsh, sys; gmsh.initialize(sys.argv, run=True); gmsh.finalize()"
 
-# On the loop that d grows from, d is too large by this share at most: gmsh takes distances from
+# The largest relative error of d on the loop that d grows from, as gmsh computes distances to
 # points on it.
 TOO_LARGE = 0.02
 
-# The first release whose fields Distance have all that the cases set.
+# The first release whose Distance fields have all options that the cases set.
 LEAST_VERSION = "4.9"
 
 
 def outline(domain):
-    """The domain in gmsh's language, and the first line of each loop."""
+    """Returns the domain in gmsh's language, and the first line of each loop."""
     lines, first_of_loop = [], []
     for i, (x, y) in enumerate(domain.vertices.tolist(), 1):
         lines.append(f"Point({i}) = {{{x!r}, {y!r}, 0}};")
@@ -36,7 +36,7 @@ def outline(domain):
 
 
 def geometry(case):
-    """The domain and its spacing in gmsh's language."""
+    """Returns the domain and its spacing in gmsh's language."""
     lines, first_of_loop = outline(case.domain)
     lines += ["Mesh.MeshSizeExtendFromBoundary = 0;", "Mesh.MeshSizeFromPoints = 0;"]
     if case.slope == 0:
@@ -50,7 +50,8 @@ def geometry(case):
 
 
 def field_from_loop(case, curves):
-    """d grows from the curves of the domain's only hole, the loop of the case."""
+    """Returns a field in which d grows from the curves of the domain's only hole, the loop of the
+    case."""
     longest = np.hypot(*(case.loop - np.roll(case.loop, 1, 0)).T).max()
     points = math.ceil(0.5 * case.slope * longest / (TOO_LARGE * case.constant)) + 1
     way = (case.largest - case.constant) / case.slope
@@ -63,7 +64,8 @@ def field_from_loop(case, curves):
 
 
 def read_nodes(file, dimension):
-    """Number and coordinates of each node in a file of format 2.2; elements come next in it."""
+    """Returns number and coordinates of each node in a file of format 2.2. The elements are next in
+    the file."""
     for line in file:
         if line.startswith("$Nodes"):
             break
@@ -72,7 +74,7 @@ def read_nodes(file, dimension):
 
 
 def read_msh(path):
-    """The nodes of the triangles in a file of format 2.2."""
+    """Returns the nodes of the triangles in a file of format 2.2."""
     with open(path) as file:
         nodes = read_nodes(file, 2)
         used = set()
@@ -104,13 +106,15 @@ class GmshCommand(tool.Tool):
         return version
 
     def mesh(self, text, folder, time_limit, words=None):
-        """What it used, and the seconds that it tells, from a file in gmsh's language."""
+        """Runs gmsh on a text in its language. Returns the measured resources and the seconds that
+        it reports."""
         (folder / "case.geo").write_text(text)
         used = measure([*self.command(), "case.geo", *(words or self.setting).split(), "-nt", 1, "-format",
                         "msh22", "-o", "nodes.msh"], folder, time_limit)
         if not (folder / "nodes.msh").exists():
             raise Failed("wrote no file")
-        # "Done meshing 2D (Wall 0.1s, CPU 0.1s)", and the other dimensions; then "Done optimizing".
+        # gmsh prints "Done meshing 2D (Wall 0.1s, CPU 0.1s)", the same for other dimensions, and
+        # then "Done optimizing".
         told = re.findall(r"Done (?:meshing \dD|optimizing mesh) \(Wall ([\d.e+-]+)s", used.stdout)
         return used, sum(map(float, told)) if told else None
 
@@ -122,7 +126,7 @@ class Gmsh(GmshCommand):
 
 
 def tools():
-    # A smoothing step is gmsh's default.
+    # One smoothing step is gmsh's default.
     return [Gmsh(name, f"-2 -algo {algorithm} -smooth {smoothing}")
             for name, algorithm, smoothing in (("frontal", "front2d", 1),
                                                ("frontal, 10 smoothings", "front2d", 10),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gmsh with sizes from the shape: the fields Distance and Threshold, or what it makes of curvature and
-of the sizes on the boundary. Surfaces come as triangles, sorted by their angles and meshed anew."""
+"""gmsh with sizes from the shape: the fields Distance and Threshold, or its own sizes from the
+curvature and from the boundary. Surfaces are given as triangles, classified by their angles and
+meshed again."""
 import math
 import re
 
@@ -12,7 +13,8 @@ from adapters.with_gmsh_volume import read_msh as read_msh_in_space
 from measure import Failed
 from shape_cases import PER_TURN
 
-FEWEST_SAMPLES = 100  # of a surface that d grows from, along each side of its bounding box
+# Least number of samples of a surface that d grows from, along each side of its bounding box.
+FEWEST_SAMPLES = 100
 
 
 def geometry(case, size):
@@ -39,7 +41,8 @@ def geometry(case, size):
 
 
 def field(case, size, sources):
-    """Distances are those from samples: d is too large by a share of TOO_LARGE at most on curves."""
+    """Returns fields of the distance to samples. On curves the relative error of d is at most
+    TOO_LARGE."""
     if case.shape.dimension == 2:
         longest = np.linalg.norm(np.diff(case.shape.source(), axis=1)[:, 0], axis=1).max()
         samples = math.ceil(0.5 * case.slope * longest / (TOO_LARGE * case.constant)) + 1
@@ -53,8 +56,9 @@ def field(case, size, sources):
 
 
 def with_spline(domain, first, last):
-    """The loop of those segments as a smooth curve through its corners, of which gmsh knows the
-    curvature; of straight lines it knows none. It begins with its only sharp corner."""
+    """Returns the loop of these segments as a smooth curve through its corners. gmsh computes the
+    curvature of such a curve, but not of straight lines. The curve begins at its only sharp corner.
+    """
     lines, _ = outline(domain)
     kept = [line for line in lines
             if not line.startswith(tuple(f"Line({k + 1})" for k in range(first, last)))

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gmsh in space: simple bodies by its own shapes, others by their triangles, which it sorts into
-surfaces by their angles and meshes anew."""
+"""gmsh in space. Simple bodies use its own shapes. Others are given by their triangles, which gmsh
+classifies into surfaces by their angles and meshes again."""
 import math
 
 import numpy as np
 from adapters import tool
 from adapters.with_gmsh import GmshCommand, read_nodes
 
-# Size over d for which about the wanted number of nodes comes out.
+# The size over d for which about the wanted number of nodes results.
 SIZE = {"del3d": 0.79, "hxt": 0.76}
 
 
@@ -27,7 +27,7 @@ def geometry(case, size):
 
 
 def prism(body):
-    """Its outline is the first half of its vertices."""
+    """Returns the prism in gmsh's language. The first half of its vertices is the outline."""
     outline = body.vertices[:len(body.vertices) // 2, :2].tolist()
     count = len(outline)
     lines = [f"Point({k}) = {{{x!r}, {y!r}, 0}};" for k, (x, y) in enumerate(outline, 1)]
@@ -42,7 +42,7 @@ def from_triangles():
 
 
 def read_msh(path):
-    """Points and tetrahedra of a file of format 2.2."""
+    """Reads points and tetrahedra from a file of format 2.2."""
     with open(path) as file:
         nodes = read_nodes(file, 3)
         rows = [words[-4:] for words in map(str.split, file) if len(words) > 7 and words[1] == "4"]

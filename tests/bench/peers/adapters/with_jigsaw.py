@@ -9,8 +9,8 @@ from adapters import tool
 from measure import measure
 from spacing_table import SpacingTable, table_of
 
-# Points a side, between which JIGSAW takes the spacing to be linear: one row lies in the middle,
-# where spacings of squares have their tip.
+# Points per side of the grid. JIGSAW interpolates the spacing linearly between them. One row lies
+# in the middle, where spacings of squares have their minimum.
 GRID = 401
 
 
@@ -28,7 +28,7 @@ def spacing_grid(case):
     for axis, values in enumerate((table.x, table.y), 1):
         lines.append(f"coord={axis};{len(values)}")
         lines += [repr(v) for v in values.tolist()]
-    # All heights of the first column, then the next one.
+    # The values are in columns: all heights of the first column, then the next one.
     lines.append(f"value={table.values.size};1")
     lines += [repr(v) for v in table.values.ravel().tolist()]
     return "\n".join(lines) + "\n"
@@ -42,7 +42,7 @@ def even_table(case):
 
 
 def read_points(path):
-    """Of the triangles only."""
+    """Returns the nodes of the triangles only."""
     text = path.read_text()
     points = block(text, "point")[:, :2]
     triangles = block(text, "tria3")[:, :3].astype(int)
@@ -68,7 +68,7 @@ class Jigsaw(tool.Tool):
         return bool(tool.command("jigsaw"))
 
     def version(self):
-        # Told by a run only, before it looks for the files.
+        # JIGSAW prints its version only in a run, before it reads the files.
         with tempfile.TemporaryDirectory() as folder:
             (Path(folder) / "none.jig").write_text("GEOM_FILE = none\nMESH_FILE = none\n"
                                                    "VERBOSITY = 1\n")
@@ -79,7 +79,7 @@ class Jigsaw(tool.Tool):
         return told[1] if told else "unknown version"
 
     def mesh(self, case, dimension, geometry, spacing_grid, folder, time_limit):
-        """What it used; the mesh is in nodes.msh."""
+        """Runs JIGSAW and returns the measured resources. The mesh is in nodes.msh."""
         (folder / "domain.msh").write_text(geometry)
         settings = {"GEOM_FILE": "domain.msh", "MESH_FILE": "nodes.msh", "MESH_DIMS": dimension,
                     "GEOM_FEAT": "TRUE", "MESH_TOP1": "TRUE", "HFUN_SCAL": "ABSOLUTE",
@@ -90,7 +90,8 @@ class Jigsaw(tool.Tool):
         else:
             (folder / "spacing.msh").write_text(spacing_grid(case))
             settings["HFUN_FILE"] = "spacing.msh"
-            settings["HFUN_HMAX"] = repr(float(1e6 * case.constant))  # the file's alone
+            # Only the file's values apply.
+            settings["HFUN_HMAX"] = repr(float(1e6 * case.constant))
             settings["HFUN_HMIN"] = 0
         (folder / "case.jig").write_text(
             "".join(f"{key} = {value}\n" for key, value in settings.items()))
@@ -103,7 +104,8 @@ class Jigsaw(tool.Tool):
 
 
 def seconds_without_files(text):
-    """The log has a line "Done. (1.0e-02sec)" for each of its parts, files among them."""
+    """Returns the sum of the times in the log, which has a line "Done. (1.0e-02sec)" for each part,
+    without those of files."""
     parts = re.split(r"^\s*(?:#-+|(?=(?:Reading|Writing) ))", text, flags=re.MULTILINE)
     times = [float(told) for part in parts if not re.match(r"\s*(Reading|Writing) ", part)
              for told in re.findall(r"Done\.\s+\(([\d.e+-]+)sec\)", part)]

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""JIGSAW with sizes from the shape, by its commands marche and jigsaw: sizes at the grid points beside
-the boundary, whose growth marche limits. For sizes of its own JIGSAW has no command: they are a share of
-the local feature size (Amenta, Bern 1999), found here by SciPy."""
+"""JIGSAW with sizes from the shape, by its commands marche and jigsaw.
+
+The sizes are given at the grid points beside the boundary, and marche limits their growth. JIGSAW
+has no command for automatic sizes. Those are a multiple of the local feature size (Amenta, Bern
+1999), computed here by SciPy."""
 import math
 import time
 
@@ -13,14 +15,15 @@ from measure import measure
 from scipy.spatial import Delaunay, cKDTree
 from shape_cases import GROWTH, PER_TURN
 
-MOST_LINES = {2: 1000, 3: 120}  # of the grid, a side
-# Distance of samples for the feature size, and the least size by it, over the largest d: at sharp edges
-# the feature size is 0.
+MOST_LINES = {2: 1000, 3: 120}  # grid lines per side
+# The distance of samples for the feature size, and the least size from it, in units of the largest
+# d. At sharp edges the feature size is 0.
 SAMPLES = {2: 0.05, 3: 0.25}
 
 
 def grid_of(case):
-    """Axes, and all points with the second coordinate first, then the first, then the third."""
+    """Returns the axes, and all points. The second coordinate varies fastest, then the first, then
+    the third."""
     low, high = case.domain.vertices.min(0), case.domain.vertices.max(0)
     step = max(case.constant, case.shape.width() / MOST_LINES[case.shape.dimension])
     axes = [a - step + step * np.arange(math.ceil((b - a) / step) + 3) for a, b in zip(low, high)]
@@ -33,7 +36,8 @@ def grid_of(case):
 
 
 def sizes_at_boundary(case):
-    """At the grid points next to the boundary; the largest d at others."""
+    """Returns the sizes at the grid points next to the boundary, and the largest d at the others.
+    """
     axes, points, step = grid_of(case)
     beside = 1.01 * math.sqrt(case.shape.dimension) * step
     values = np.full(len(points), case.largest)
@@ -54,8 +58,8 @@ def sizes_at_boundary(case):
 
 
 def feature_size(samples):
-    """The distance from the nearest pole: of each sample the farthest corner of its Voronoi cell, and
-    the farthest on the other side."""
+    """Returns the distance of each sample from the nearest pole. The poles are the farthest corner
+    of its Voronoi cell, and the farthest one on the other side."""
     mesh = Delaunay(samples)
     centres = circumcentres(samples[mesh.simplices])
     node, centre = mesh.simplices.ravel(), np.repeat(np.arange(len(centres)), samples.shape[1] + 1)
@@ -70,7 +74,7 @@ def feature_size(samples):
 
 
 def farthest(node, length, count):
-    """For each node the row of the greatest length, -1 where none is positive."""
+    """Returns for each node the row with the greatest length, or -1 if none is positive."""
     order = np.argsort(length, kind="stable")
     order = order[(length[order] > 0) & np.isfinite(length[order])]
     rows = np.full(count, -1)

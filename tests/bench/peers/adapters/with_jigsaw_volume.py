@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""JIGSAW in space, by its command: bodies by triangles, the spacing on a grid."""
+"""JIGSAW in space, by its command. Bodies are given by triangles, the spacing on a grid."""
 import numpy as np
 from adapters import tool
 from adapters.with_jigsaw import Jigsaw, block, seconds_without_files
 
-GRID = 41  # points a side, between which JIGSAW takes the spacing to be linear
+GRID = 41  # points per side; JIGSAW interpolates the spacing linearly between them
 
 
 def geometry(body):
@@ -22,7 +22,7 @@ def spacing_grid(case):
     for axis, values in enumerate(axes, 1):
         lines.append(f"coord={axis};{GRID}")
         lines += [repr(v) for v in values.tolist()]
-    # The second coordinate changes first, then the first, then the third.
+    # The second coordinate varies fastest, then the first, then the third.
     z, x, y = np.meshgrid(axes[2], axes[0], axes[1], indexing="ij")
     values = case.spacing(np.column_stack([x.ravel(), y.ravel(), z.ravel()]))
     lines.append(f"value={len(values)};1")

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Netgen, by its Python package: simple bodies by its own shapes."""
+"""Netgen, by its Python package. Simple bodies use its own shapes."""
 from adapters import tool
 from adapters.place_in_space import write_job
 from measure import measure
 
-# Size over d for which about the wanted number of nodes comes out.
+# The size over d for which about the wanted number of nodes results.
 SIZE = 0.84
 
 

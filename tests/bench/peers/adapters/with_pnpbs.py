@@ -28,7 +28,7 @@ class Pnpbs(tool.Tool):
                    "--output", "nodes.csv", "--report", "report.json", "--threads", 1, "--quiet"]
         for option in self.options:
             command += ["--set", option]
-        # Status 3: the step limit came first, the nodes are written.
+        # Status 3 means that the step limit was reached; the nodes are written nevertheless.
         used = measure(command, folder, time_limit, accepted=(0, 3))
         report = json.loads((folder / "report.json").read_text())
         points = np.loadtxt(folder / "nodes.csv", delimiter=",", skiprows=1, usecols=(1, 2))
@@ -60,7 +60,7 @@ class PnpbsInSpace(Pnpbs):
 
 
 def spacing(case, folder):
-    """As a formula where there is one, else on a grid."""
+    """Returns the spacing as a formula if there is one, and as a grid otherwise."""
     if case.has_formula:
         return ["--spacing", case.formula()]
     write_grid(case, folder / "spacing.asc")
@@ -72,7 +72,7 @@ def find(given):
 
 
 def tools(given=None, more=()):
-    """The default, and (name, options) for each of `more`."""
+    """Returns the default setting, and one with the name and options of each of `more`."""
     return settings(Pnpbs, given, more)
 
 

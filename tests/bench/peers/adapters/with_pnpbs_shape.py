@@ -5,7 +5,7 @@ from adapters.tool import ByShape
 from adapters.with_pnpbs import Pnpbs, settings
 from measure import measure
 
-TAG = 7  # of what d grows from
+TAG = 7  # tag of the curves and surfaces that d grows from
 
 
 class PnpbsByShape(ByShape, Pnpbs):
@@ -22,7 +22,7 @@ class PnpbsByShape(ByShape, Pnpbs):
         used = measure([*command, "--output", "nodes.csv"], folder, time_limit, accepted=(0, 3, 4))
         columns = range(1, 1 + case.shape.dimension)
         points = np.loadtxt(folder / "nodes.csv", delimiter=",", skiprows=1, usecols=columns)
-        # This makes the tree of d, counts the nodes by it, and places none.
+        # A dry run builds the tree of d and counts the nodes, but places none.
         estimate = measure([*command, "--dry-run"], folder, time_limit)
         return points, [used], estimate.cpu_seconds
 

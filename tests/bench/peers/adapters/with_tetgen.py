@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""TetGen, by the Python package meshpy: where d varies, with volumes for all tetrahedra, refined
-until hardly one is too large."""
+"""TetGen, by the Python package meshpy. Where d varies, it gets volumes for all tetrahedra and
+refines until nearly none is too large."""
 from adapters import tool
 from adapters.place_in_space import write_job
 from measure import measure
 
-# Largest volume over that of the regular tetrahedron with edge d, for which about the wanted number
-# of nodes comes out. Tighter bounds on the shape than the default of -q add nodes, and slivers stay.
+# The largest volume over that of the regular tetrahedron with edge d for which about the wanted
+# number of nodes results. Tighter shape bounds than the default of -q add nodes and do not remove
+# slivers.
 VOLUME_BOUND = 1.7
 
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Triangle, by either of its Python packages: triangle gets areas for all triangles and refines
-until none changes, meshpy asks a Python function for each triangle that Triangle makes."""
+"""Triangle, by its two Python packages. The package triangle gets areas for all triangles and
+refines until none changes. meshpy calls a Python function for each triangle that Triangle creates.
+"""
 from adapters import tool
 from measure import measure
 
-# Largest area over that of the equilateral triangle with side d, for which the mean edge is
+# The largest area over that of the equilateral triangle with side d for which the mean edge is
 # about d.
 AREA_BOUND = 1.6
 LEAST_ANGLE = 30

@@ -28,7 +28,8 @@ Comm_rank(comm) = OpenMPI.number(:MPI_Comm_rank, comm.val)
 Comm_size(comm) = OpenMPI.number(:MPI_Comm_size, comm.val)
 Get_library_version() = OpenMPI.version()
 
-# A reduction of one number, and messages, in forms without keywords, which MPI.jl 0.15 to 0.20 have.
+# A reduction of one number, and messages, in the forms without keywords that MPI.jl 0.15 to 0.20
+# have.
 Allreduce(value, op, comm) = OpenMPI.reduce_over_ranks(value, op, comm.val)
 
 add_finalize_hook!(f) = push!(finalize_hooks, f)

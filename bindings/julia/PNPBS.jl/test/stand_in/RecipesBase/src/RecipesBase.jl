@@ -15,7 +15,7 @@ end
 function apply_recipe end
 function is_key_supported end
 
-# `key --> value` sets an attribute that the user has not set, `key := value` sets it anyway.
+# `key --> value` sets an attribute that the user has not set. `key := value` sets it in any case.
 replaced(e) = e
 function replaced(e::Expr)
     e.head === :(-->) && return :(get!(plotattributes, $(QuoteNode(e.args[1])), $(e.args[2])))
