@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The nodes of all cases of node_hashes, or volume_hashes, are the same to the bit on one and more ranks
-# and threads; and the comparison detects ghost layers that are too thin. It reports whether they are
-# those of the recorded file as well, which is what a change of the code that is to change no result
-# must keep. A difference from the record is no failure without --recorded, since another mathematical
-# library or instruction set may give other nodes.
+# Tests that the nodes of all cases of node_hashes, or of volume_hashes, are the same to the bit on
+# several numbers of ranks and threads, and that the comparison detects ghost layers that are too
+# thin. It also reports whether the nodes are those of the recorded file, which a change of the code
+# that does not change results must keep. Another mathematical library or instruction set may give
+# other nodes, so a difference from the record is a failure only with --recorded.
 # usage: node_hashes.sh PROGRAM MPIEXEC DATA RECORD THIN_HALO [--recorded | --record]
-#   THIN_HALO   the folder of the library whose ghost layers are too thin
-#   --recorded  fails where the nodes are not the recorded ones
+#   THIN_HALO   folder of the library whose ghost layers are too thin
+#   --recorded  fails if the nodes differ from the recorded ones
 #   --record    writes the record
 set -euo pipefail
 program=$1 mpiexec=$2 data=$3 record=$4 thin_halo=$5 option=${6:-}
