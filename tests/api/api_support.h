@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What the tests of the C interface share: calls that must succeed or fail in a certain way,
- * domains, and results copied out and looked at by brute force.
+ * Helpers of the tests of the C interface: calls that must succeed or fail with a given message,
+ * domains, and results that are copied out and checked by brute force.
  */
 #ifndef PNPBS_TESTS_API_SUPPORT_H
 #define PNPBS_TESTS_API_SUPPORT_H
@@ -20,7 +20,7 @@
 
 /* ---------------------------------------------------------------- calls ----------------- */
 
-/* The calling thread's last message, whatever context it belongs to. */
+/* Returns the last message of the calling thread, for any context. */
 #define MESSAGE() pnpbs_last_error(NULL)
 
 #define MUST_BE(expected, call)                                                                    \
@@ -32,7 +32,7 @@
 
 #define MUST(call) MUST_BE(PNPBS_OK, call)
 
-/* A run or step, converged or not. */
+/* Requires that a run or step succeeds, converged or not. */
 #define MUST_COMPUTE(call)                                                       \
   do {                                                                           \
     const pnpbs_status must_status = (call);                                     \
@@ -41,7 +41,7 @@
                   must_status < 0 ? MESSAGE() : "no error");                     \
   } while (0)
 
-/* An error whose message holds a text (and another one). */
+/* Requires that a call fails with this status, and that its message contains both texts. */
 #define MUST_FAIL(expected, call, first, second)                                                   \
   do {                                                                                             \
     MUST_BE(expected, call);                                                                       \
@@ -59,16 +59,16 @@ typedef struct {
   pnpbs_placement placement;
 } job;
 
-job job_begin(void);         /* a context and an empty domain */
-void job_place(job* it);     /* a placement in the domain as it is now */
-job square_job(double side); /* a placement in the square [0, side]^2 */
+job job_begin(void);         /* creates a context and an empty domain */
+void job_place(job* it);     /* creates a placement in the current domain */
+job square_job(double side); /* creates a placement in the square [0, side]^2 */
 void job_end(job* it);
 
 void add_rectangle(pnpbs_domain domain, int32_t role, double x0, double y0, double x1, double y1,
                    int32_t tag);
 void add_circle(pnpbs_domain domain, int32_t role, double x, double y, double radius, int32_t tag);
 
-/* d = a + b hypot(x - x0, y - y0), a spacing callback. */
+/* A spacing callback with d = a + b hypot(x - x0, y - y0). */
 typedef struct {
   double a, b, x0, y0;
 } cone;
@@ -83,7 +83,7 @@ hash_text hash_of(pnpbs_placement placement);
 
 /* ---------------------------------------------------------------- results --------------- */
 
-/* All that can be copied out. */
+/* All results of a placement in the plane that can be copied out. */
 typedef struct {
   int64_t n;
   double* xy;
@@ -91,7 +91,7 @@ typedef struct {
   int32_t* tags;
   double* d;
 
-  int64_t entries; /* of the stars */
+  int64_t entries; /* number of entries of the stars */
   int64_t* offsets;
   int64_t* neighbours;
   int8_t* is_triangle;
@@ -99,39 +99,40 @@ typedef struct {
   int64_t triangles;
   int64_t* corners; /* [triangles][3] */
 
-  int64_t edges; /* on the boundary */
+  int64_t edges; /* number of boundary edges */
   int64_t* ends; /* [edges][2] */
   int32_t* edge_tags;
-  char* on_boundary; /* [n]: ends a boundary edge */
+  char* on_boundary; /* [n], whether the node ends a boundary edge */
 } result;
 
 result result_of(pnpbs_placement placement);
 void result_free(result* it);
 
-/* The node exactly there, or -1. */
+/* Returns the index of the node at exactly this position, or -1. */
 int64_t node_at(const result* it, double x, double y);
 int64_t node_with_id(const result* it, int64_t id);
-/* Is there a boundary edge between nodes a and b? Its tag, else 0. */
+/* Returns the tag of the boundary edge between nodes a and b, or 0 if there is none. */
 int32_t edge_between(const result* it, int64_t a, int64_t b);
-/* Is b in the star of a, and a in that of b? */
+/* Returns whether b is in the star of a, and a in that of b. */
 int are_star_neighbours(const result* it, int64_t a, int64_t b);
 
-double clearance(const result* it, int64_t node); /* from boundary edges it does not end */
+double clearance(const result* it, int64_t node); /* to edges without the node */
 
-/* 2 r_in / R of a triangle. */
+/* Returns the quality of a triangle: 2 r_in / R. */
 double quality(const double* a, const double* b, const double* c);
 typedef struct {
   double mean, least;
-  double below_95; /* share of the triangles */
+  double below_95; /* share of the triangles with a quality below 0.95 */
 } quality_summary;
 quality_summary quality_of(const result* it);
 
-double triangle_area(const result* it); /* of all triangles together */
+double triangle_area(const result* it); /* sum over all triangles */
 
-/* Everything that must hold for any node set: finite, distinct nodes in the order of their ids,
- * boundary edges that are edges of the stars, stars that go round counter-clockwise and agree
- * with each other and with the triangles, Delaunay but for boundary edges, Euler's formula with
- * `euler` = pieces - holes, inner nodes off the boundary by 0.35 d. */
+/* Checks the invariants of any set of nodes: positions are finite and distinct, ids increase,
+ * boundary edges are edges of the stars, stars go round counter-clockwise and agree with each other
+ * and with the triangles, all triangles are Delaunay except at boundary edges, and inner nodes keep
+ * 0.35 d off the boundary. `euler` is the number of pieces minus the number of holes, for Euler's
+ * formula. */
 void check_result(const result* it, int euler);
 void check_placement(pnpbs_placement placement, int euler);
 

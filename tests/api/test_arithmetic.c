@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Hosts that round, trap or flush their own way get the same nodes, and their way back; their
- * callbacks compute by their own rules.
+ * Tests hosts with floating-point settings of their own: rounding modes, traps and flushing of
+ * subnormals. They get the same nodes, their settings are restored, and their callbacks run with
+ * the default settings.
  */
 #define _GNU_SOURCE
 #include <fenv.h>

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Callbacks: what they are asked, what happens when they fail or give nonsense, when the monitor
- * stops, and what may be called from inside.
+ * Tests callbacks: their arguments, errors and invalid values, a monitor that stops, and the calls
+ * that are allowed inside a callback.
  */
 #include "api_support.h"
 
 /* ---------------------------------------------------------------- spacing callbacks ----- */
 
 typedef struct {
-  double d, growth;    /* the answer, d (1 + growth x), but for */
-  double bad;          /* this one, */
-  int32_t answer;      /* returning this, */
+  double d, growth;    /* returned value is d (1 + growth x), except */
+  double bad;          /* for this value, */
+  int32_t answer;      /* with this return value, */
   int64_t bad_from;    /* from this call on, counted from 0, */
-  double x, y, radius; /* if this is 0 or near this point */
+  double x, y, radius; /* everywhere if the radius is 0, else near this point */
   int64_t calls, points;
-  int64_t longest; /* batch */
+  int64_t longest; /* largest number of points in a call */
   int32_t dim;
 } probe;
 
@@ -59,16 +59,16 @@ START_TEST(a_good_one) {
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   ck_assert_int_gt(asked.calls, 0);
   ck_assert_int_gt(asked.points, 100);
-  ck_assert_int_gt(asked.longest, 10); /* batches, not points */
+  ck_assert_int_gt(asked.longest, 10); /* called with batches of points */
   ck_assert_int_eq(asked.dim, 2);
-  /* Copying results out asks for nothing. */
+  /* Copying results does not evaluate the spacing. */
   calls = asked.calls;
   nodes = result_of(it.placement);
   MUST(pnpbs_placement_adjacency_size(it.placement, &entries));
   real_of(it.placement, "d_error.mean");
   ck_assert_int_eq(asked.calls, calls);
   result_free(&nodes);
-  /* It means the same as the constant. */
+  /* A callback that returns a constant gives the nodes of that constant. */
   MUST(pnpbs_placement_set(plain.placement, "steps", "45"));
   MUST(pnpbs_placement_set_spacing_constant(plain.placement, 0.1));
   MUST_COMPUTE(pnpbs_placement_run(plain.placement));
@@ -78,7 +78,7 @@ START_TEST(a_good_one) {
 }
 END_TEST
 
-/* Bad values, and two parts of the message about each. */
+/* Invalid values, and two parts of the message about each. */
 static const struct {
   double value;
   const char* words[2];
@@ -89,7 +89,7 @@ static const struct {
     {1e-9, {"1e-09", "nodes"}},
 };
 
-/* The point that the message names, "... at (x, y) ...". */
+/* Reads the point that the message names as "... at (x, y) ...". */
 static void read_point(double* x, double* y) {
   const char* at = strstr(MESSAGE(), " at (");
   ck_assert_msg(at != NULL && sscanf(at, " at (%lf, %lf)", x, y) == 2, "no point in \"%s\"",
@@ -131,8 +131,9 @@ START_TEST(bad_in_one_place) {
 }
 END_TEST
 
-/* Fails at call number k, for every k, in different ways; afterwards the placement is as sound as
- * if nothing had happened, and goes on when the callback is mended. */
+/* Makes the callback fail at call number k, for every k, with an error or an invalid value.
+ * Afterwards the placement must be as before the call, and must continue once the callback
+ * succeeds. */
 static void fail_at_every_call(double bad, int32_t answer, pnpbs_status expected, int by_steps) {
   int64_t k, failures = 0;
   for (k = 0;; ++k) {
@@ -173,8 +174,8 @@ END_TEST
 START_TEST(answers_with_nothing_but_zeros) { fail_at_every_call(0, 0, PNPBS_ERROR_SPACING, 1); }
 END_TEST
 
-/* A run, an initialise that fails at its call number k unless k < 0, and steps. Returns whether it
- * failed. */
+/* Runs, then initialises with a failure at call number k (none if k < 0), and then makes steps.
+ * Returns whether the call failed. */
 static int steps_after_failure(int64_t k, hash_text* hash) {
   probe asked = good_probe(0.012);
   job it;
@@ -195,7 +196,7 @@ static int steps_after_failure(int64_t k, hash_text* hash) {
   return status < 0;
 }
 
-/* As if it had not been tried, wherever it fails: on coarser levels, too. */
+/* A failed initialise leaves everything as it was, wherever it fails, also on coarser levels. */
 START_TEST(a_failed_initialise_leaves_all_as_it_was) {
   hash_text expected, hash;
   int64_t k = 0;
@@ -224,7 +225,7 @@ START_TEST(the_error_is_passed_on) {
 }
 END_TEST
 
-/* An error changes nothing: what was there before is still there, whichever call it was. */
+/* An error leaves the nodes of a live placement as they were, for every call. */
 START_TEST(a_failure_on_a_live_placement) {
   probe asked = good_probe(0.1), bad = good_probe(0.1);
   job it = probed_square(&asked);
@@ -253,7 +254,7 @@ END_TEST
 
 typedef struct {
   double d;
-  double (*outside)(double x, double y); /* how far outside the domain, < 0 inside */
+  double (*outside)(double x, double y); /* distance from the domain, negative inside */
   double farthest;
   int64_t points, strangers;
 } watcher;
@@ -311,7 +312,8 @@ START_TEST(asked_inside_an_ell) {
 }
 END_TEST
 
-/* A hole's boundary edges run inside the true hole, by d^2 / 8 R: never farther. */
+/* The spacing may be evaluated on boundary edges of a hole. These are chords that lie outside the
+ * domain by at most d^2 / 8 R. */
 START_TEST(asked_inside_a_ring) {
   watcher seen = {0.07, outside_ring, -1, 0, 0};
   job it = job_begin();
@@ -330,7 +332,7 @@ END_TEST
 
 typedef struct {
   pnpbs_placement placement;
-  int calls, stop_at; /* from this call on, counted from 0 */
+  int calls, stop_at; /* stops from this call on, counted from 0 */
   double last_fraction;
   int64_t last_step;
 } monitor;
@@ -373,7 +375,7 @@ START_TEST(it_is_told_to_the_end) {
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_step(it.placement, 60));
   ck_assert_int_ge(watch.calls, 3);
   ck_assert_double_eq(watch.last_fraction, 1);
-  /* No longer. */
+  /* A monitor can be removed. */
   watch.calls = 0;
   MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(it.placement));
@@ -392,7 +394,7 @@ static int32_t monitor_of_the_fill(double fraction, int64_t step, int64_t nodes,
   return 1;
 }
 
-/* Long before the first step, where millions of nodes are laid. */
+/* The monitor can stop the fill of millions of nodes, long before the first step. */
 START_TEST(it_stops_the_first_nodes) {
   job it = square_job(1);
   int64_t nodes = -1;
@@ -407,7 +409,7 @@ START_TEST(it_stops_the_first_nodes) {
   ck_assert_int_eq(nodes, 0);
   MUST(pnpbs_placement_get_string(it.placement, "stop_reason", &text));
   ck_assert_str_eq(text, "monitor");
-  /* It goes on to be usable. */
+  /* The placement can be used afterwards. */
   MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
   ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
@@ -416,7 +418,7 @@ START_TEST(it_stops_the_first_nodes) {
 }
 END_TEST
 
-/* Between the events, where these are far apart. */
+/* The monitor can also stop a run between events that are far apart. */
 START_TEST(it_stops_between_events) {
   monitor watch;
   job it = watched_square(&watch);
@@ -445,13 +447,13 @@ START_TEST(it_stops) {
   MUST(pnpbs_placement_get_string(it.placement, "stop_reason", &text));
   ck_assert_str_eq(text, "monitor");
   check_good(it.placement);
-  /* And goes on, to the end this time. */
+  /* The next run continues to the end. */
   watch.stop_at = 1000000;
   watch.last_fraction = 0;
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(it.placement));
   ck_assert_int_eq(integer_of(it.placement, "steps"), steps + 100);
   check_good(it.placement);
-  /* Steps are stopped as well. */
+  /* Steps can be stopped as well. */
   watch.stop_at = 0;
   watch.last_fraction = 0;
   MUST_BE(PNPBS_STOPPED, pnpbs_placement_step(it.placement, 1000));
@@ -479,7 +481,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   return 0;
 }
 
-/* Everything that changes, computes or destroys. */
+/* Tries all calls that change, compute or destroy. None is allowed inside a callback. */
 static void try_what_is_not_allowed(void) {
   static const double xy[8] = {0.4, 0.4, 0.6, 0.4, 0.6, 0.6, 0.4, 0.6};
   static const int64_t ends[8] = {0, 1, 1, 2, 2, 3, 3, 0}, size[2] = {1, 1};
@@ -505,7 +507,7 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_domain_parse_poly(d, "0", 1, "text"));
   REFUSED(pnpbs_domain_destroy(&inside.domain));
   REFUSED(pnpbs_context_destroy(&inside.context));
-  if (p == NULL) { /* while the domain is being made: to check it would ask its curves */
+  if (p == NULL) { /* while the domain is being built, since a check would evaluate its curves */
     REFUSED(pnpbs_domain_check(d));
     return;
   }
@@ -555,7 +557,7 @@ static void try_what_is_not_allowed(void) {
   ck_assert(isnan(real));
 }
 
-/* Questions. Nodes come in the order of their ids, and as they were told to be. */
+/* Tries all queries. Nodes are in the order of their ids, and as many as reported. */
 static void try_what_is_allowed(void) {
   int32_t number = 0;
   const char *name = NULL, *text = NULL;
@@ -633,7 +635,7 @@ static int32_t curious_curve(int64_t n, int32_t dim, const double* t, double* xy
   return small_curve(n, dim, t, xy, user);
 }
 
-/* A run in which the callbacks look around gives what one gives in which they do not. */
+/* Queries inside callbacks do not change the result of a run. */
 START_TEST(only_questions_from_inside) {
   hash_text with, without;
   int k;
@@ -658,7 +660,7 @@ START_TEST(only_questions_from_inside) {
 }
 END_TEST
 
-/* Nodes asked for from a callback leave nothing stale behind. */
+/* Querying nodes inside a callback leaves no stale data behind. */
 START_TEST(nodes_after_nodes_from_inside) {
   job plain = square_job(1);
   result asked, not_asked;
@@ -670,7 +672,7 @@ START_TEST(nodes_after_nodes_from_inside) {
     job* it = k == 0 ? &inside : &plain;
     MUST(pnpbs_placement_set_spacing_callback(it->placement, cone_spacing, &slope));
     if (k == 0) MUST(pnpbs_placement_set_monitor(it->placement, curious_monitor, NULL));
-    MUST_COMPUTE(pnpbs_placement_step(it->placement, 39)); /* an event, and steps after it */
+    MUST_COMPUTE(pnpbs_placement_step(it->placement, 39)); /* covers an event and steps after it */
   }
   asked = result_of(inside.placement);
   not_asked = result_of(plain.placement);
@@ -706,7 +708,7 @@ START_TEST(only_questions_from_inside_a_curve) {
 }
 END_TEST
 
-/* Another context is not in use, so all is allowed there. */
+/* A callback may use another context without restriction. */
 static int32_t busy_spacing(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
   (void)dim, (void)xyz;
   if (batches_inside++ == 0) {
@@ -736,8 +738,8 @@ END_TEST
 typedef struct {
   int64_t calls, bad_from;
   int32_t answer;
-  double offset;      /* of the points, when bad */
-  double least, most; /* parameters asked */
+  double offset;      /* added to the points of a bad call */
+  double least, most; /* range of the parameters */
 } curve_probe;
 
 static int32_t probing_curve(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
@@ -768,7 +770,7 @@ START_TEST(curves_fail_at_every_call) {
     add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 1, 1, 1);
     status = pnpbs_domain_add_curve(it.domain, PNPBS_BOUNDARY, probing_curve, &asked, 0, 2 * PI, 3);
     if (status != PNPBS_OK) {
-      /* The domain is as it was. */
+      /* The domain must be unchanged. */
       ck_assert_int_eq(status, PNPBS_ERROR_CALLBACK);
       ck_assert_ptr_nonnull(strstr(MESSAGE(), "77"));
       MUST(pnpbs_domain_measure(it.domain, &area));
@@ -801,7 +803,7 @@ START_TEST(curves_fail_at_every_call) {
 }
 END_TEST
 
-/* A curve that gives nonsense later than it was looked at first. */
+/* A curve callback may return invalid points in a later call, after the checks of the first one. */
 START_TEST(curves_give_nonsense) {
   int64_t k;
   for (k = 0;; ++k) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Kokkos ends while other threads make calls, and processes are forked before and after it has
- * started. It can be ended once in a process, so each case runs in a child of this one, in which
- * Kokkos never starts.
+ * Tests the end of Kokkos while other threads make calls, and processes that fork before and after
+ * it has started. Kokkos can be ended once per process, so each case runs in a child of this
+ * process, in which Kokkos never starts.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
@@ -13,9 +13,9 @@
 
 #include "api_support.h"
 
-enum { TIME_LIMIT = 60 }; /* seconds */
+enum { TIME_LIMIT = 60 }; /* in seconds */
 
-/* In a child, without Check: failures end it. */
+/* Ends the child if a condition fails, as Check's assertions do not work there. */
 static void demand(int condition, const char* what) {
   if (condition) return;
   fprintf(stderr, "%s: %s\n", what, pnpbs_last_error(NULL));
@@ -23,7 +23,7 @@ static void demand(int condition, const char* what) {
 }
 #define DEMAND(condition) demand((condition), #condition)
 
-/* Runs work(argument) in a child, which has to end in time. */
+/* Runs work(argument) in a child process, which must end within the time limit. */
 static void run_in_child(void (*work)(int), int argument) {
   int status = 0;
   const pid_t child = fork();
@@ -65,7 +65,7 @@ static void destroy_job(job* it) {
 enum { ASKING = 3 };
 static atomic_int ready, ended;
 
-/* Until there is nothing left to ask. */
+/* Makes queries until Kokkos has ended. */
 static void* ask(void* unused) {
   job it = square_with_nodes("2", NULL);
   int64_t n = 0;
@@ -108,7 +108,8 @@ END_TEST
 
 static atomic_int started, refused, finished;
 
-/* Keeps its run in progress until another call was refused. Queries are part of the run. */
+/* Keeps its run in progress until a call of the other thread was refused. Queries inside the
+ * callback are part of the run. */
 static int32_t waiting_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
   const job* it = user;
   const struct timespec moment = {0, 1000000L};
@@ -138,7 +139,7 @@ static void* call_until_refused(void* argument) {
   DEMAND(strstr(pnpbs_last_error(NULL), "pnpbs_finalize") != NULL);
   DEMAND(atomic_load(&finished) == 0);
   atomic_store(&refused, 1);
-  DEMAND(pnpbs_context_destroy(&context) == PNPBS_OK); /* waits for the end */
+  DEMAND(pnpbs_context_destroy(&context) == PNPBS_OK); /* waits for the end of the run */
   return NULL;
 }
 
@@ -193,7 +194,7 @@ static void fork_with_threads(int threads) {
   }
   DEMAND(waitpid(child, &status, 0) == child);
   DEMAND(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  DEMAND(pnpbs_placement_run(before_fork.placement) >= 0); /* the parent has its threads */
+  DEMAND(pnpbs_placement_run(before_fork.placement) >= 0); /* starts threads */
 }
 
 START_TEST(forked_processes_lack_threads) { run_in_child(fork_with_threads, 2); }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Files written by the library: every format, what is refused, and that nothing half-written is
- * ever seen. Their contents are read by other people's readers in tests/tool.
+ * Tests files that the library writes: every format, rejected arguments, and that incomplete files
+ * never appear. tests/tool reads the contents by independent readers.
  */
-#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+#define _POSIX_C_SOURCE 200809L /* for mkdtemp */
 #include <dirent.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -25,7 +25,7 @@ static void make_folder(void) {
   ck_assert_ptr_nonnull(mkdtemp(folder));
 }
 
-/* Removes what is there and returns the number of files. */
+/* Removes the files in the folder and returns their number. */
 static int empty_folder(void) {
   DIR* open = opendir(folder);
   const struct dirent* entry;
@@ -102,7 +102,7 @@ static int is_of_spheres(const char* format) {
   return strcmp(format, "mpas") == 0 || strcmp(format, "graph") == 0;
 }
 
-/* A field with the value 1 everywhere. */
+/* Adds a field with the value 1 everywhere. */
 static void add_ones(pnpbs_placement placement, const char* name, int32_t components) {
   int64_t n, i;
   double* values;
@@ -113,7 +113,7 @@ static void add_ones(pnpbs_placement placement, const char* name, int32_t compon
   free(values);
 }
 
-/* Nodes or not: it tells so before there are any, too. */
+/* A build without HDF5 reports the error even before there are nodes. */
 START_TEST(without_hdf5_there_is_an_error) {
   const char* names[] = {"a.vtkhdf", "a.xdmf", "a.hdf5"};
   job it = square_job(1);
@@ -174,7 +174,8 @@ START_TEST(every_format) {
   if (with_hdf5()) ck_assert_int_gt(size_of("a.h5"), size_of("a.xdmf"));
   ck_assert_int_eq(of_bodies, 3);
   ck_assert_int_eq(of_spheres, 2);
-  /* a_0.vtu; a.h5; a_facets.vtu, .pvtu and _0.vtu; .vtkhdf, .xdmf and .h5 */
+  /* Beside one file per format there are a_0.vtu; a.h5; a_facets.vtu, .pvtu and _0.vtu; and the
+   * facets as .vtkhdf, .xdmf and .h5. */
   ck_assert_int_eq(empty_folder(), count - of_bodies - of_spheres + (with_hdf5() ? 8 : 1));
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_info(count, NULL, NULL, NULL, NULL), "index",
             "0 ..");
@@ -183,7 +184,7 @@ START_TEST(every_format) {
 }
 END_TEST
 
-/* Of particles, which have a volume, and a density except for Peridigm. */
+/* Formats of particles need a volume, and a density except for Peridigm. */
 START_TEST(fields_that_formats_need) {
   job it = placed_cube();
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder("a.peridigm"), 0),
@@ -204,7 +205,7 @@ START_TEST(fields_that_formats_need) {
 }
 END_TEST
 
-/* The third number of the node's line in this file, which begins like that. */
+/* Returns the third number of the node whose line begins like this. */
 static double third_number(const char* name, const char* beginning) {
   char line[200];
   double numbers[3] = {0, 0, 0};
@@ -238,7 +239,7 @@ START_TEST(depths_of_nodes) {
 }
 END_TEST
 
-/* Where files have one set of names. */
+/* In formats with a single set of names, some names of fields are reserved. */
 START_TEST(fields_with_names_of_others) {
   job it = placed_square();
   const char* names[] = {"mesh", "region", "mesh_node_x", "-x"};
@@ -354,7 +355,7 @@ START_TEST(refused) {
 }
 END_TEST
 
-/* Their parts are written at their places. */
+/* HDF5 files are written at several positions, so they cannot be streams. */
 START_TEST(no_streams_by_hdf5) {
   const char *paths[] = {"-", "/dev/null"}, *formats[] = {"vtkhdf", "xdmf"};
   job it = placed_square();
@@ -383,7 +384,7 @@ START_TEST(without_nodes) {
 }
 END_TEST
 
-/* The second file fails, so the first one does not appear either. */
+/* The second file fails, so the first one must not appear either. */
 START_TEST(together_or_not_at_all) {
   const char* paths[] = {in_folder("a.csv"), in_folder("a.pvtu"), "/dev/full"};
   const char* formats[] = {"csv", "pvtu", "vtu"};
@@ -501,7 +502,7 @@ START_TEST(fields_belong_to_the_nodes_there_are) {
   MUST(pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
   plain = size_of("a.vtu");
   MUST(pnpbs_placement_add_output_field(it.placement, "u", 1000, 2, values));
-  /* Lists and stars are no other nodes. */
+  /* Building lists and stars does not invalidate output fields. */
   MUST(pnpbs_placement_adjacency_size(it.placement, &entries));
   MUST(pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
   ck_assert_int_gt(size_of("a.vtu"), plain + 16 * n);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Several threads of the host make the first calls of the process at the same time: each starts a
- * context of its own, places nodes and writes them. Kokkos is started once, nothing is shared but
- * by the library's own doing.
+ * Tests host threads that make the first calls of the process at the same time. Each creates a
+ * context of its own, places nodes and writes them. Kokkos is started once.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>

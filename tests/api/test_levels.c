@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Coarser levels: when there are any, that they can be watched and stopped, that they help.
+ * Tests coarser levels: when they are used, that a monitor can watch and stop them, and that they
+ * improve the quality.
  */
 #include "api_support.h"
 
@@ -11,7 +12,7 @@ static job graded_square(cone* d) {
 }
 
 START_TEST(as_many_as_pay) {
-  static cone graded = {0.0048, 0.016, 0.5, 0.5}; /* some 10 000 nodes */
+  static cone graded = {0.0048, 0.016, 0.5, 0.5}; /* about 10 000 nodes */
   static cone few = {0.06, 0.2, 0.5, 0.5};
   static cone steep = {0.002, 0.3, 0.5, 0.5};
   static const struct {
@@ -36,7 +37,7 @@ START_TEST(as_many_as_pay) {
 }
 END_TEST
 
-/* A constant d has its one lattice. */
+/* A constant d needs no coarser levels, as one lattice fills the domain. */
 START_TEST(none_for_constant_spacing) {
   job it = square_job(1);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.008));
@@ -47,7 +48,7 @@ START_TEST(none_for_constant_spacing) {
 }
 END_TEST
 
-/* Small holes have their corners on every level: 36 of them, twelve nodes each, are few among 2500
+/* Small holes have their corners on every level. 36 holes of twelve nodes each are few among 2500
  * nodes, but many among 600. */
 START_TEST(fewer_where_the_boundary_is_fine) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
@@ -70,7 +71,8 @@ START_TEST(fewer_where_the_boundary_is_fine) {
 }
 END_TEST
 
-/* Of a set with so many times the least spacing; as the bubbles have made its first row. */
+/* Returns the quality of a set whose least spacing is multiplied by `scale`. The first row is left
+ * as the bubbles have placed it. */
 static quality_summary quality_with(double scale, const char* key, const char* value) {
   cone graded = {0.0048, 0.016, 0.5, 0.5};
   job it = graded_square(&graded);
@@ -95,7 +97,7 @@ START_TEST(more_effort_is_better) {
 }
 END_TEST
 
-/* Of five sets, the least quality. */
+/* Returns the least quality of five sets. */
 static double least_quality_with(const char* key, const char* value) {
   double least = 1;
   int k;
@@ -114,8 +116,9 @@ START_TEST(defects_are_repaired) {
 }
 END_TEST
 
-/* Nodes with the wrong number of neighbours become fewer, and so do imperfect triangles: by a tenth
-   in the mean of 20 sets. Levels that lose nodes on the way leave 0.018 of them without repairs. */
+/* Repairs reduce the number of nodes with the wrong number of neighbours, and so that of imperfect
+ * triangles: by a tenth, as measured on 20 sets. If levels lost nodes, the share of imperfect
+ * triangles without repairs would be 0.018. */
 START_TEST(defects_become_fewer) {
   double with = 0, without = 0;
   int k;
@@ -142,7 +145,7 @@ static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_sp
   (void)max_speed;
   ck_assert_msg(fraction >= it->last_fraction && fraction <= 1, "the fraction went from %g to %g",
                 it->last_fraction, fraction);
-  /* From level to level there are more. */
+  /* The number of nodes increases from level to level. */
   ck_assert_msg((double)nodes > 0.95 * (double)it->most_nodes, "%d nodes after %d", (int)nodes,
                 (int)it->most_nodes);
   it->last_fraction = fraction;
@@ -150,8 +153,8 @@ static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_sp
   return it->calls++ == it->stop_at;
 }
 
-/* Stopped on a coarser level, there are nodes of the spacing asked for nevertheless; and the next
- * run goes on from them. */
+/* If the monitor stops a run on a coarser level, the placement still has nodes of the requested
+ * spacing, and the next run continues from them. */
 START_TEST(they_can_be_stopped) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
   watcher seen = {0, 1, 0, 0};
@@ -177,7 +180,8 @@ START_TEST(they_can_be_stopped) {
 }
 END_TEST
 
-/* d fails while a coarser level asks for it: the placement is as it was. */
+/* A spacing callback that fails while a coarser level evaluates it. The placement must stay as it
+ * was. */
 typedef struct {
   int calls, fail_at;
 } failing;
@@ -209,7 +213,7 @@ static figures figures_of(pnpbs_placement placement) {
   return f;
 }
 
-/* Of what has failed, the figures tell nothing. */
+/* The statistics do not include a failed call. */
 START_TEST(a_failure_tells_nothing) {
   failing f = {0, -1};
   job it = square_job(1);
@@ -234,7 +238,8 @@ START_TEST(a_failure_tells_nothing) {
 }
 END_TEST
 
-/* What initialises first says so if the monitor stops that, and goes no further. */
+/* Calls that initialise first return PNPBS_STOPPED if the monitor stops that, and do nothing else.
+ */
 START_TEST(adjustments_can_be_stopped) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
   watcher seen = {0, 1, 0, 0};

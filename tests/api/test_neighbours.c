@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Adjacency lists against all pairs, stars against what they must be, and the statistics that
- * are computed from nodes, by brute force.
+ * Tests adjacency lists against all pairs, stars against their invariants, and statistics of nodes
+ * against brute force.
  */
 #include "api_support.h"
 
@@ -29,13 +29,13 @@ static double cross(const double* o, const double* a, const double* b) {
   return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
 }
 
-/* Do ab and pq cross in a point inside both? */
+/* Returns whether the segments ab and pq cross at a point inside both. */
 static int cross_inside(const double* a, const double* b, const double* p, const double* q) {
   return cross(a, b, p) * cross(a, b, q) < 0 && cross(p, q, a) * cross(p, q, b) < 0;
 }
 
-/* Is the point inside, by the edges that bound the domain? (Inner curves have triangles on both
- * sides.) */
+/* Returns whether the point is inside, by the edges that bound the domain. Inner curves do not
+ * count, as they have triangles on both sides. */
 static int is_inside(const result* r, const char* bounds, double x, double y) {
   int inside = 0;
   int64_t e;
@@ -47,7 +47,7 @@ static int is_inside(const result* r, const char* bounds, double x, double y) {
   return inside;
 }
 
-/* Which boundary edges have a gap of the star beside them. */
+/* Returns for each boundary edge whether the star has a gap beside it. */
 static char* bounding_edges(const result* r) {
   char* bounds = calloc((size_t)r->edges + 1, 1);
   int64_t e, k;
@@ -61,7 +61,8 @@ static char* bounding_edges(const result* r) {
   return bounds;
 }
 
-/* Whether a boundary separates i and j: an edge across the way, or the way runs outside. */
+/* Returns whether the boundary separates i and j: an edge crosses the segment between them, or the
+ * segment lies outside. */
 static int is_separated(const result* r, const char* bounds, int64_t i, int64_t j) {
   const double *x = r->xy + 2 * i, *y = r->xy + 2 * j;
   int64_t e;
@@ -74,7 +75,8 @@ static int is_separated(const result* r, const char* bounds, int64_t i, int64_t 
   return !is_inside(r, bounds, 0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1]));
 }
 
-/* Does the way from i to j pass another boundary node, to within rounding? Then either will do. */
+/* Returns whether the segment from i to j passes through another boundary node up to rounding. Such
+ * a pair may be listed or not. */
 static int grazes(const result* r, int64_t i, int64_t j) {
   const double *x = r->xy + 2 * i, *y = r->xy + 2 * j;
   const double length = hypot(y[0] - x[0], y[1] - x[1]);
@@ -106,7 +108,7 @@ static void check_lists(const result* r, const lists* l, double radius) {
     for (j = 0; j < r->n; ++j) {
       const double gap = hypot(r->xy[2 * i] - r->xy[2 * j], r->xy[2 * i + 1] - r->xy[2 * j + 1]);
       const double reach = 0.5 * radius * (r->d[i] + r->d[j]);
-      if (i == j || fabs(gap - reach) < 1e-12 * reach) continue; /* either will do */
+      if (i == j || fabs(gap - reach) < 1e-12 * reach) continue; /* both are right */
       if (gap < reach && grazes(r, i, j)) continue;
       ck_assert_msg(listed[j] == (gap < reach && !is_separated(r, bounds, i, j)),
                     "nodes (%.17g, %.17g) and (%.17g, %.17g), %g of the radius apart, are %s",
@@ -120,8 +122,8 @@ static void check_lists(const result* r, const lists* l, double radius) {
 
 /* ---------------------------------------------------------------- domains --------------- */
 
-/* A square with a slit from its middle to the right side, narrower than d; its sides are of the
- * boundary (0), or it is an inner curve (1). */
+/* A square with a slit from its middle to the right side, narrower than d. The sides of the slit
+ * are boundary if is_inner is 0; if it is 1, the slit is an inner curve. */
 static job slit_square(int is_inner) {
   const double outline[14] = {0, 0, 1, 0, 1, 0.499, 0.5, 0.5, 1, 0.501, 1, 1, 0, 1};
   const double curve[4] = {0.3, 0.5, 0.7, 0.5};
@@ -170,7 +172,7 @@ static job two_close_squares(void) {
 typedef struct {
   const char* name;
   int euler;
-  double a, b; /* of the cone */
+  double a, b; /* parameters of the cone */
 } scene;
 
 static const scene scenes[] = {
@@ -238,7 +240,7 @@ START_TEST(lists_against_all_pairs) {
 }
 END_TEST
 
-/* The stars do not depend on how far the lists reach. */
+/* Stars do not depend on the radius of the lists. */
 START_TEST(stars_do_not_depend_on_the_radius) {
   cone slope;
   job it = run_scene(_i, &slope), other;
@@ -327,7 +329,8 @@ START_TEST(spacing_errors_by_hand) {
 }
 END_TEST
 
-/* Sums by hand are in no order of ours, either. */
+/* Sets of nodes that differ in one bit of a position, in an id or in a tag have different hashes.
+ */
 START_TEST(hashes_tell_nodes_apart) {
   const double xy[4] = {0.3, 0.4, 0.7, 0.6}, moved[4] = {0.3, 0.4, 0.7, 0.6000000000000001};
   const int64_t ids[2] = {100, 200}, others[2] = {100, 201};
@@ -354,7 +357,7 @@ START_TEST(hashes_tell_nodes_apart) {
 }
 END_TEST
 
-/* The optional outputs, each alone, are the same. */
+/* Each optional output is the same if it is the only one. */
 START_TEST(outputs_one_by_one) {
   cone slope;
   job it = run_scene(5, &slope);

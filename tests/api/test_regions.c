@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Regions with tags: elements on either side of inner curves and surfaces, however coarse these are
- * resolved, and bad input.
+ * Tests regions with tags: elements on either side of inner curves and surfaces, which d may not
+ * resolve, and invalid input.
  */
 #include "volume_support.h"
 
@@ -74,7 +74,7 @@ static void centre(const elements* e, int64_t k, double* x) {
   }
 }
 
-/* The same tags come with the distributed mesh, whatever its order. */
+/* Checks that the elements of the distributed mesh have the same tags, in any order. */
 static void check_mesh(const job* it, const elements* e, int32_t tag) {
   pnpbs_mesh mesh;
   int64_t n, k, with_tag = 0, expected = 0;
@@ -104,7 +104,7 @@ static job placed(job it, double d) {
 
 /* ---------------------------------------------------------------- in the plane ---------- */
 
-/* Three strips, one of them without a tag, and a disc in the middle of all. */
+/* The domain has three strips, one of them without a tag, and a disc in the middle. */
 START_TEST(strips_and_a_disc) {
   const double left[4] = {1, 0, 1, 1}, right[4] = {2, 0, 2, 1},
                in[3][2] = {{0.1, 0.5}, {2.9, 0.9}, {1.5, 0.5}};
@@ -119,7 +119,7 @@ START_TEST(strips_and_a_disc) {
   MUST(pnpbs_domain_add_region(it.domain, in[0], 30));
   MUST(pnpbs_domain_add_region(it.domain, in[1], -70));
   MUST(pnpbs_domain_add_region(it.domain, in[2], 5));
-  MUST(pnpbs_domain_add_region(it.domain, in[2], 5)); /* says nothing new */
+  MUST(pnpbs_domain_add_region(it.domain, in[2], 5)); /* repeats the same tag for the same region */
   it = placed(it, d);
   e = elements_of(&it, 2);
   ck_assert_double_eq_tol(measure_with(&e, 30), 1, 1e-12);
@@ -139,7 +139,7 @@ START_TEST(strips_and_a_disc) {
 }
 END_TEST
 
-/* Three nodes lie on it. */
+/* Only three nodes lie on the circle. */
 START_TEST(disc_that_d_does_not_resolve) {
   const double middle[2] = {0, 0}, r = 0.3;
   job it = job_begin();
@@ -165,7 +165,7 @@ START_TEST(disc_that_d_does_not_resolve) {
 }
 END_TEST
 
-/* So narrow that middles of elements lie in the hole. */
+/* The ring is so narrow that centroids of elements lie in the hole. */
 START_TEST(ring_that_d_does_not_resolve) {
   const double in[2] = {1.1, 0};
   job it = job_begin();
@@ -188,7 +188,7 @@ START_TEST(ring_that_d_does_not_resolve) {
 }
 END_TEST
 
-/* A domain changed after the run: its elements keep the tags until they are made anew. */
+/* If the domain changes after a run, the elements keep their tags until the next initialise. */
 START_TEST(tags_stay_with_the_elements) {
   const double in[2] = {0.5, 0.5};
   job it = square_job(1);
@@ -220,7 +220,8 @@ static void add_quad(int64_t* corners, int64_t* count, int64_t a, int64_t b, int
   *count += 2;
 }
 
-/* The box [0, 2] x [0, 1]^2, divided by a wall at x = 1. Vertex i + 3 j + 6 k is at (i, j, k). */
+/* Adds the box [0, 2] x [0, 1]^2, divided by a wall at x = 1. Vertex i + 3 j + 6 k is at (i, j, k).
+ */
 static void add_divided_box(pnpbs_domain domain) {
   double x[36];
   int64_t corners[66], count = 0, v, i;
@@ -242,7 +243,7 @@ static void add_divided_box(pnpbs_domain domain) {
   MUST(pnpbs_domain_set_role(domain, 40, PNPBS_INNER));
 }
 
-/* A box that is divided by a wall and holds a ball in each half, one of which d hardly resolves. */
+/* A wall divides a box, and each half contains a ball, one of which d hardly resolves. */
 START_TEST(box_with_wall_and_balls) {
   const double middles[2][3] = {{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}}, outside[3] = {0.05, 0.05, 0.05};
   const double radii[2] = {0.3, 0.15};
@@ -281,7 +282,8 @@ START_TEST(box_with_wall_and_balls) {
 }
 END_TEST
 
-/* A ball inside is taken out: its triangles turn, and with them what is on their sides. */
+/* A hole point removes an inner ball. Its triangles are then reversed, and so are the tags of their
+ * sides. */
 START_TEST(box_without_a_ball) {
   const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1}, middle[3] = {0.5, 0.5, 0.5},
                in[3] = {0.05, 0.05, 0.05};

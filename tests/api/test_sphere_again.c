@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Runs again and again on a whole sphere: what is laid around the point of its chart stays in
- * steps, and the nodes come to rest.
+ * Tests repeated runs on a whole sphere: the nodes of the closing patch around the centre of
+ * projection do not move in steps, and the nodes come to rest.
  */
 #include "api_support.h"
 
@@ -19,7 +19,7 @@ static job globe_job(double d) {
   return it;
 }
 
-/* By id: the nodes, and how far each is from the point along the sphere. */
+/* Nodes by id, with their distances from the centre of projection along the sphere. */
 typedef struct {
   int64_t n;
   double *x, *away;
@@ -57,7 +57,8 @@ static void nodes_free(nodes_by_id* nodes) {
   free(nodes->away);
 }
 
-/* Up to 12 d, some 500 nodes; the last finish has moved those beyond 6 d. */
+/* The closing patch of some 500 nodes reaches up to 12 d. The last finish has moved those beyond 6
+ * d. */
 START_TEST(steps_move_none_of_those_laid_first) {
   const double d = 300;
   job it = globe_job(d);
@@ -88,8 +89,8 @@ START_TEST(steps_move_none_of_those_laid_first) {
 }
 END_TEST
 
-/* The first run again settles the population; if the bubbles went to the point, some would be
- * deleted there in each. */
+/* The first further run settles the population. If bubbles drifted to the centre of projection,
+ * each run would delete some of them there. */
 START_TEST(runs_again_delete_hardly_any) {
   job it = globe_job(300);
   int64_t before, after;

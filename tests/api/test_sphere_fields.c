@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * d on spheres by values on grids, on meshes and at points: against the functions that the values
- * are of and against searches through all triangles, where grids begin and end, at poles and around
- * the point that is projected from, too; what is said of those that cover a part, and of wrong
- * ones.
+ * Tests spacings on spheres from values on grids, on meshes and at points, against the functions
+ * that were sampled and against searches through all triangles. The cases include the first and
+ * last columns of grids, poles and the centre of projection, fields that cover a part of the
+ * sphere, and invalid input.
  */
 #include "api_support.h"
 
 static const double R = 6371.22;
 
-/* The whole sphere, projected from there. */
+/* Returns a placement on the whole sphere with this centre of projection. */
 static job globe_from(double longitude, double latitude) {
   const double degrees[2] = {longitude, latitude};
   double outside[3];
@@ -44,7 +44,7 @@ static int64_t nodes_of(pnpbs_placement placement, double** x, double** d) {
 
 /* ---------------------------------------------------------------- grids ------------------ */
 
-/* Functions of longitude and latitude in degrees. */
+/* A function of longitude and latitude in degrees. */
 typedef double (*field)(double longitude, double latitude);
 
 static double to_the_poles(double longitude, double latitude) {
@@ -52,7 +52,7 @@ static double to_the_poles(double longitude, double latitude) {
   return 300 + 150 * pow(sin(PI * latitude / 180), 2);
 }
 
-/* Steepest along 180 degrees, and smooth at the poles. */
+/* Returns a function that is steepest along 180 degrees and smooth at the poles. */
 static double sideways(double longitude, double latitude) {
   return 350 + 100 * cos(PI * latitude / 180) * sin(PI * longitude / 180);
 }
@@ -89,10 +89,10 @@ static void set_grid(pnpbs_placement placement, const degree_grid* grid, field f
   free(values);
 }
 
-/* Points of grids, middles of their cells, with the first column at the end again, with another
- * origin, with a last step that is shorter, without the poles: around the point that is projected
- * from, beside the meridian where the grid begins and at the poles d is the function but for what
- * is between lines through points of it, step^2 / 8 times its curvature in each direction. */
+/* The grids have values at corners or at the middles of cells, repeat the first column at the end,
+ * have another origin, have a shorter last step, or lack the poles. At the centre of projection, at
+ * the meridian where the grid begins and at the poles, d must equal the function up to the
+ * interpolation error: step^2 / 8 times the curvature in each direction. */
 START_TEST(a_grid_around_the_sphere) {
   static const degree_grid grids[] = {
       {{72, 37}, {-180, -90}, {5, 5}},
@@ -156,8 +156,8 @@ START_TEST(a_grid_has_as_many_nodes_as_its_function) {
 }
 END_TEST
 
-/* A single low value in the middle of the sphere, beside the meridian where the grid begins, and in
- * the row next to a pole: samples of d meet none of them. */
+/* A single low value lies in the middle of the sphere, at the meridian where the grid begins, or in
+ * the row next to a pole. Samples of d miss it, and the nodes must follow it nevertheless. */
 START_TEST(a_low_value_of_a_grid) {
   static const int64_t size[2] = {360, 181}, spots[3][2] = {{77, 121}, {0, 40}, {211, 179}};
   static const double origin[2] = {-180, -90}, step[2] = {1, 1};
@@ -184,7 +184,7 @@ START_TEST(a_low_value_of_a_grid) {
 }
 END_TEST
 
-/* Rows that have different values at a pole mean one there: their mean. */
+/* A row at a pole with different values gives one value there: their mean. */
 START_TEST(a_pole_has_one_spacing) {
   const int64_t size[2] = {4, 3};
   const double origin[2] = {0, -90}, step[2] = {90, 90},
@@ -207,7 +207,7 @@ START_TEST(a_pole_has_one_spacing) {
 }
 END_TEST
 
-/* A sea of 20 degrees, and a grid on the other side of the Earth. */
+/* The sea is 20 degrees wide, and the grid lies on the other side of the Earth. */
 START_TEST(a_grid_beside_the_domain) {
   static const int64_t size[2] = {4, 4};
   static const double step[2] = {5, 5}, degrees[8] = {0, 0, 20, 0, 20, 20, 0, 20};
@@ -232,7 +232,7 @@ START_TEST(a_grid_beside_the_domain) {
 }
 END_TEST
 
-/* How many nodes the warning says are beyond the grid, over all. */
+/* Returns the share of nodes that the warning reports as beyond the grid. */
 static double share_beyond(const char* warning) {
   long all = 0, beyond = 0;
   ck_assert_ptr_nonnull(warning);
@@ -245,7 +245,7 @@ static double share_beyond(const char* warning) {
   return (double)beyond / (double)all;
 }
 
-/* Constant in latitude beyond. Nodes are counted before they move. */
+/* Beyond the grid d is constant in latitude. The warning counts nodes before they move. */
 START_TEST(a_grid_of_some_latitudes) {
   static const degree_grid band = {{36, 13}, {-180, -60}, {10, 10}};
   job it = globe_from(20, -30);
@@ -270,7 +270,7 @@ START_TEST(a_grid_of_some_latitudes) {
 }
 END_TEST
 
-/* Along the sphere, from a half of a great circle between the poles. */
+/* Returns the distance along the sphere to a meridian, from pole to pole. */
 static double distance_to_meridian(const double* x, double longitude) {
   double least = 2 * R;
   int k;
@@ -283,7 +283,7 @@ static double distance_to_meridian(const double* x, double longitude) {
   return 2 * R * asin(least / (2 * R));
 }
 
-/* Beyond, the nearer end in longitude counts. */
+/* Beyond the grid, the end that is nearer in longitude counts. */
 START_TEST(a_grid_of_some_longitudes) {
   static const degree_grid sector = {{13, 19}, {120, -90}, {10, 10}};
   job it = globe_from(20, -30);
@@ -378,7 +378,7 @@ typedef struct {
   int64_t* corners;
 } sphere_mesh;
 
-/* Of a placement, with values of a function at its nodes. */
+/* Returns the triangles of a placement, with values of a function at its nodes. */
 static sphere_mesh mesh_of(pnpbs_placement placement, field f) {
   sphere_mesh mesh = {0};
   int64_t i;
@@ -401,7 +401,7 @@ static void mesh_free(sphere_mesh* mesh) {
   free(mesh->corners);
 }
 
-/* The triangles of a whole sphere, projected from there. */
+/* Returns the triangles of a whole sphere with this centre of projection. */
 static sphere_mesh globe_mesh(double longitude, double latitude, double spacing, field f) {
   job it = globe_from(longitude, latitude);
   sphere_mesh mesh;
@@ -417,8 +417,9 @@ static void set_mesh(pnpbs_placement placement, const sphere_mesh* mesh) {
                                         mesh->corners));
 }
 
-/* Where the ray from the centre through x meets a triangle: by T. Moeller, B. Trumbore (J. Graphics
- * Tools 2 (1997) 21-28). Linear there. */
+/* Computes the value at the intersection of a triangle and the ray from the centre through x, by
+ * linear interpolation (T. Moeller, B. Trumbore, J. Graphics Tools 2 (1997) 21-28). Returns whether
+ * they intersect. */
 static int value_on_ray(const sphere_mesh* mesh, int64_t t, const double* x, double* value) {
   const int64_t* c = mesh->corners + 3 * t;
   const double* a = mesh->x + 3 * c[0];
@@ -442,8 +443,9 @@ static int value_on_ray(const sphere_mesh* mesh, int64_t t, const double* x, dou
   return 1;
 }
 
-/* One from the same point, whose triangle about it is unbounded in the chart, and others. Growth is
- * not limited, so that d at nodes is what the mesh has there. */
+/* One domain has the mesh's own centre of projection, about which the mesh's triangle is unbounded
+ * in the chart; the others have other centres. Growth is not limited, so d at nodes equals the
+ * values of the mesh. */
 START_TEST(a_mesh_of_the_whole_sphere) {
   static const double from[3][2] = {{20, -30}, {-160, 30}, {85, 88}};
   sphere_mesh mesh = globe_mesh(20, -30, 800, sideways);
@@ -469,8 +471,8 @@ START_TEST(a_mesh_of_the_whole_sphere) {
 }
 END_TEST
 
-/* Nodes by d as it was at the nodes before are as many: it is the same d. Both ways, also where it
- * is finest about the point that is projected from. */
+/* If d at the nodes is given back as a spacing, the number of nodes stays the same. The test uses
+ * both a mesh and points, also for a d that is finest at the centre of projection. */
 START_TEST(as_many_nodes_by_their_own_spacing) {
   field f = _i % 2 == 0 ? to_the_poles : sideways;
   job it = globe_from(-90, 5);
@@ -483,17 +485,17 @@ START_TEST(as_many_nodes_by_their_own_spacing) {
     set_mesh(it.placement, &mesh);
   else
     MUST(pnpbs_placement_set_spacing_points(it.placement, mesh.n, mesh.x, mesh.d));
-  MUST(pnpbs_placement_run(it.placement)); /* from those there are */
+  MUST(pnpbs_placement_run(it.placement)); /* from the current nodes */
   MUST(pnpbs_placement_check(it.placement));
   MUST(pnpbs_placement_count(it.placement, &nodes));
-  ck_assert_double_eq_tol((double)nodes / (double)mesh.n, 1, 0.015); /* by a callback 0.008 */
+  ck_assert_double_eq_tol((double)nodes / (double)mesh.n, 1, 0.015); /* 0.008 with a callback */
   pnpbs_placement_destroy(&it.placement);
   job_place(&it);
   if (_i < 2)
     set_mesh(it.placement, &mesh);
   else
     MUST(pnpbs_placement_set_spacing_points(it.placement, mesh.n, mesh.x, mesh.d));
-  MUST(pnpbs_placement_run(it.placement)); /* from none */
+  MUST(pnpbs_placement_run(it.placement)); /* without start nodes */
   MUST(pnpbs_placement_count(it.placement, &nodes));
   ck_assert_double_eq_tol((double)nodes / (double)mesh.n, 1, 0.01);
   ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.985);
@@ -506,8 +508,8 @@ static double between(const double* a, const double* b) {
   return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
-/* The value at the nearest place of the sides of one triangle alone, and its distance: among points
- * on all of them. */
+/* Returns the distance from x to the border of the mesh, and the value at the nearest point there.
+ * The border consists of the sides that belong to one triangle; it is sampled. */
 static double nearest_on_border(const sphere_mesh* mesh, const double* x, double* value) {
   enum { PARTS = 60 };
   double least = 3 * R;
@@ -536,7 +538,7 @@ static double nearest_on_border(const sphere_mesh* mesh, const double* x, double
   return 2 * R * asin(least / (2 * R));
 }
 
-/* Beyond the northern half d is that of the nearest place. */
+/* The mesh covers the northern half. Beyond it d is that of the nearest point of the mesh. */
 START_TEST(a_mesh_of_a_part) {
   sphere_mesh mesh = globe_mesh(20, -30, 800, sideways);
   job it = globe_from(20, -30);
@@ -560,7 +562,7 @@ START_TEST(a_mesh_of_a_part) {
     if (t < mesh.triangles) continue;
     distance = nearest_on_border(&mesh, x + 3 * i, &expected);
     outside += distance > d[i];
-    /* Near the other pole all of the border is as far. */
+    /* Near the other pole the whole border is at about the same distance. */
     if (distance < 8000) ck_assert_double_eq_tol(d[i], expected, 2);
   }
   warning = warning_with(it.placement, "the background mesh of the spacing covers only a part");
@@ -578,7 +580,7 @@ START_TEST(a_mesh_of_a_part) {
 }
 END_TEST
 
-/* Met at the points, and a smooth function between them to the second order. */
+/* d equals the values at the points, and a smooth function between them to second order. */
 START_TEST(points_all_over_the_sphere) {
   static const double places[][2] = {{0, 90}, {180, 0}, {-160, 31}, {20, -90}, {19, 40}};
   const double spacing = 600, most = 100 * pow(spacing / R, 2) / 2;
@@ -587,7 +589,7 @@ START_TEST(points_all_over_the_sphere) {
   double fixed[3 * COUNT_OF(places)], *x, *d;
   int64_t n, i;
   int k, met = 0;
-  for (k = 0; k < COUNT_OF(places); ++k) { /* the nearest of the points */
+  for (k = 0; k < COUNT_OF(places); ++k) { /* finds the nearest of the points */
     double place[3], least = 3 * R;
     MUST(pnpbs_sphere_points(R, 1, places[k], place));
     for (i = 0; i < cloud.n; ++i) {
@@ -622,7 +624,8 @@ START_TEST(points_all_over_the_sphere) {
 }
 END_TEST
 
-/* In a part of the sphere, and one that is meant for all of it. Lengths do not count. */
+/* The points cover a part of the sphere and determine d on all of it. Their distances from the
+ * centre do not matter. */
 START_TEST(points_in_a_part) {
   double degrees[2 * 50], x[3 * 50], d[50];
   job it = globe_from(20, -30);
@@ -646,8 +649,8 @@ START_TEST(points_in_a_part) {
 }
 END_TEST
 
-/* Where nodes are far apart otherwise, and samples of d would miss it: the least d is there, also
- * among the nodes about the point that is projected from, which are laid first. */
+/* A single node of the mesh has a small d that samples of d would miss. The nodes must follow it,
+ * also within the closing patch about the centre of projection. */
 START_TEST(what_is_fine_at_one_node) {
   static const double places[2][2] = {{100, 50}, {20, -20}};
   sphere_mesh mesh = globe_mesh(70, 40, 250, NULL);
@@ -689,7 +692,8 @@ static int32_t constant_spacing(int64_t n, int32_t dim, const double* x, double*
   return 0;
 }
 
-/* A coast with more vertices than d needs loses as many by a file as by a callback. */
+/* A coast with more vertices than d needs is simplified in the same way with d from a file as with
+ * a callback. */
 START_TEST(a_coast_is_simplified_by_a_file) {
   enum { VERTICES = 720 };
   const char* path = "sphere_fields_coast.csv";
@@ -739,7 +743,7 @@ START_TEST(wrong_meshes_and_points) {
   x[3] = 0, d[1] = -1;
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_set_spacing_points(p, 3, x, d), "argument d[1]",
             "-1");
-  x[3] = 5, x[4] = 0; /* where the first one is */
+  x[3] = 5, x[4] = 0; /* at the position of the first one */
   d[1] = 200;
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_set_spacing_points(p, 3, x, d), "argument d[",
             "a place has one spacing");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Placements on surfaces alone: nodes and triangles, nothing inside.
+ * Tests placements on surfaces alone: nodes and triangles on them, and nothing inside.
  */
 #include "volume_support.h"
 
@@ -8,7 +8,7 @@
 
 typedef struct {
   int64_t low, high;
-  int turn; /* 1 from low to high, -1 back */
+  int turn; /* 1 from low to high, -1 in the other direction */
 } edge;
 
 static int by_ends(const void* a, const void* b) {
@@ -17,8 +17,8 @@ static int by_ends(const void* a, const void* b) {
   return s->high < t->high ? -1 : s->high > t->high;
 }
 
-/* Every edge has two triangles, which turn it both ways, or is one of the border's. Returns nodes -
- * edges + triangles. */
+/* Checks that every edge has two triangles with opposite orientation, or is on the border. Returns
+ * nodes - edges + triangles. */
 static int64_t euler_number(const volume* v, int64_t* border) {
   const int64_t n = 3 * v->triangles;
   edge* edges = malloc((size_t)n * sizeof *edges);
@@ -95,7 +95,7 @@ START_TEST(a_sphere) {
 }
 END_TEST
 
-/* With a border, and d graded. */
+/* The surface has a border, and d is graded. */
 START_TEST(a_terrain) {
   struct volume_spacing spacing = VOLUME_GRADED(0.02, 0.03, 0.5, 0, 0);
   job it = body_job(surface_terrain);
@@ -122,7 +122,8 @@ START_TEST(a_terrain) {
 }
 END_TEST
 
-/* The triangles of each tag cover its half; nodes lie on the equator between them. */
+/* The triangles of each tag cover their half of the sphere, and nodes lie on the equator between
+ * them. */
 START_TEST(two_tags) {
   job it = surfaces_job(surface_halves, 0.06);
   volume v;
@@ -145,7 +146,7 @@ START_TEST(two_tags) {
 }
 END_TEST
 
-/* Creases and corners, on coarse flat triangles. */
+/* The surface has creases and corners between coarse flat triangles. */
 START_TEST(a_skin_with_creases) {
   job it = surfaces_job(surface_l_block, 0.05);
   volume v;
@@ -161,8 +162,8 @@ START_TEST(a_skin_with_creases) {
 }
 END_TEST
 
-/* On a rough surface and far from rest not all nodes find the same triangles; those handed out
- * agree nevertheless. */
+/* On a rough surface and far from rest, not all nodes find the same triangles. The returned
+ * triangles must agree nevertheless. */
 START_TEST(triangles_agree) {
   const double spacings[] = {4, 12, 20};
   job it = surfaces_job(surface_kleopatra, spacings[_i]);
@@ -194,7 +195,8 @@ static void check_again(const job* it, double d) {
   volume_free(&v);
 }
 
-/* Finer from the nodes there are, then coarser; by values at them. */
+/* d becomes finer, then coarser, and then is given by values at nodes. Each run begins from the
+ * current nodes. */
 START_TEST(another_spacing) {
   job it = surfaces_job(surface_halves, 0.2);
   double* d;
@@ -217,7 +219,7 @@ START_TEST(another_spacing) {
 }
 END_TEST
 
-/* They go to the surface; one is too far away. */
+/* Given nodes are projected to the surface. One that is too far away is dropped. */
 START_TEST(given_nodes) {
   job it = surfaces_job(surface_halves, 0.15);
   volume v;
@@ -286,7 +288,8 @@ START_TEST(bad_domains) {
 }
 END_TEST
 
-/* Larger than the surface: its corners. Far too small: too many nodes. */
+/* With a d larger than the surface, only its corners are nodes. A d that is far too small is an
+ * error. */
 START_TEST(odd_spacings) {
   job it = square_alone();
   volume v;
@@ -298,7 +301,7 @@ START_TEST(odd_spacings) {
   v = volume_of(it.placement);
   ck_assert_int_eq(v.n, 4);
   ck_assert_int_eq(euler_number(&v, &border), 1);
-  ck_assert_int_eq(v.triangles, 2); /* between corners: no node tells their tag */
+  ck_assert_int_eq(v.triangles, 2); /* between corners, so no node has the tag of the triangles */
   for (i = 0; i < v.triangles; ++i) ck_assert_int_eq(v.side_tags[i], SQUARE_TAG);
   volume_free(&v);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 1e-10));
@@ -308,7 +311,7 @@ START_TEST(odd_spacings) {
 }
 END_TEST
 
-/* Vertices that must be nodes, and a diagonal that edges follow. */
+/* A given vertex must be a node, and edges must follow a given diagonal. */
 START_TEST(fixed_nodes_and_curves) {
   const double diagonal[] = {0, 0, 0, 1, 1, 0}, corner[] = {1, 1, 0};
   const int32_t tag = 7;
@@ -335,7 +338,8 @@ START_TEST(fixed_nodes_and_curves) {
 }
 END_TEST
 
-/* The domain is read when a placement is initialised: elements stay what they are until then. */
+/* A placement reads the domain when it is initialised. Until then a change does not affect its
+ * elements. */
 START_TEST(filled_when_it_is_initialised) {
   job it = box_job(0.4);
   pnpbs_mesh mesh;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The same job with one, two and more threads gives the same nodes, bit for bit. The number of
- * threads is fixed once per process, so this program runs itself: `test_api_threads <job> <file>`
- * does a job and writes all of its results; without arguments it compares such files.
+ * Tests that the same job with one, two and more threads gives the same nodes, bit for bit. The
+ * number of threads is fixed once per process, so this program runs itself: `test_api_threads <job>
+ * <file>` runs a job and writes all of its results. Without arguments it compares such files.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
@@ -14,7 +14,7 @@
 
 /* ---------------------------------------------------------------- the jobs -------------- */
 
-/* Called in a process of its own, without Check: failures end it. */
+/* Ends the process if a call fails. Jobs run in processes of their own, without Check. */
 static void demand(pnpbs_status status, const char* what) {
   if (status >= 0) return;
   fprintf(stderr, "%s: %s\n", what, pnpbs_last_error(NULL));
@@ -27,7 +27,7 @@ typedef struct {
   const char* file; /* a domain under examples/data, or NULL for the unit square */
   cone slope;
   const char* options[10];
-  double second; /* then a run with d times this, if not 0 */
+  double second; /* factor of d for a second run; 0 for none */
 } thread_job;
 
 static const thread_job jobs[] = {
@@ -51,7 +51,7 @@ static const thread_job jobs[] = {
      0},
 };
 
-/* Everything that comes out, in a file of text with all bits. */
+/* Writes all results to a text file, with all bits. */
 static void write_results(pnpbs_placement p, FILE* file) {
   int64_t n = 0, entries = 0, near = 0, triangles = 0, edges = 0, i;
   double *xy, *d;
@@ -92,7 +92,7 @@ static void write_results(pnpbs_placement p, FILE* file) {
   ends = malloc(2 * (size_t)edges * sizeof *ends);
   edge_tags = malloc((size_t)edges * sizeof *edge_tags);
   DEMAND(pnpbs_placement_get_nodes(p, n, xy, ids, tags, d));
-  fprintf(file, "%" PRId64 " 2 1 1\n", n); /* as Triangle's .node files, but for the bits */
+  fprintf(file, "%" PRId64 " 2 1 1\n", n); /* as in Triangle's .node files */
   for (i = 0; i < n; ++i) {
     fprintf(file, "%" PRId64 " %a %a %a %" PRId32 " id %" PRId64 "\n", i + 1, xy[2 * i],
             xy[2 * i + 1], d[i], tags[i], ids[i]);
@@ -160,7 +160,8 @@ static int do_job(int which, const char* path) {
 
 static const char* this_program;
 
-/* Runs job `which` with this many threads into a file; returns how many there really were. */
+/* Runs job `which` with this many threads into a file. Returns the number of threads that it had.
+ */
 static int run_with(int which, int threads, const char* path) {
   char number[20], count[20];
   int ends[2], status = -1;
@@ -219,7 +220,7 @@ START_TEST(any_number_of_threads) {
     int found;
     snprintf(path[k], sizeof path[k], "%s/threads_%d_%d.txt", PNPBS_TEST_WORK_DIR, _i, threads[k]);
     found = run_with(_i, threads[k], path[k]);
-    /* A build without OpenMP has one thread whatever is asked. */
+    /* A build without OpenMP always has one thread. */
     if (strstr(pnpbs_build_info(), "back end: OpenMP") != NULL) {
       ck_assert_int_eq(found, threads[k]);
     }
@@ -229,7 +230,7 @@ START_TEST(any_number_of_threads) {
                   "%s: not the same with %d threads and with 1: see %s and %s", jobs[_i].name,
                   threads[k], path[0], path[k]);
   }
-  /* Nodes came and went where they were meant to. */
+  /* Nodes were inserted and deleted where the job is meant to cause that. */
   ck_assert_int_eq(
       sscanf(strstr(text[0], "inserted"), "inserted %lld deleted %lld", &inserted, &deleted), 2);
   if (strcmp(jobs[_i].name, "restless") == 0) ck_assert(inserted > 0 && deleted > 0);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What the tests of placements in space share: bodies, and results copied out and summed up.
+ * Helpers of the tests of placements in space: bodies, and results that are copied out and summed
+ * up.
  */
 #ifndef PNPBS_TESTS_VOLUME_SUPPORT_H
 #define PNPBS_TESTS_VOLUME_SUPPORT_H
@@ -10,16 +11,18 @@
 
 #define DATA PNPBS_SOURCE_DIR "/examples/data"
 
-job body_job(volume_body body); /* a placement in the body */
-job box_job(double d);          /* in the unit box */
+job body_job(volume_body body); /* creates a placement in the body */
+job box_job(double d);          /* creates a placement in the unit box */
 
-/* In a globe with bumps and dents, the deeper and narrower the larger these two are. */
+/* Returns a placement in a globe with bumps and dents. These are deeper for a larger `depth` and
+ * narrower for larger `waves`. */
 job rough_job(double depth, double waves, double d);
 job repaired_job(double depth, double waves, double d, double resolution); /* 0: not repaired */
 
-/* d does not resolve it: whatever is done with the elements, its boundary is torn. */
+/* Returns a placement with a d that does not resolve the body. Its boundary is torn for any choice
+ * of the elements. */
 job unresolved_job(void);
-/* A small sphere, filled with nothing, on which triangles do not join. */
+/* Returns a placement on a small sphere without filling, on which triangles do not join. */
 job unresolved_surface_job(void);
 
 int warnings_with(pnpbs_placement placement, const char* words);
@@ -36,19 +39,20 @@ void volume_free(volume* v);
 
 double distance(const double* a, const double* b);
 
-/* Of the tetrahedra, each of which must be of positive volume. */
+/* Returns the sum of the volumes of the tetrahedra, each of which must be positive. */
 double volume_sum(const volume* v);
 
-/* Of the triangles of the boundary with a tag (0: with any), and what all of them enclose. */
+/* Returns the area of the boundary triangles with a tag (0: with any tag), and the volume that all
+ * of them enclose. */
 double boundary_area(const volume* v, int32_t tag, double* enclosed);
 
-/* The nearest pair over the mean of its d. */
+/* Returns the distance of the nearest pair over the mean of its d. */
 double nearest_pair(const volume* v);
 
-/* The library's own check, and the volume by plain sums. */
+/* Checks the body by the library's own check, and its volume by plain sums. */
 void check_body(const job* it, double tolerance);
 
-/* The same while bubbles still move: until they have, tetrahedra may have no volume. */
+/* Checks a body whose bubbles still move. Until they have moved, tetrahedra may have no volume. */
 void check_stopped_body(const job* it, double tolerance);
 
 #endif
