@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged checkpoints by the hundred. Whatever a file holds, reading it must answer with the
-// placement that was written or with a message; never with a crash, a hang or another placement.
+// Tests hundreds of damaged checkpoints. Reading any file must give the placement that was written,
+// or an error with a message. It must never crash, hang or give another placement.
 //
-// The file under test lies in mutate_checkpoint.vtkhdf in the working folder, for the case of a
-// crash. More by hand: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 test_mutate_checkpoint
+// The file under test remains as mutate_checkpoint.vtkhdf in the working folder after a crash. More
+// damaged files can be tested by hand:
+// PNPBS_MUTATIONS=40000 PNPBS_SEED=7 test_mutate_checkpoint
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +33,8 @@ void set_file(const std::string& bytes) {
   std::ofstream(file_name, std::ios::binary | std::ios::trunc) << bytes;
 }
 
-// With a spacing by values at nodes, if that is wanted, which the file holds, too.
+// A placement in the unit square. On request it has a spacing by values at nodes, which its
+// checkpoint then contains.
 struct Job {
   pnpbs_context context = nullptr;
   pnpbs_domain domain = nullptr;
@@ -76,7 +78,8 @@ struct Tally {
   int refused = 0, read = 0;
 };
 
-// `reader` is one for all files: what is refused must leave it usable.
+// Reads a damaged file. All files are read by the same `reader`, which must remain usable when a
+// file is rejected.
 void try_to_read(Job& reader, const std::string& bytes, const std::string& hash, Tally& tally) {
   set_file(bytes);
   const pnpbs_status status = pnpbs_placement_read_checkpoint(reader.placement, file_name);
@@ -105,12 +108,12 @@ void damage_by_chance(bool values_at_nodes) {
   for (std::uint64_t k = 0; k < mutations; ++k)
     try_to_read(reader, damage.to_bytes(bytes), hash, tally);
   ck_assert_int_gt(tally.refused, static_cast<int>(mutations / 3));
-  // Cut off anywhere.
+  // The file may be cut off at any position.
   Tally cut;
   for (std::size_t part = 0; part < 60; ++part)
     try_to_read(reader, bytes.substr(0, bytes.size() * part / 60), hash, cut);
   ck_assert_int_eq(cut.read, 0);
-  // As it was, it is read, and the reader goes on.
+  // The intact file must be read, and the run must continue from it.
   try_to_read(reader, bytes, hash, tally);
   ck_assert_int_ge(pnpbs_placement_run(writer.placement), 0);
   ck_assert_int_ge(pnpbs_placement_run(reader.placement), 0);
@@ -124,7 +127,7 @@ END_TEST
 START_TEST(damaged_with_values_at_nodes) { damage_by_chance(true); }
 END_TEST
 
-// Each bit of the nodes counts: one flipped anywhere in an array is told.
+// Every bit of the nodes matters: one flipped bit anywhere in an array must be detected.
 START_TEST(flipped_bits_of_nodes) {
   Job writer, reader;
   writer.write(false);

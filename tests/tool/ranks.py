@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the tests run the command under mpirun."""
+"""Base class of the tests that run the command under mpirun."""
 
 import os
 import pathlib
@@ -26,7 +26,8 @@ class RanksTest(CommandTest):
         )
 
     def ranks_of(self, process, count):
-        """The processes of the ranks, once they answer to signals as the command does."""
+        """Returns the process ids of the ranks, once they have installed the signal handlers of the
+        command."""
         children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
         end = time.monotonic() + 100
         while time.monotonic() < end and process.poll() is None:
@@ -45,7 +46,8 @@ class RanksTest(CommandTest):
         return out, err.decode()
 
     def refuse_ranks(self, ranks, *arguments, code=BAD_INPUT, **more):
-        """A run that must fail, leave no file and say why once; returns what it says."""
+        """Runs the command, which must fail, leave no file and give one reason. Returns the
+        message."""
         before = self.files()
         out, err = self.run_ranks(ranks, *arguments, code=code, **more)
         self.assertEqual(out, b"")
@@ -56,7 +58,8 @@ class RanksTest(CommandTest):
 
 
 def state_of(process):
-    """What the system says of it, or nothing if it is gone."""
+    """Returns the text that the system reports about a process, or "" if the process does not
+    exist."""
     try:
         return pathlib.Path(f"/proc/{process}/status").read_text()
     except (FileNotFoundError, ProcessLookupError):
@@ -64,13 +67,14 @@ def state_of(process):
 
 
 def is_running(process):
-    """What has ended may still be listed until somebody takes notice."""
+    """Returns whether a process runs. A process that has ended may still be listed until its parent
+    waits for it."""
     state = state_of(process)
     return bool(state) and "\nState:\tZ" not in state
 
 
 def catches_signals(process):
-    """Whether a handler is there for both signals that interrupt the command."""
+    """Returns whether the process handles both signals that interrupt the command."""
     caught = state_of(process).partition("\nSigCgt:\t")[2].partition("\n")[0] or "0"
     return all(int(caught, 16) >> (number - 1) & 1 for number in (signal.SIGINT, signal.SIGTERM))
 
@@ -83,6 +87,6 @@ def end_soon(processes, patience=100):
 
 
 def errors(err):
-    """The lines that say why a run failed; warnings may come before them."""
+    """Returns the lines with the reason of a failure. Warnings may precede them."""
     return [line for line in err.splitlines()
             if line.startswith("pnpbs: ") and not line.startswith("pnpbs: warning: ")]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of the command that are to end early, over files that were there before: all of them are new
-afterwards, or none, and nothing else is left."""
+"""Base class of the tests of runs that end early, over files that existed before. Afterwards either
+all of the files are new or none of them, and no other file is left."""
 
 import os
 import time
@@ -9,11 +9,11 @@ from command import DONE, INTERRUPTED, NOT_CONVERGED
 from ranks import RanksTest
 
 
-WRITTEN = (DONE, NOT_CONVERGED)  # after a few steps
+WRITTEN = (DONE, NOT_CONVERGED)  # the run stops after a few steps
 
 
 class ShotTest(RanksTest):
-    # A short run, and much to write.
+    # The run is short and writes much.
     SPACING = "0.007"
     NAMES = ("a.vtu", "b.msh", "c.csv", "d.pvtu", "e.png")
     RANKS = 2
@@ -32,7 +32,7 @@ class ShotTest(RanksTest):
             (self.folder / name).write_text("old")
 
     def are_new(self):
-        """Whether the files are new; fails if that differs between them."""
+        """Returns whether the files are new. Fails if some are new and some are old."""
         new = {name: (self.folder / name).read_bytes() != b"old" for name in self.targets()}
         self.assertEqual(len(set(new.values())), 1, f"a mixture: {new}")
         return all(new.values())
@@ -41,7 +41,8 @@ class ShotTest(RanksTest):
         return [name for name in self.files() if name.startswith(".pnpbs-")]
 
     def check_files(self, code, hint):
-        """After a run that may have been shot."""
+        """Checks the files after a run that may have been interrupted. Returns whether they are
+        new."""
         new = self.are_new()
         self.assertEqual(self.left_aside(), [], hint)
         if code in WRITTEN:
@@ -51,7 +52,7 @@ class ShotTest(RanksTest):
         return new
 
     def wait_aside(self, process, patience=300):
-        """Until a file is written aside in earnest: with something in it."""
+        """Waits until a temporary file contains data."""
         end = time.monotonic() + patience
         while time.monotonic() < end and process.poll() is None:
             for name in self.left_aside():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Domains in space: what the command reads, tells and refuses."""
+"""Tests domains in space: files that the command reads, the text that it prints, and input that it
+rejects."""
 
 import itertools
 import json
@@ -15,7 +16,7 @@ from readers import point_array, read_with_vtk
 
 BOX = "box(0,0,0, 1,1,1)"
 
-# A unit cube as TetGen has it; the second number of its first line says that it is in space.
+# A unit cube in TetGen's format. The second number of the first line says that it is in space.
 FACES = ["1 2 3 4", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"]
 VERTICES = "8 3 0 0\n" + "".join(f"{1 + i} {x} {y} {z}\n" for i, (x, y, z) in enumerate(
     [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]))
@@ -38,7 +39,7 @@ nodata_value -1
 
 
 def tetrahedra_of(grid):
-    """Corners of the cells of a .vtu that are tetrahedra."""
+    """Returns the corners of the tetrahedra among the cells of a .vtu file."""
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     return numpy.array([corners[a:b] for a, b in zip(offsets[:-1], offsets[1:]) if b - a == 4])
@@ -69,11 +70,11 @@ class Files(CommandTest):
         self.assertTrue(report["edge"]["bands"])
         self.assertRegex(out, r"(?m)^body     80 x 60 x 70, volume 86 524, elements fill 86 \d\d\d, surface 23 \d\d\d$")
         self.assertRegex(out, r"smallest dihedral angle \d")
-        # Its holes are round: coarse triangles cut off a little.
+        # The holes of the body are round, so coarse triangles deviate a little.
         self.assertAlmostEqual(volume_of(points, tetrahedra_of(grid)) / 86524, 1, delta=0.01)
 
     def test_each_kind_of_file(self):
-        # The volume as the summary tells it.
+        # Checks the volume in the summary.
         (self.folder / "cube.poly").write_text("# a comment first\n\n" + CUBE)
         (self.folder / "cube.smesh").write_text(VERTICES + "6 0\n" + "".join(
             f"4 {face}\n" for face in FACES) + "0\n")
@@ -127,7 +128,7 @@ class Files(CommandTest):
         self.assertEqual(err, "")
 
     def test_surfaces_only(self):
-        # An open box: a cube without its lid.
+        # Checks an open box: a cube without its lid.
         self.save_cube_without_lid("open.off")
         self.refuse("--domain", "open.off", "--spacing", "0.1", "-o", "a.vtu")
         out, _ = self.place_body("open.off", "0.1", "-o", "a.node", "-o", "a.face", "--check",
@@ -152,7 +153,7 @@ class Files(CommandTest):
         out, err = self.place_body("open.off", "0.1", "-o", "a.vtu", "--check", "--report",
                                    "a.json", "--repair", "0.05")
         volume = float(re.search(r"volume ([0-9.]+)", out)[1])
-        self.assertAlmostEqual(volume, 1, delta=0.01)  # seen from a lid, half of all is open
+        self.assertAlmostEqual(volume, 1, delta=0.01)  # half of all directions at the lid are open
         self.assertIn("repaired, with a resolution of 0.05", err)
         report = json.loads((self.folder / "a.json").read_text())
         self.assertEqual(report["repair"], 0.05)
@@ -167,7 +168,7 @@ class Files(CommandTest):
         self.assertEqual(set(json.loads((self.folder / "b.json").read_text())["repaired"].values()),
                          {0})
         self.place_body("open.off", "0.1", "--repair", "--dry-run")
-        # A sound body stays as it is, with its tags, and can be made anew all the same.
+        # A sound body stays as it is, with its tags, but its surface can also be rebuilt.
         (self.folder / "cube.poly").write_text(CUBE)
         for option, resolution, tags in (("--repair", 0, set(range(7, 13))),
                                          ("--resurface", 0.1, {7})):
@@ -191,7 +192,8 @@ class Files(CommandTest):
         self.save_cube_without_lid("open.off")
         _, err = self.place_body("open.off", "0.2", "-o", "a.vtu", "--check", "--repair", "auto")
         self.assertIn("the body is repaired, as it is refused otherwise: ", err)
-        # A cube with a fin of a third of d, which is lost, and which such a repair therefore removes.
+        # The cube has a fin of a third of d. The fin is lost in the elements, so automatic repair
+        # removes it.
         self.save_cube_with_fin("fin.off", half_width=0.055)
         torn = ["--domain", "fin.off", "--spacing", "0.34", "--set", "conforming_rounds=1",
                 "-o", "a.vtu", "--report", "a.json"]
@@ -204,7 +206,7 @@ class Files(CommandTest):
         found = json.loads((self.folder / "a.json").read_text())
         self.assertEqual(found["repair"], "auto")
         self.assertEqual(found["repaired"]["resolution"], 0.34)
-        # One that is whole stays as it is.
+        # A body whose elements conform is not repaired.
         self.save_cube_with_fin("fin.off", half_width=0.1)
         out, err = self.place_body("fin.off", "0.2", "-o", "a.vtu", "--repair", "auto")
         self.assertIn("volume 1.15,", out)
@@ -214,7 +216,7 @@ class Files(CommandTest):
             "-o", "a.vtu"))
 
     def test_picture_of_surfaces(self):
-        # Its triangles, all of them, and no cut.
+        # Checks that the picture contains all triangles and no cut.
         self.save_cube_without_lid("open.off")
         self.place_body("open.off", "0.2", "-o", "a.svg", "-o", "a.face", "--surfaces-only")
         triangles = int((self.folder / "a.face").read_text().split()[0])
@@ -223,7 +225,7 @@ class Files(CommandTest):
         self.assertGreaterEqual(len(re.findall("<path", picture)), triangles)
 
     def save_rough_globe(self, name):
-        """With bumps and dents that d = 0.4 does not resolve."""
+        """Writes a globe with bumps and dents that d = 0.4 does not resolve."""
         rows = 12
         faces = [((i + up, j + up), (i + 1, j), (i, j + 1))
                  for i in range(rows) for j in range(rows - i)
@@ -265,7 +267,8 @@ class Grids(CommandTest):
         grid = read_with_vtk(self.folder / "a.vtu")
         return points_of(grid), point_array(grid, "spacing")
 
-    # At y = 0 and 1, below; the same at z = 0.5, where a gap takes the value of the cell below it.
+    # The grid has values at y = 0 and y = 1 in two layers, z = 0 and z = 0.5. A gap in the upper
+    # layer takes the value of the cell below it.
     def test_layers(self):
         header, values = LAYERS.split("dz 0.5\n")
         header += "dz 0.5\nnodata_value -1\n"
@@ -336,7 +339,7 @@ class Refusals(CommandTest):
                            ("levelet(0,0,0, 1,1,1, 0.1, x)", "did you mean levelset?")):
             with self.subTest(text):
                 self.assertIn(word, self.refuse_domain(text))
-        (self.folder / "lake(1)").write_bytes(LAKE.read_bytes())  # a file's name comes first
+        (self.folder / "lake(1)").write_bytes(LAKE.read_bytes())  # file names take precedence
         self.run_command("--domain", "lake(1)", "--spacing", "20", "-o", "a.csv")
 
     def test_what_is_for_the_other_dimension(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""--nodes-at centers: particles that stand for the domain."""
+"""Tests --nodes-at centers: particles that fill the domain."""
 
 import json
 import math
@@ -12,7 +12,7 @@ from readers import read_csv, read_with_vtk
 
 
 def gap_to_square(x, y):
-    """From the boundary of the square with its hole, at points inside."""
+    """Returns the distance from inner points to the boundary of the square with its hole."""
     outside = numpy.minimum.reduce([x, 1 - x, y, 1 - y])
     hole = numpy.hypot(numpy.maximum(abs(x - 0.5) - 0.1, 0), numpy.maximum(abs(y - 0.5) - 0.1, 0))
     return numpy.minimum(outside, hole)
@@ -33,7 +33,7 @@ class CentredNodes(CommandTest):
             self.assertAlmostEqual(sum(d ** 2), SQUARE_AREA, delta=0.02 * SQUARE_AREA)
             self.assertAlmostEqual(math.fsum(table["volume"]), SQUARE_AREA, delta=1e-12)
             gap = gap_to_square(table["x"], table["y"]) / d
-            # Chords of the arcs about the hole's corners cut off a little.
+            # The chords of the arcs about the corners of the hole cut off a little.
             self.assertAlmostEqual(gap.min(), 0.42, delta=0.01)
             ratios = table["volume"] / d ** 2
             self.assertAlmostEqual(report["volumes"]["ratio"]["mean"], ratios.mean(), delta=1e-12)
@@ -52,7 +52,8 @@ class CentredNodes(CommandTest):
         self.assertNotRegex(out, "(?m)^(edges|quality) ")
         self.assertLess(abs(report["volumes"]["ratio"]["mean"] - 1), 0.03)
 
-    # Whose elements have small angles at this d: they do not matter.
+    # At this d the elements of the bracket have small angles. They matter only for nodes at the
+    # boundary.
     def test_in_a_bracket(self):
         for nodes_at, warned in (("centers", False), ("boundary", True)):
             _, err = self.run_command("--domain", DATA / "bracket.stl", "--spacing", "7",
@@ -74,7 +75,7 @@ class CentredNodes(CommandTest):
                                   "centers", "-o", "a.csv")
         table = read_csv(self.folder / "a.csv")
         d = 0.02 + 0.02 * table["x"]
-        # Of nodes, some of which were pushed to where d is another.
+        # d of the nodes, some of which were pushed to where d differs.
         numpy.testing.assert_allclose(table["spacing"], 1.076 * d, rtol=0.01)
         self.assertAlmostEqual(sum(d ** 2), SQUARE_AREA, delta=0.03 * SQUARE_AREA)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checkpoints by the command: stopped anywhere and started again, a run comes to the same nodes; and
-the file is one that VTK opens."""
+"""Tests checkpoints of the command. A run that is stopped at any time and restarted ends with the
+same nodes, and VTK can open the file."""
 
 import json
 import signal
@@ -15,7 +15,7 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 from command import COMMAND, DONE, INTERRUPTED, NOT_CONVERGED, CommandTest
 
 PLANE = ("--spacing", "0.01 + 0.02*x", "--set", "effort=best")
-# Steps long enough that a signal comes between them.
+# Steps take long enough for a signal to arrive between them.
 LONG = ("--spacing", "0.003 + 0.003*x", "--set", "effort=best", "--set", "tolerance_mean=0",
         "--set", "steps=400", "--nodes-only")
 
@@ -60,7 +60,8 @@ class Checkpoints(CommandTest):
         self.assertEqual(self.report(*square, *restart)["hash"], expected)
 
     def restart(self, *options):
-        """From step.vtkhdf, of a run that 20 steps ended; what the report tells, and its warnings."""
+        """Restarts from step.vtkhdf, a checkpoint of a run that ended after 20 steps. Returns the
+        report and its warnings about options."""
         report = self.report("--domain", self.square, "--spacing", "0.01 + 0.02*x", "--restart",
                              "step.vtkhdf", *options, "--checkpoint", "again.vtkhdf")
         self.assertEqual(report["finished"], 1)
@@ -74,7 +75,7 @@ class Checkpoints(CommandTest):
         same, warnings = self.restart("--set", "steps=20")
         self.assertEqual((same["steps"], warnings), (first["steps"], []))
         more, warnings = self.restart("--set", "steps=25")
-        self.assertEqual(more["steps"], first["steps"] + 5)  # 25 in all
+        self.assertEqual(more["steps"], first["steps"] + 5)  # 25 in total
         self.assertEqual(warnings,
                          ["options changed since the checkpoint: steps = 25 (20 before)"])
         fewer, warnings = self.restart("--set", "steps=10")
@@ -136,7 +137,7 @@ class Checkpoints(CommandTest):
     def test_what_finds_no_room_leaves_the_old_file(self):
         path = self.folder / "a.vtkhdf"
         path.write_text("old")
-        for blocks in (3, 50, 150):  # of 1024 bytes: none for the layout, or not for the nodes
+        for blocks in (3, 50, 150):  # of 1024 bytes each: too few for the layout, or for the nodes
             with self.subTest(blocks):
                 process = subprocess.run(
                     ["bash", "-c", f'ulimit -f {blocks}; exec "$0" "$@"', COMMAND, "--domain",

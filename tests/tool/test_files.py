@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the command writes, read back by other people's readers."""
+"""Tests the files that the command writes, by readers of others."""
 
 import json
 import os
@@ -21,7 +21,8 @@ from readers import point_array, read_csv, read_ele, read_msh, read_node, read_w
 
 
 def read_png(data):
-    """Width, height and rows of a PNG without palette, unfiltered rows checked for size only."""
+    """Returns width, height and pixel rows of a PNG without a palette. Only the size of the
+    unfiltered rows is checked."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, pixels, header = 8, b"", None
     while at < len(data):
@@ -42,7 +43,7 @@ def read_png(data):
 
 
 class Agreement(CommandTest):
-    """All formats of one run tell the same nodes."""
+    """Checks that all formats of one run contain the same nodes."""
 
     def setUp(self):
         super().setUp()
@@ -55,7 +56,7 @@ class Agreement(CommandTest):
         self.grid = read_with_vtk(self.folder / "a.vtu")
 
     def test_all(self):
-        # One test, because one run serves them all.
+        # Checks everything in one test, because one run is enough.
         self.check_vtu()
         self.check_meshio()
         self.check_pieces()
@@ -102,7 +103,8 @@ class Agreement(CommandTest):
         self.assertEqual(len(mesh.cells[0].data), self.grid.GetNumberOfCells())
         numpy.testing.assert_array_equal(mesh.point_data["id"], point_array(self.grid, "id"))
 
-    # The edges of the boundary, as the .msh file has them, by numbers of the same nodes.
+    # Checks that the edges of the boundary equal those of the .msh file, by indices of the same
+    # nodes.
     def check_facets(self):
         points = vtk_to_numpy(self.grid.GetPoints().GetData())
         lines, tags = read_msh(self.folder / "a.msh", points)[0]["line"]
@@ -136,7 +138,8 @@ class Agreement(CommandTest):
         triangles, inside = cells["triangle"]
         numpy.testing.assert_array_equal(triangles, self.corners())
         self.assertEqual(set(inside), {1})
-        # The outer square has tag 1, the inner one 2; edges go from node to node on them.
+        # The outer square has tag 1 and the inner one tag 2. Edges connect neighbouring nodes on
+        # them.
         lines, tags = cells["line"]
         self.assertEqual(len(tags), self.report["boundary_nodes"])
         self.assertEqual(set(tags), {1, 2})
@@ -176,7 +179,7 @@ class Agreement(CommandTest):
     def check_png(self):
         width, height, raw = read_png((self.folder / "a.png").read_bytes())
         self.assertTrue(300 < width < 4000 and 300 < height < 4000)
-        self.assertGreater(len(set(raw)), 100)  # no blank page
+        self.assertGreater(len(set(raw)), 100)  # not a blank page
 
 
 class Report(CommandTest):
@@ -224,7 +227,7 @@ class Report(CommandTest):
             self.assertEqual(sorted(band), ["deviation", "edges", "from", "mean", "to"])
         self.assertAlmostEqual(bands[0]["from"], 0.02)
         self.assertAlmostEqual(bands[-1]["to"], 0.05)
-        # All edges but the few between two boundary nodes.
+        # The bands contain all edges except the few between two boundary nodes.
         edges = sum(band["edges"] for band in bands)
         self.assertLess(abs(sum(band["edges"] * band["mean"] for band in bands) / edges
                             - report["edge"]["mean"]), 0.02)
@@ -232,7 +235,8 @@ class Report(CommandTest):
                         < report["quality"]["mean"] < 1)
 
     def test_missed_spacing(self):
-        """The paper's law crushes what is coarse beside a fine line; files are written all the same."""
+        """Checks a missed spacing. The paper's law compresses coarse regions beside a fine line.
+        Files are written nevertheless."""
         self.square.write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n"
                                "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
         out, err = self.place("--report", "r.json", "-o", "a.csv", "--set", "method=paper",
@@ -244,12 +248,13 @@ class Report(CommandTest):
         self.assertTrue((self.folder / "a.csv").exists())
 
     def test_memory_is_that_of_the_end(self):
-        """Of the command alone: what its parent holds when it starts it does not count."""
-        held = bytearray(800 << 20)  # more than sanitizers keep
+        """Checks that the memory is that of the command alone, without that of its parent process.
+        """
+        held = bytearray(800 << 20)  # more than sanitizers use
         out, _ = self.place("--report", "r.json", "-o", "a.msh", "-o", "a.vtu", spacing="0.01")
         del held
         memory = json.loads((self.folder / "r.json").read_text())["memory"]
-        largest = memory["max_peak_bytes"]  # read after peak_bytes, which may have grown since
+        largest = memory["max_peak_bytes"]  # measured after peak_bytes, so it may be larger
         self.assertTrue(1 << 20 < memory["peak_bytes"] <= largest < 500 << 20, memory)
         self.assertIn(f"memory   {largest / (1 << 20):.3g} MiB at most", out.decode())
 
@@ -294,7 +299,7 @@ class StandardStreams(CommandTest):
             with self.subTest(name):
                 self.place("--output", "a." + name)
                 out, err = self.place("--output", "-", "--format", name)
-                if name != "vtu":  # may be compared, but says nothing about pictures
+                if name != "vtu":  # pictures are compared by their bytes only
                     self.assertEqual(len(out) > 100, True)
                 self.assertEqual(out, (self.folder / ("a." + name)).read_bytes())
                 self.assertEqual(err, b"")
@@ -338,7 +343,7 @@ class NodesOnly(CommandTest):
         corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
         numpy.testing.assert_array_equal(corners, numpy.arange(nodes))
         points, tags = vtk_to_numpy(grid.GetPoints().GetData()), point_array(grid, "tag")
-        # Groups are numbered from 1 in version 4.1: the inner nodes have the first that is free.
+        # Version 4.1 numbers groups from 1, so the inner nodes have the first free number.
         for name, inner in (("a.msh", 3), ("a.msh2", 0)):
             cells, groups = read_msh(self.folder / name, points)
             self.assertEqual(list(cells), ["vertex"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""--spacing-grid beside and across the domain, and in formulas."""
+"""Tests --spacing-grid with grids that cover the domain or a part of it, and in formulas."""
 
 import json
 import re
@@ -11,7 +11,7 @@ from command import BAD_INPUT, DONE, NOT_CONVERGED, CommandTest
 
 QUICK = ("--set", "steps=3")
 
-# d from 0.05 in the west to 0.1 in the east of the unit square, and beyond it.
+# A grid with d from 0.05 in the west to 0.1 in the east of the unit square, and beyond it.
 GRID = """\
 ncols 4
 nrows 4
@@ -31,7 +31,7 @@ def grid(x=-0.1, y=-0.1, step=0.3):
 
 class GridsTest(CommandTest):
     def table(self, *arguments, codes=(DONE, NOT_CONVERGED, 4)):
-        """The nodes of a run, its report, and what it said."""
+        """Returns the nodes of a run, its report and its messages."""
         process = self.start(*arguments, *QUICK, "-o", "nodes.csv", "--report", "report.json")
         _, err = process.communicate()
         self.assertIn(process.returncode, codes, err.decode())
@@ -50,13 +50,15 @@ class Coverage(GridsTest):
     def test_all_of_the_domain(self):
         _, report, err = self.on_square("--spacing-grid", self.write(grid()))
         self.assertNotIn("covers only", err)
-        # Cells that end where the domain does, so that their middles do not reach it.
+        # The cells of this grid end at the boundary of the domain, which their centres therefore do
+        # not reach.
         _, _, err = self.on_square("--spacing-grid", self.write(grid(0, 0, 0.25)))
         self.assertNotIn("covers only", err)
         self.assertFalse([w for w in report["warnings"] if "grid" in w])
 
     def test_spots_between_samples(self):
-        """Low values at single points of a fine grid have nodes around them, however few they are."""
+        """Checks that low values at single points of a fine grid have nodes around them, however
+        few these points are."""
         size = 161
         values = np.full((size, size), 0.05)
         spots = [(37, 22), (90, 131), (121, 68)]
@@ -80,17 +82,18 @@ class Coverage(GridsTest):
         self.assertEqual(len([w for w in report["warnings"] if "covers only" in w]), 1)
 
     def test_gaps_of_a_grid_alone(self):
-        """The library, which takes it as it is, knows of none."""
+        """The library takes the grid with filled gaps, so it has no information about gaps."""
         gap = grid().replace("cellsize", "nodata_value -1\ncellsize").replace("0.06 0.08", "0.06 -1", 2)
         name = self.write(gap)
         for more in ((), ("--field", "g=2*grid")):
             _, _, err = self.on_square("--spacing-grid", name, *more)
-            self.assertNotIn("gaps", err)  # each cell without data has data beside it
+            self.assertNotIn("gaps", err)  # each cell without data has a neighbour with data
         name = self.write(gap.replace("-1 0.1", "-1 -1"))
         for more in ((), ("--field", "g=2*grid")):
             table, report, err = self.on_square("--spacing-grid", name, *more)
             found = re.search(r"has gaps in the domain: of [0-9]+ nodes, ([0-9]+) lie", err)
-            # Centres of cells are at -0.1 + 0.15 + 0.3 k; the last two of the upper rows have none.
+            # Centres of cells are at -0.1 + 0.15 + 0.3 k. In the upper rows the last two have no
+            # data.
             without = (table["x"] > 0.65) & (table["y"] > 0.65)
             self.assertEqual(int(found[1]), np.sum(without))
             self.assertIn(found[0], report["warnings"][-1])
@@ -122,7 +125,8 @@ class Formulas(GridsTest):
                                              "cellsize 1\n2\n")
 
     def test_one_grid(self):
-        # d by a formula may differ in its last bit, by which a repair of symmetric triangles decides.
+        # d by a formula may differ in the last bit, which can decide the repair of symmetric
+        # triangles. So repairs are off.
         plain = "--set", "smoothing_rounds=0"
         alone, *_ = self.on_square("--spacing-grid", "g.asc", *plain)
         for arguments in (("--spacing-grid", "g.asc", "--spacing", "grid"),
@@ -138,12 +142,13 @@ class Formulas(GridsTest):
         x, y = table["x"], table["y"]
         at = np.clip((x + 0.1) / 0.3 - 0.5, 0, 3)
         h = np.interp(at, range(4), [0.05, 0.06, 0.08, 0.1])
-        # From the hole in the square, 0.4 .. 0.6, which has tag 2.
+        # The distance to the hole, which is 0.4 .. 0.6 in the square and has tag 2.
         dist = np.hypot(np.maximum(abs(x - 0.5) - 0.1, 0), np.maximum(abs(y - 0.5) - 0.1, 0))
         np.testing.assert_allclose(table["spacing"], np.minimum(h, 0.06 + 0.1 * dist), rtol=0.03)
 
     def test_slopes(self):
-        """Of 3 x - 4 y, and of squares, linear between the middles of cells."""
+        """Checks slopes of 3 x - 4 y and of squares, which are interpolated linearly between cell
+        centres."""
         x, y = np.meshgrid(np.arange(-0.05, 1.06, 0.1), np.arange(1.05, -0.06, -0.1))
         self.write_values("plane.asc", 3 * x - 4 * y)
         self.write_values("squares.asc", x**2)
@@ -151,7 +156,7 @@ class Formulas(GridsTest):
         np.testing.assert_allclose(table["spacing"], 0.05, rtol=1e-6)
         table, *_ = self.on_square("--spacing-grid", "h=squares.asc", "--spacing-grid", "k=plane.asc", "--spacing",
                                    "0.05 + 0.02*h_slope + 0*k + 0*k_slope", "--set", "growth_limit=0")
-        middle = 0.1 * np.floor((table["x"] + 0.05) / 0.1)  # between the middles of two cells
+        middle = 0.1 * np.floor((table["x"] + 0.05) / 0.1)  # middle between two cell centres
         inside = abs(table["x"] - middle) < 0.04
         np.testing.assert_allclose(table["spacing"][inside], 0.05 + 0.04 * middle[inside], rtol=1e-6)
         message = self.refuse("--domain", self.square, "-o", "a.csv", "--spacing-grid", "h=plane.asc", "--spacing",
@@ -167,7 +172,7 @@ class Formulas(GridsTest):
         lon, lat = np.meshgrid(np.arange(-179, 180, 2.0), np.arange(89, -90, -2.0))
         self.write_values("north.asc", 5 * lat, -179, -89, 2)
         self.write_values("east.asc", np.abs(lon), -179, -89, 2)
-        degree = 10 * np.pi / 180  # its length
+        degree = 10 * np.pi / 180  # length of a degree
         ask = ("--sphere", "10,20,-30", "--set", "growth_limit=0", "--spacing-grid")
         table, *_ = self.table(*ask, "a=north.asc", "--spacing", "abs(lat) > 88 ? 1 : 0.035*a_slope")
         inside = abs(table["z"]) < 10 * np.sin(np.radians(87))

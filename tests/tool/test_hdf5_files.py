@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files by HDF5, .vtkhdf and .xdmf, read back by VTK, h5py and meshio, against the .vtu file."""
+"""Tests files that are written by HDF5, .vtkhdf and .xdmf, by VTK, h5py and meshio against the .vtu
+file."""
 
 import os
 import subprocess
@@ -27,7 +28,8 @@ class Hdf5Files(CommandTest):
     def contents(self):
         return {name: (self.folder / name).read_bytes() for name in self.names}
 
-    # kinds: of the cells of a file, and of one of facets beside it.
+    # `kinds` are the kind of cells of the file, and that of the facets if there is a file of
+    # facets.
     def check(self, ask, *kinds):
         self.run_on_ranks(*ask, *OUTPUTS)
         self.names = FILES + (FACETS if len(kinds) > 1 else ())
@@ -46,7 +48,8 @@ class Hdf5Files(CommandTest):
         self.check_dolfinx(name, kind)
         self.check_h5py(name)
 
-    # VTK's reader of XDMF has numbers of other types, and takes nodes and edges for chains.
+    # VTK's reader of XDMF uses other types of numbers, and represents vertices and edges as
+    # polyvertices and polylines.
     def check_vtk(self, name, reader):
         found = grid_arrays(read_with_vtk(self.folder / name, reader))
         self.assertEqual(set(found), set(self.expected))
@@ -59,7 +62,7 @@ class Hdf5Files(CommandTest):
                 if name.endswith(".vtkhdf"):
                     self.assertEqual(found[key].dtype, array.dtype)
 
-    # meshio knows no time of a grid.
+    # meshio does not read the time of a grid.
     def check_meshio(self, name, kind):
         text = (self.folder / f"{name}.xdmf").read_text()
         self.assertEqual(text.count('<Time Value="0"/>'), 1)
@@ -88,9 +91,9 @@ class Hdf5Files(CommandTest):
             numpy.testing.assert_array_equal(mesh.points, self.expected["points"])
             self.assertEqual(mesh.n_cells, len(self.expected["types"]))
 
-    # What DOLFINx's XDMFFile asks for: grids by these names, arrays in the file of the same name
-    # with the extension .h5, cells of one kind in a table, and the tags of facets as the first
-    # attribute.
+    # Checks the requirements of DOLFINx's XDMFFile: grids with these names, arrays in the file of
+    # the same name with the extension .h5, cells of one kind in a table, and the tags of facets as
+    # the first attribute.
     def check_dolfinx(self, name, kind):
         kinds = {"Polyvertex": "vertex", "Polyline": "line", "Triangle": "triangle",
                  "Tetrahedron": "tetra"}
@@ -124,7 +127,7 @@ class Hdf5Files(CommandTest):
                 self.assertEqual(theirs.dtype, ours.dtype)
                 numpy.testing.assert_array_equal(theirs, ours)
 
-    # The same bytes again, on any ranks.
+    # Checks that the files have the same bytes on any number of ranks.
     def check_ranks(self, ask):
         expected = self.contents()
         for ranks in (1, 2, 3) if MPIEXEC else (1,):
@@ -146,7 +149,7 @@ class Hdf5Files(CommandTest):
     def test_nodes_of_a_body_only(self):
         self.check((*BOX, "--nodes-only"), "vertex")
 
-    # More rows than a rank writes at a time, and than are in a window.
+    # Checks more rows than a rank writes at a time, and than a window contains.
     def test_many_nodes(self):
         ask = ("--domain", self.square, "--spacing", "0.006", "--steps", "3", "--set", "sweeps=0")
         process = subprocess.run([COMMAND, *map(str, ask), *OUTPUTS, "-q"], cwd=self.folder,
@@ -163,7 +166,7 @@ class Refused(CommandTest):
         return self.refuse("--domain", self.square, "--spacing", "0.05", *arguments, code=code,
                            **more)
 
-    # Before the run, which would take hours.
+    # The error comes before the run, which would take hours.
     @exists_if(NO_HDF5)
     def test_hdf5_is_not_found(self):
         for name in ("a.vtkhdf", "a.xdmf", "a.hdf5"):
@@ -183,7 +186,7 @@ class Refused(CommandTest):
         (self.folder / "a.h5").mkdir()
         self.assertIn("a.h5", self.ask("-o", "a.xdmf", "-o", "a.csv", code=FAILED))
 
-    # Of blocks of 1024 bytes: no room for the layout, or not for all rows.
+    # The limits are in blocks of 1024 bytes: too few for the layout, or for all rows.
     def test_no_room(self):
         for name in FILES:
             (self.folder / name).write_text("old")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""--volumes: what each node stands for, in files, in the report and in the summary."""
+"""Tests --volumes: the volume of each node, in files, in the report and in the summary."""
 
 import json
 import math
@@ -42,21 +42,21 @@ class NodeVolumes(CommandTest):
         return read_csv(self.folder / "a.csv"), report, out.decode()
 
     def check_figures(self, table, report, dimension):
-        """Sums are exact before they are rounded."""
+        """Checks the statistics. Sums are rounded once, from the exact sum."""
         ratios = table["volume"] / numpy.prod([table["spacing"]] * dimension, axis=0)
         self.assertEqual(report["volumes"], {
             "total": math.fsum(table["volume"]),
             "ratio": {"mean": math.fsum(ratios) / len(ratios), "min": ratios.min(),
                       "max": ratios.max()}})
 
-    # More nodes than are written at a time.
+    # There are more nodes than are written at a time.
     def test_in_the_plane(self):
         table, report, out = self.place_with_volumes(self.square, "0.003 + 0.01*x")
         self.assertGreater(len(table["id"]), 3 * 8192)
         self.assertEqual(list(table), ["id", "x", "y", "tag", "spacing", "volume"])
         self.assertAlmostEqual(math.fsum(table["volume"]), SQUARE_AREA, delta=1e-12)
         self.check_figures(table, report, 2)
-        # Inside, that of a node of the triangular lattice.
+        # Inner nodes have the area of a node of the triangular lattice.
         inside = table["tag"] == 0
         ratios = (table["volume"] / table["spacing"] ** 2)[inside]
         self.assertAlmostEqual(numpy.median(ratios), math.sqrt(3) / 2, delta=0.05)
@@ -88,7 +88,7 @@ class NodeVolumes(CommandTest):
         nodes = (self.folder / "a.node").read_bytes()
         out, _ = self.place("-o", "a.node", "-o", "a.csv", "--report", "a.json", spacing="0.1")
         self.assertEqual((self.folder / "a.node").read_bytes(), nodes)
-        # Only on request.
+        # Volumes are written on request only.
         self.assertNotIn("volume", read_csv(self.folder / "a.csv"))
         self.assertNotIn("volumes", json.loads((self.folder / "a.json").read_text()))
         self.assertNotIn(b"volumes", out)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every call on a file fails once: the command ends with an error and leaves what was there before,
-or it has done without. On ranks PNPBS_FAULT_STRIDE tells which of the calls fail (every n-th)."""
+"""Tests that every file call may fail. The command then ends with an error and leaves the previous
+files, or it succeeds without the call. On ranks, every n-th call fails, where n is
+PNPBS_FAULT_STRIDE."""
 
 import os
 import unittest
@@ -16,7 +17,8 @@ class Faults(ShotTest):
     NAMES = ("a.vtu", "d.pvtu", "e.png")
 
     def one_fault(self, at, rank, ranks):
-        """Tells which call has failed, None if there was none left."""
+        """Makes the call number `at` fail. Returns the name of this call, or None if there were
+        fewer calls."""
         self.RANKS = ranks
         self.lay_old_files()
         log = self.folder / "log"

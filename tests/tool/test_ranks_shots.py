@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Signals at random moments of writing, and ranks killed hard: the command ends soon, on all ranks,
-with all files new or none. PNPBS_SHOTS tells how many of the random ones (a few by default)."""
+"""Tests signals at random moments of writing, and ranks that are killed. The command must end soon
+on all ranks, with either all files new or none. PNPBS_SHOTS is the number of random moments (a few
+by default)."""
 
 import os
 import random
@@ -18,7 +19,8 @@ SHOTS = int(os.environ.get("PNPBS_SHOTS", "4"))
 
 class Signals(ShotTest):
     def run_once(self, shoot):
-        """Lets shoot(process) do its work; returns how the run has ended."""
+        """Runs the command while shoot(process) acts on it. Returns the exit code and the messages.
+        """
         self.lay_old_files()
         process = self.start_ranks(self.RANKS, *self.arguments())
         try:
@@ -30,7 +32,7 @@ class Signals(ShotTest):
         return process.returncode, err.decode(errors="replace")
 
     def duration(self):
-        """From the first byte of a file to the end of the command."""
+        """Returns the time from the first byte of a file to the end of the command."""
         begin = []
 
         def watch(process):
@@ -90,10 +92,11 @@ class Killed(ShotTest):
             process.kill()
             raise
         self.assertNotIn(process.returncode, WRITTEN)
-        self.assertFalse(self.are_new())  # what is left aside has a name that tells so
+        self.assertFalse(self.are_new())  # leftovers have names of temporary files
 
     def let_end(self, process):
-        """Open MPI 4.1's mpirun now and then waits for ever when all its ranks are gone."""
+        """Waits for the end of mpirun. Open MPI 4.1 sometimes waits forever after all its ranks
+        have ended, so it is killed then."""
         try:
             process.communicate(timeout=20)
         except subprocess.TimeoutExpired:

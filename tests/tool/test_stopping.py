@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ctrl-C and its kin: exit code 130, and no file, whole, half or temporary."""
+"""Tests interruptions, such as by Ctrl-C: exit code 130, and no complete, partial or temporary
+file."""
 
 import os
 import pathlib
@@ -10,7 +11,7 @@ import unittest
 
 from command import INTERRUPTED, LAKE, CommandTest
 
-# Two million nodes: long enough to be interrupted anywhere.
+# The run has two million nodes, which takes long enough to be interrupted in any stage.
 LONG_RUN = ("--domain", LAKE, "--spacing", "0.2 + 0*x", "--set", "steps=100000",
             "--output", "a.vtu", "--output", "a.png", "--report", "a.json")
 
@@ -22,7 +23,8 @@ def cpu_seconds(process):
 
 class Stopping(CommandTest):
     def signal_and_wait(self, process, *numbers):
-        """What it writes then, and the CPU seconds that it takes: the machine may have much else to do."""
+        """Sends signals and waits for the end. Returns the output and the CPU seconds used after
+        the signals. CPU time is used because the machine may be busy."""
         before = cpu_seconds(process)
         for number in numbers:
             os.kill(process.pid, number)
@@ -55,7 +57,8 @@ class Stopping(CommandTest):
         self.stop(signal.SIGINT, 0.6, times=2, most=2)
 
     def test_between_steps(self):
-        # What the shape asks for in a ball of 81 920 triangles takes longer than that.
+        # The spacing from the shape of a ball with 81 920 triangles takes longer than the limit
+        # below.
         process = self.start("--domain", "ball(0,0,0,1)", "--spacing", "auto", "-o", "a.csv",
                              environment={"OMP_NUM_THREADS": "1"})
         time.sleep(1)
@@ -71,14 +74,14 @@ class Stopping(CommandTest):
         self.assertEqual(self.files(), ["square.poly"])
 
     def test_while_writing(self):
-        # A pipe that nobody empties holds the command in the middle of its output.
+        # A pipe that is not read stops the command in the middle of its output.
         process = self.start("--domain", self.square, "--spacing", "0.01", "-o", "a.csv",
                              "-o", "-", "--format", "csv")
         first = process.stdout.read(1)
         self.assertEqual(first, b"i")
         time.sleep(0.3)
         self.assertNotIn("a.csv", self.files())
-        self.assertEqual(len(self.files()), 2)  # a.csv is there, under a temporary name
+        self.assertEqual(len(self.files()), 2)  # a.csv exists under a temporary name
         self.signal_and_wait(process, signal.SIGINT)
         self.assertEqual(self.files(), ["square.poly"])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""--nodes-at walls: particles in layers around the domain, which go with those inside it."""
+"""Tests --nodes-at walls: particles in layers around the domain, in addition to those inside."""
 
 import json
 import math
@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from command import BAD_INPUT, CommandTest
 from readers import read_csv
 
-DEPTH = {2: 0.42, 3: 0.46}  # over d
+DEPTH = {2: 0.42, 3: 0.46}  # in units of d
 BUBBLES = {2: 1.076, 3: 1.147}
 
 
@@ -20,7 +20,7 @@ def points_of(table):
 
 
 def gap_to_square(x):
-    """From the unit square, at points around it."""
+    """Returns the distance from outer points to the unit square."""
     return numpy.linalg.norm(x - numpy.clip(x, 0, 1), axis=1)
 
 
@@ -38,7 +38,8 @@ class Walls(CommandTest):
         return read_csv(self.folder / "a.csv")
 
     def check_apart(self, inside, wall):
-        """No pair across is closer than twice the depth, in the mean d of both."""
+        """Checks that no pair across the wall is closer than twice the depth, in units of the mean
+        d of both."""
         x, y = points_of(inside), points_of(wall)
         dim = x.shape[1]
         d, e = inside["spacing"] / BUBBLES[dim], wall["spacing"] / BUBBLES[dim]
@@ -55,13 +56,15 @@ class Walls(CommandTest):
             gap = gap_to_square(points_of(wall)) / d
             self.assertAlmostEqual(gap.min(), 0.42, delta=0.01)
             self.assertAlmostEqual(gap.max(), layers - 1 + 0.42, delta=0.01)
-            # The first and the last layer are those with the tag; a few were pushed off the wall.
+            # Particles of the first and of the last layer have the tag. A few were pushed off the
+            # wall.
             below = numpy.minimum(gap - 0.42, layers - 1 + 0.42 - gap)
             tagged = wall["tag"] == 1
             self.assertTrue(tagged[below < 0.01].all())
             self.assertLess(below[tagged].max(), 0.15)
             self.assertLess(numpy.count_nonzero(below[tagged] > 0.01), 0.05 * len(gap))
-            # Straight sides, and quarters of a disc at the corners.
+            # The area consists of strips along straight sides and of quarters of a disc at the
+            # corners.
             thickness = (layers - 1 + 0.84) * d
             area = 4 * thickness + math.pi * thickness ** 2
             self.assertAlmostEqual(math.fsum(wall["volume"]), area, delta=1e-3 * area)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the command does hangs on the codes of warnings and errors, never on their words: with
-libraries whose messages have none (wording.cpp) it ends, warns and advises as with the true ones."""
+"""Tests that the command acts on the codes of warnings and errors and not on their texts. With
+libraries whose messages have no words (wording.cpp), it ends, warns and advises as with the real
+ones."""
 
 import json
 import os
@@ -29,7 +30,8 @@ class Wording(CommandTest):
         return path
 
     def same(self, *arguments, code):
-        """Runs it with both libraries; returns what it wrote with the true and the wordless one."""
+        """Runs the command with both libraries. Returns the messages with the real one and with the
+        one without words."""
         told = []
         for environment in {}, WORDLESS:
             _, err = self.run_command(*arguments, code=code, environment=environment)
