@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Outlines that go around the Earth or over a pole, beside a square island on the equator: on a
- * sphere of radius 1, and in the plane about a pole. Segments are parts of great circles.
+ * Tests outlines that go around the Earth or over a pole, together with a square island on the
+ * equator. They lie on a sphere of radius 1, whose segments are parts of great circles, or in a
+ * plane about a pole.
  */
 #include "geo_support.h"
 
@@ -10,13 +11,14 @@
 
 static const double degree = 3.14159265358979323846 / 180;
 
-/* Of a sphere's triangle of a pole and two places at the latitude, these degrees apart. */
+/* Returns the area of the spherical triangle of a pole and two points at this latitude, `apart`
+ * degrees of longitude from each other. */
 static double triangle(double latitude, double apart) {
   const double side = tan((90 - fabs(latitude)) / 2 * degree), square = side * side;
   return 2 * atan2(square * sin(apart * degree), 1 + square * cos(apart * degree));
 }
 
-/* Of the island: four triangles about its middle, which is not a pole; they have right angles. */
+/* Returns the area of the island. It consists of right-angled triangles about its centre. */
 static double island_area(void) {
   const double corner[3] = {cos(5 * degree) * cos(5 * degree), cos(5 * degree) * sin(5 * degree),
                             sin(5 * degree)};
@@ -43,7 +45,9 @@ static geo_case on_sphere(const char* features, const double outside[2]) {
   return it;
 }
 
-/* The domain is what is seen from the island: what lies in the outlines, or all but these. */
+/* Checks the area of the domain with outside points on the island and in the sea. The domain is
+ * then everything except the island and the insides of the outlines, or these insides and the
+ * island. */
 static void expect_areas(const char* outlines, double area) {
   const double on_island[2] = {0, 0}, in_sea[2] = {40, 10};
   const double sphere = 720 * degree;
@@ -58,7 +62,8 @@ static void expect_areas(const char* outlines, double area) {
   geo_end(&it);
 }
 
-/* Points at the latitude from one longitude on, so many steps, and what else the outline has. */
+/* Returns the text of points at a latitude, beginning at a longitude, in this number of steps,
+ * followed by further points of the outline. */
 static const char* ring(double latitude, double from, double step, int steps, const char* more) {
   static char text[4096];
   int length = snprintf(text, sizeof text, "%s", "");
@@ -93,7 +98,7 @@ START_TEST(along_parallels) {
 }
 END_TEST
 
-/* The cut along a meridian has other vertices there than back, or the same. */
+/* The cut along a meridian may have different vertices on both sides, or the same. */
 START_TEST(cut_to_a_pole) {
   const double area = 72 * triangle(-74, 5);
   expect_areas(polygon(ring(-74, -180, 5, 72, ",[180,-90],[-180,-90]")), area);
@@ -106,7 +111,7 @@ START_TEST(cut_to_a_pole) {
 }
 END_TEST
 
-/* A single outline touches itself all the same. */
+/* A single outline may touch itself as well. */
 START_TEST(alone) {
   const double outside[2] = {0, -80};
   geo_case it =
@@ -122,7 +127,7 @@ START_TEST(corner_at_a_pole) {
 }
 END_TEST
 
-/* Back along a great circle, over the pole or not. */
+/* The outline returns along a great circle, which passes over the pole or not. */
 START_TEST(part_of_a_parallel) {
   expect_areas(polygon(ring(70, 0, 90, 2, "")), 2 * triangle(70, 90));
   expect_areas(polygon(ring(-70, -90, 20, 9, "")), 9 * triangle(-70, 20));
@@ -131,7 +136,7 @@ START_TEST(part_of_a_parallel) {
 }
 END_TEST
 
-/* Of next to no width: not an island. */
+/* An outline of nearly no width is not an island. */
 START_TEST(spikes) {
   geo_case it;
   const double outside[2] = {0, 0};
@@ -141,8 +146,8 @@ START_TEST(spikes) {
 }
 END_TEST
 
-/* Neighbours, of which only one has vertices on the edge in common, on both sides of 180 degrees.
- */
+/* Two neighbours lie on both sides of 180 degrees. Only one of them has vertices on their common
+ * edge. */
 START_TEST(neighbours_across_180_degrees) {
   const char* const north = POLYGON("[170,50],[-170,50],[-170,60],[170,60]");
   const char* const south = POLYGON(
@@ -177,7 +182,7 @@ static double part_in_a_plane(const char* others) {
   return area;
 }
 
-/* Back along the straight line of the projection. */
+/* The outline returns along the straight line of the projection. */
 START_TEST(part_in_a_plane_about_a_pole) {
   const double part = part_in_a_plane("");
   const double beside = part_in_a_plane("," POLYGON("[90,-80],[91,-80],[91,-81]"));
@@ -186,7 +191,7 @@ START_TEST(part_in_a_plane_about_a_pole) {
 }
 END_TEST
 
-/* Lambert's projection about the pole has no 180 degrees either; Mercator's has. */
+/* Lambert's projection about the pole is continuous at 180 degrees, whereas Mercator's is not. */
 START_TEST(in_a_plane) {
   char features[16384];
   geo_case it;
@@ -202,7 +207,7 @@ START_TEST(in_a_plane) {
   expect_counts(it.shapes, 75, 2, 0, 0);
   ck_assert_double_eq_tol(beside / alone, 1, 0.01);
   geo_end(&it);
-  /* A strip over all longitudes, and a neighbour that has one vertex more between them. */
+  /* A strip over all longitudes has a neighbour with one more vertex on their common side. */
   it = geo_begin(
       write_geojson("around.geojson", POLYGON("[-170,0],[170,0],[170,10],[-170,10]") "," POLYGON(
                                           "[-170,0],[20,0],[170,0],[170,-10],[-170,-10]")),

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Projected coordinates against formulas from the literature, and how a projection is named, chosen
- * and told.
+ * Tests projected coordinates against formulas from the literature, and the ways in which a
+ * projection is named, selected and reported.
  */
 #include "geo_support.h"
 
 static const double pi = 3.14159265358979323846;
 
-/* GRS 80 and WGS 84 differ by 0.1 mm in their shorter axis. */
+/* An ellipsoid. The shorter axes of GRS 80 and WGS 84 differ by 0.1 mm. */
 typedef struct ellipsoid {
   double a, f;
 } ellipsoid;
 static const ellipsoid grs80 = {6378137, 1 / 298.257222101}, wgs84 = {6378137, 1 / 298.257223563};
 
-/* Transverse Mercator by Krueger's series to the fourth order of n, good to a micrometre within 10
- * degrees: C. F. F. Karney, "Transverse Mercator with an accuracy of a few nanometers", J. Geod. 85
- * (2011) 475-485, equations (7) to (14), (35). */
+/* Computes the transverse Mercator projection by Krueger's series to the fourth order of n, with an
+ * error below a micrometre within 10 degrees: C. F. F. Karney, "Transverse Mercator with an
+ * accuracy of a few nanometers", J. Geod. 85 (2011) 475-485, equations (7) to (14), (35). */
 static void transverse_mercator(ellipsoid e, double lon0, double k0, double lon, double lat,
                                 double* xy) {
   const double n = e.f / (2 - e.f), n2 = n * n, n3 = n2 * n, n4 = n2 * n2;
@@ -44,8 +44,8 @@ static double authalic(double ecc, double sine) {
   return (1 - ecc * ecc) * (sine / (1 - es * es) - log((1 - es) / (1 + es)) / (2 * ecc));
 }
 
-/* Lambert's azimuthal equal-area projection: J. P. Snyder, "Map projections: a working manual",
- * USGS Professional Paper 1395 (1987), equations (24-17) to (24-20), (3-11), (3-12). */
+/* Computes Lambert's azimuthal equal-area projection: J. P. Snyder, "Map projections: a working
+ * manual", USGS Professional Paper 1395 (1987), equations (24-17) to (24-20), (3-11), (3-12). */
 static void azimuthal(ellipsoid e, double lon0, double lat0, double lon, double lat, double* xy) {
   const double ecc = sqrt(e.f * (2 - e.f)), qp = authalic(ecc, 1);
   const double s1 = sin(lat0 * pi / 180), c1 = cos(lat0 * pi / 180);
@@ -59,7 +59,7 @@ static void azimuthal(ellipsoid e, double lon0, double lat0, double lon, double 
   xy[1] = b / d * (cos(beta1) * sin(beta) - sin(beta1) * cos(beta) * cos(lambda));
 }
 
-/* The ends of the domain's segments must have every one of these points among them, to 0.1 mm. */
+/* Expects that each of these points is an end of a segment of the domain, to 0.1 mm. */
 static void expect_points(pnpbs_domain domain, int n, double (*points)[2], double unit) {
   static double segments[256][2][2];
   int64_t count = 0;
@@ -83,7 +83,7 @@ static void expect_name(pnpbs_geo_shapes shapes, const char* expected, const cha
   ck_assert_str_eq(unit, expected_unit);
 }
 
-/* About the bay of Gdansk. */
+/* A polygon around the bay of Gdansk. */
 static double bay[4][2] = {{18.5, 54.4}, {19.75, 54.375}, {19.6, 54.8}, {18.4, 54.85}};
 #define BAY \
   FEATURE("Polygon", "[[[18.5,54.4],[19.75,54.375],[19.6,54.8],[18.4,54.85],[18.5,54.4]]]")
@@ -91,7 +91,7 @@ static double bay[4][2] = {{18.5, 54.4}, {19.75, 54.375}, {19.6, 54.8}, {18.4, 5
 START_TEST(named) {
   double expected[4][2];
   int i, k;
-  for (i = 0; i < 4; ++i) { /* EPSG:2180, by the register */
+  for (i = 0; i < 4; ++i) { /* EPSG:2180 */
     transverse_mercator(grs80, 19, 0.9993, bay[i][0], bay[i][1], expected[i]);
     expected[i][0] += 500000;
     expected[i][1] -= 5300000;
@@ -159,7 +159,8 @@ START_TEST(too_wide_for_a_zone) {
 }
 END_TEST
 
-/* A feature that was cut at 180 degrees is whole again; the ways of writing longitudes are one. */
+/* Parts of a feature that was cut at 180 degrees are joined. Longitudes above 180 degrees are
+ * equivalent to negative ones. */
 START_TEST(across_180_degrees) {
   double corners[4][2] = {{176, -18}, {184, -18}, {184, -15}, {176, -15}}, expected[4][2];
   int i;
@@ -178,7 +179,7 @@ START_TEST(across_180_degrees) {
 }
 END_TEST
 
-/* Antarctica, as files of longitude and latitude have it: with a way to the pole and back. */
+/* Antarctica in longitude and latitude has a cut to the pole and back. */
 START_TEST(around_a_pole) {
   geo_case it = geo_begin(
       write_geojson(
@@ -190,13 +191,13 @@ START_TEST(around_a_pole) {
   expect_name(it.shapes, "WGS 84 / Lambert azimuthal equal-area at 90 S, 0 in kilometre",
               "kilometre");
   expect_counts(it.shapes, 5, 1, 0, 0);
-  /* A square between meridians, its corners about 20 degrees from the pole. */
+  /* The domain is a square with its corners on meridians, about 20 degrees from the pole. */
   ck_assert_double_eq_tol(geo_area(&it), 2 * 2220. * 2220., 0.02 * 2 * 2220. * 2220.);
   geo_end(&it);
 }
 END_TEST
 
-/* PROJ finds no way back to it from some of these. */
+/* PROJ cannot compute the inverse projection of the pole from some of these points. */
 START_TEST(corner_at_a_pole) {
   static const char* const seen_from[] = {"sphere(0,0)", "sphere(0,-15)", "sphere(-135,-7.5)",
                                           "sphere(-180,-22.5)"};
@@ -224,10 +225,11 @@ START_TEST(to_degrees_and_back) {
   double x[2][2] = {{18.5, 54.4}, {19.75, 54.375}};
   geo_case it = geo_begin(write_geojson("bay.geojson", BAY), "EPSG:3035", NULL, NULL);
   GEO_MUST(pnpbs_geo_from_degrees(it.shapes, 2, x[0]));
-  ck_assert_double_gt(x[0][0], 4e6); /* east before north, though the register has them otherwise */
+  ck_assert_double_gt(x[0][0],
+                      4e6); /* east before north, although the register has the other order */
   ck_assert_double_lt(x[0][1], 4e6);
   GEO_MUST(pnpbs_geo_to_degrees(it.shapes, 2, x[0]));
-  ck_assert_double_eq_tol(x[0][0], 18.5, 1e-8); /* a millimetre */
+  ck_assert_double_eq_tol(x[0][0], 18.5, 1e-8); /* which is a millimetre */
   ck_assert_double_eq_tol(x[1][1], 54.375, 1e-8);
   GEO_MUST(pnpbs_geo_to_degrees(it.shapes, 0, NULL));
   GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_geo_to_degrees(it.shapes, -1, x[0]), "n = -1",
@@ -238,7 +240,7 @@ START_TEST(to_degrees_and_back) {
 }
 END_TEST
 
-/* What is written beside results, read again, is the same projection. */
+/* The projection written beside results can be read again and is the same. */
 START_TEST(written_beside_results) {
   char prj[1024], path[1024];
   double x[2] = {18.5, 54.4}, y[2] = {18.5, 54.4};
@@ -272,13 +274,14 @@ START_TEST(lengths_that_are_off) {
   double least = 0, greatest = 0;
   geo_case it = geo_begin(write_geojson("bay.geojson", BAY), NULL, NULL, NULL);
   GEO_MUST(pnpbs_geo_scale(it.shapes, &least, &greatest));
-  ck_assert(least > 0.9996 && greatest < 1.0006); /* a UTM zone's */
+  ck_assert(least > 0.9996 && greatest < 1.0006); /* as in a UTM zone */
   ck_assert(!has_note(it.shapes, "lengths"));
   geo_end(&it);
   it = geo_begin(write_geojson("far.geojson", FEATURE("Polygon", "[[[0,0],[1,0],[1,60],[0,60]]]")),
                  "EPSG:3857", NULL, NULL);
   GEO_MUST(pnpbs_geo_scale(it.shapes, &least, &greatest));
-  /* a / (N cos(latitude)), and at the equator a / N = 1 along it, a / M = 1 / (1 - e^2) across */
+  /* The scale is a / (N cos(latitude)). At the equator it is a / N = 1 along it, and a / M = 1 / (1
+   * - e^2) across. */
   ck_assert_double_eq_tol(least, 1, 1e-6);
   ck_assert_double_eq_tol(greatest, 2 * pow(1 - e2 * sine * sine, 1.5) / (1 - e2), 1e-6);
   ck_assert(has_note(it.shapes, "lengths are 1 to 1.99"));

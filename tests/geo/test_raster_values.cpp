@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values between the cells of a raster, of which some blocks are in memory, against the same on all
-// of it in memory: to the bit, in any memory.
+// Tests values between the cells of a raster that keeps only some blocks in memory, against a
+// raster that is completely in memory. They are equal to the bit for any size of the memory.
 #include <cmath>
 #include <cstring>
 #include <deque>
@@ -26,7 +26,7 @@ struct Whole {
   }
 };
 
-// Spreads values from the cells that have one, step by step.
+// Fills cells without data: spreads values from the cells that have one, step by step.
 void fill_all(Whole& whole) {
   std::deque<std::int64_t> front;
   const std::int64_t columns = whole.cells.columns, count = whole.cells.count();
@@ -65,14 +65,14 @@ bool any_data_around(const Whole& whole, const CellBox& window, const Between& p
 
 struct Case {
   CellBox window;
-  std::int64_t columns, rows;  // of blocks
+  std::int64_t columns, rows;  // size of blocks
   RasterValues::Memory memory;
 };
 
-// Of -1 there is no data.
+// A raster in which the number -1 means no data.
 struct Raster {
   Whole whole;
-  std::map<std::int64_t, int> reads;  // by the first cell of a block
+  std::map<std::int64_t, int> reads;  // number of reads by the first cell of a block
 
   RasterBlock read(const CellBox& cells) {
     ++reads[cells.row * 100000 + cells.column];
@@ -163,7 +163,7 @@ START_TEST(with_gaps) {
 }
 END_TEST
 
-// The nearest data are several tiles away, also at the same distance on several sides.
+// The nearest data are several tiles away, also at the same distance in several directions.
 START_TEST(far_from_data) {
   Raster raster = some_raster(1100, 900, 0);
   const auto put = [&](std::int64_t column, std::int64_t row, double value) {
@@ -185,7 +185,7 @@ START_TEST(without_data) {
 }
 END_TEST
 
-// In a batch, in whatever order places come in, and however little memory there is.
+// A batch reads each block once, for any order of the points and for any size of the memory.
 START_TEST(a_block_is_read_once) {
   Raster raster = some_raster(400, 300, 2);
   RasterValues values([&](const CellBox& cells) { return raster.read(cells); }, {0, 0, 400, 300},

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What becomes of polygons, lines and points, of tags and layers; and what is said of files that
- * cannot be taken. Coordinates stay as they are here, so that areas are plain.
+ * Tests the conversion of polygons, lines and points, tags and layers, and errors of files that are
+ * rejected. Coordinates are not projected here, so areas are simple.
  */
 #include <gdal.h>
 #include <ogr_api.h>
@@ -33,7 +33,7 @@ START_TEST(hole_and_repeated_vertices) {
 }
 END_TEST
 
-/* Land, a lake in it, an island in that: as the parts of one feature, and as features apart. */
+/* Land with a lake with an island are parts of one feature, or separate features. */
 START_TEST(islands_in_lakes) {
   geo_case it = begin(FEATURE("MultiPolygon",
                               "[[[[0,0],[9,0],[9,9],[0,9],[0,0]],[[1,1],[8,1],[8,8],[1,8],[1,1]]],"
@@ -50,7 +50,8 @@ START_TEST(islands_in_lakes) {
 }
 END_TEST
 
-/* Two squares side by side, a third that only touches a corner, and one that fills a hole. */
+/* The domain has two adjacent squares, a third one that only touches a corner, and one that fills a
+ * hole. */
 START_TEST(neighbours) {
   int64_t count = 0, s;
   double segments[32][2][2];
@@ -61,7 +62,8 @@ START_TEST(neighbours) {
       "Polygon", "[[[4,0],[8,0],[8,4],[4,4]]]") "," FEATURE("Polygon",
                                                             "[[[1,1],[2,1],[2,2],[1,2]]]") "," FEATURE("Polygon",
                                                                                                        "[[[8,4],[9,4],[9,5],[8,5]]]"));
-  /* Boundary: from the ends of the common edge, and between the corner that is met. */
+  /* Boundary curves begin and end at the ends of the common edge and at the corner that is touched.
+   */
   expect_counts(it.shapes, 13, 4, 2, 0);
   ck_assert_double_eq_tol(geo_area(&it), 33, 1e-12);
   ck_assert_int_eq(pnpbs_domain_get_segments(it.domain, 32, &count, segments[0][0], tags),
@@ -74,7 +76,8 @@ START_TEST(neighbours) {
 }
 END_TEST
 
-/* A vertex of one on a straight side of the other: on it to the last digit, and a metre off. */
+/* A vertex of one polygon lies on a straight side of its neighbour, to the last digit or a metre
+ * off. */
 START_TEST(vertices_that_only_one_neighbour_has) {
   const char* const projections[] = {"none", "EPSG:2180"};
   int k;
@@ -88,7 +91,7 @@ START_TEST(vertices_that_only_one_neighbour_has) {
                                                                                   "[[18.5,54],[18."
                                                                                   "5,54.5]]")),
         projections[k], NULL, NULL);
-    /* The line's end, too, is on a side. */
+    /* The end of the line lies on a side as well. */
     expect_counts(it.shapes, 9, 3, 2, 0);
     ck_assert(!has_note(it.shapes, "all but touch"));
     geo_end(&it);
@@ -123,7 +126,8 @@ START_TEST(overlaps) {
 }
 END_TEST
 
-/* Found by the library, where the projection has it; told in degrees, too. */
+/* The library finds the crossing in projected coordinates. The message is also available in
+ * degrees. */
 START_TEST(crosses_itself) {
   pnpbs_geo_shapes shapes = NULL;
   pnpbs_context context = NULL;
@@ -151,7 +155,7 @@ START_TEST(crosses_itself) {
   ck_assert_msg(strncmp(message, "coast: ", 7) == 0 && strstr(message, "[longitude ") != NULL &&
                     strcmp(message + strlen(message) - 7, " (1, 2)") == 0,
                 "%s", message);
-  /* No text is searched for points. */
+  /* Only points that belong to a message are converted, not those in any text. */
   ck_assert_str_eq(pnpbs_geo_explain(shapes, "(500000, 650000)"), "(500000, 650000)");
   ck_assert_str_eq(pnpbs_geo_explain(NULL, "as it is (1, 2)"), "as it is (1, 2)");
   GEO_MUST(pnpbs_geo_destroy(&shapes));
@@ -174,7 +178,7 @@ START_TEST(lines_and_points_in_polygons) {
 }
 END_TEST
 
-/* A coast in pieces, as maps cut it, with a pier; one of the pieces twice. */
+/* Maps may cut a coast into pieces. Here a pier is added, and one piece occurs twice. */
 START_TEST(coast_of_lines) {
   geo_case it = begin(FEATURE("LineString", "[[0,0],[9,0],[9,9]]") "," FEATURE(
       "LineString",
@@ -255,7 +259,8 @@ static const char* in_folder(const char* name) {
   return path;
 }
 
-/* Layers of one square each, of side 1, 2, ... thousand, in Poland's coordinates or in none. */
+/* Writes layers with a square each, with sides of 1, 2, ... thousand, in Poland's coordinates or
+ * without a system. */
 static void write_layers(const char* driver_name, const char* path, int layers, int with_system) {
   GDALDriverH driver;
   GDALDatasetH dataset;
@@ -301,7 +306,7 @@ START_TEST(layers) {
 }
 END_TEST
 
-/* Projected coordinates stay as they are, unless another projection is asked for. */
+/* Projected coordinates are kept unless another projection is requested. */
 START_TEST(shapefile) {
   const char *name = NULL, *path = in_folder("square.shp");
   geo_case it;
@@ -311,7 +316,7 @@ START_TEST(shapefile) {
   GEO_MUST(pnpbs_geo_projection(it.shapes, &name, NULL, NULL, NULL, NULL));
   ck_assert_msg(strstr(name, "CS92") != NULL, "%s", name);
   geo_end(&it);
-  it = geo_begin(path, "auto", "km", NULL); /* scales 0.9993 and 0.9996 on one meridian or so */
+  it = geo_begin(path, "auto", "km", NULL); /* scales of 0.9993 and 0.9996 */
   ck_assert_double_eq_tol(geo_area(&it), 1, 2e-3);
   GEO_MUST(pnpbs_geo_projection(it.shapes, &name, NULL, NULL, NULL, NULL));
   ck_assert_msg(strstr(name, "UTM zone 3") != NULL, "%s", name);
