@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a program that was linked with the library relies on, a line each: functions with their types
-and symbol versions, callbacks, constants, handles, and the keys of the tables. The lines of a
-promise are in abi/pnpbs-<SOVERSION>.abi; what is here now must still have all of them. The same of
-libpnpbs_geo, which has no tables.
+"""Lists what programs linked with the library rely on, one line each: functions with their types
+and symbol versions, callbacks, constants, handles, and the keys of the tables. The guaranteed lines
+are in abi/pnpbs-<SOVERSION>.abi, and the current library must have all of them. libpnpbs_geo has
+such a file as well, without tables.
 
-usage: abi.py --check <file> <header> <library>     fails if the file is not what is here now
-       abi.py --record <file> <header> <library>    adds to the file what is new
-       abi.py --show <header> <library>             prints what is here now"""
+usage: abi.py --check <file> <header> <library>     fails if the file differs from the library
+       abi.py --record <file> <header> <library>    adds new lines to the file
+       abi.py --show <header> <library>             prints the lines of the library"""
 
 import ctypes
 import pathlib
@@ -30,10 +30,11 @@ def signature(name, function):
 
 
 def of_header(text):
-    """Lines of callbacks, constants and handles; and the functions, {name: signature}."""
+    """Returns the lines of callbacks, constants and handles, and the functions as {name:
+    signature}."""
     lines = [f"callback {signature(name, callback)}"
              for name, callback in c_header.callbacks(text).items()]
-    # The version is what may change.
+    # The version may change, so it is left out.
     lines += [f"constant {name} {value}" for name, value in c_header.constants(text).items()
               if not name.startswith("PNPBS_VERSION_")]
     lines += [f"handle {name}" for name in re.findall(
@@ -54,13 +55,13 @@ def soname(library):
 
 
 def symbol_versions(library):
-    """{function: version}"""
+    """Returns {function: version}."""
     symbols = tool("nm", "-D", "--defined-only", "--with-symbol-versions", library)
     return dict(re.findall(r" T (pnpbs_\w+)@@?(\w+)", symbols))
 
 
 def rows(library, table, columns):
-    """A table of the library's, row by row; columns are types of ctypes."""
+    """Yields the rows of a table of the library. `columns` are types of ctypes."""
     count = ctypes.c_int32()
     if getattr(library, f"pnpbs_{table}_count")(ctypes.byref(count)) != 0:
         raise RuntimeError(f"no count of {table}s")
@@ -74,7 +75,7 @@ def rows(library, table, columns):
 
 
 def of_tables(path):
-    """Lines of options, statistics and file formats."""
+    """Returns the lines of options, statistics and file formats."""
     library = ctypes.CDLL(path)
     text, number = ctypes.c_char_p, ctypes.c_int32
     lines = []
@@ -93,7 +94,8 @@ def of_tables(path):
 # ---------------------------------------------------------------- all of it, and comparing ------
 
 def describe(header, name, versions, tables):
-    """All lines: of the header's text, a SONAME, {function: version}, lines of tables."""
+    """Returns all lines from the text of the header, a SONAME, {function: version} and the lines of
+    tables."""
     lines, functions = of_header(header)
     lines += [f"function {text} {versions.get(function, 'not exported')}"
               for function, text in functions.items()]
@@ -112,7 +114,7 @@ def recorded(path):
 
 
 def key(line):
-    """What a line is about: its kind and its name."""
+    """Returns the kind and the name of the item that a line describes."""
     kind, rest = line.split(" ", 1)
     if kind in ("function", "callback"):
         return kind, re.search(r"(\w+)\(", rest)[1]
@@ -120,7 +122,7 @@ def key(line):
 
 
 def compare(before, now):
-    """(what breaks programs, what is new), as sentences."""
+    """Returns (changes that break programs, new items), as sentences."""
     of_now = {key(line): line for line in now}
     breaks = []
     for line in before:
@@ -133,7 +135,8 @@ def compare(before, now):
 
 
 def as_c(lines):
-    """C that compiles beside the header only if the compiler reads both alike."""
+    """Returns C code that compiles with the header only if the compiler reads the declarations in
+    the same way."""
     code = ["#include <pnpbs/pnpbs.h>"]
     for number, line in enumerate(lines):
         kind, rest = line.split(" ", 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What pnpbs.h declares: functions, callback types and constants, as plain data."""
+"""Parser of the declarations of pnpbs.h: functions, callback types and constants, as plain data."""
 
 import functools
 import re
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 class Argument(NamedTuple):
     name: str
-    type: str  # as C writes it, blanks normalised: "const double *"
+    type: str  # as in C, with normalised blanks: "const double *"
 
 
 class Function(NamedTuple):
@@ -39,7 +39,7 @@ def without_comments(text):
 
 @functools.lru_cache(maxsize=2)
 def functions(text):
-    """{name: Function} of what is marked PNPBS_API."""
+    """Returns {name: Function} of all declarations marked PNPBS_API."""
     found = {}
     declarations = re.findall(r"^PNPBS_API\b(.*?);", without_comments(text), re.S | re.M)
     for declaration in declarations:
@@ -52,7 +52,7 @@ def functions(text):
 
 @functools.lru_cache(maxsize=2)
 def callbacks(text):
-    """{name: Function} of the types of callbacks."""
+    """Returns {name: Function} of the types of callbacks."""
     found = {}
     for match in re.finditer(r"typedef\s+(\w+)\s*\(\*(pnpbs_\w+)\)\s*\((.*?)\)\s*;",
                              without_comments(text), re.S):
@@ -62,7 +62,7 @@ def callbacks(text):
 
 @functools.lru_cache(maxsize=2)
 def constants(text):
-    """{name: integer} of the statuses, the roles of curves and the version."""
+    """Returns {name: integer} of the statuses, the roles of curves and the version."""
     text = without_comments(text)
     found = {name: int(value)
              for name, value in re.findall(r"X\(\s*(PNPBS_\w+),\s*(-?\d+)\s*,", text)}

@@ -21,7 +21,7 @@ HANDLES = {"pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer",
 
 
 def difference(c, fortran):
-    """What is wrong with a Fortran argument for a C one, or None."""
+    """Returns a description of how a Fortran argument differs from a C one, or None."""
     if fortran.name != c.name:
         return f"is named {fortran.name}"
     if fortran.type in ("type(c_ptr)", "type(c_funptr)") and fortran.note:
@@ -96,7 +96,7 @@ def differences_of_sets(what, c, fortran):
 
 
 def differences(header, interfaces):
-    """All that differs between two texts, a line each."""
+    """Returns all differences between the two texts, one line each."""
     bodies = fortran_interfaces.functions(interfaces)
     pairs = [
         ("function", c_header.functions(header),

@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# A library exports the functions that its headers declare, at their version, and nothing else.
+# Tests that a library exports the functions that its headers declare, with their version, and
+# nothing else.
 # usage: exports.sh <library> <compiler> <include folder> [<prefix>]
-# With a prefix it is the library of the functions that begin with it; pnpbs_geo_ are never
-# libpnpbs's own.
+# With a prefix, the library is the one of the functions that begin with it. Without one it is
+# libpnpbs, which does not have the functions pnpbs_geo_*.
 set -eu
 prefix=${4:-}
 work=$(mktemp -d)
@@ -17,7 +18,8 @@ of_this_library() {
   fi
 }
 
-# After the preprocessor, PNPBS_API is the attribute below, right before each function's type.
+# The preprocessor replaces PNPBS_API by the attribute below, which precedes the type of each
+# function.
 for header in "$3"/pnpbs/pnpbs*.h; do
   echo "#include <pnpbs/$(basename "$header")>"
 done > "$work/headers.c"
@@ -31,5 +33,5 @@ if ! [ -s "$work/declared" ]; then
   echo "no declarations found in $3" >&2
   exit 1
 fi
-# "<" lines are declared but not exported, ">" lines the other way round.
+# Lines with "<" are declared but not exported, and lines with ">" are exported but not declared.
 diff "$work/declared" "$work/exported"

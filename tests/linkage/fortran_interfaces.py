@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What pnpbs_c.f90 declares: interface bodies and constants, as plain data."""
+"""Parser of pnpbs_c.f90: interface bodies and constants, as plain data."""
 
 import functools
 import re
@@ -8,34 +8,34 @@ from typing import NamedTuple
 
 class Argument(NamedTuple):
     name: str
-    type: str  # "integer(c_int64_t)"
+    type: str  # such as "integer(c_int64_t)"
     by_value: bool
     intent: str  # "in", "out", "inout" or ""
     array: str  # "(*)", "(2, n)" or ""
-    note: str  # the C type in the comment behind, or ""
+    note: str  # the C type in the comment after it, or ""
 
 
 class Function(NamedTuple):
-    label: str  # the name that C knows, or "" in abstract interfaces
+    label: str  # the name in C, or "" in abstract interfaces
     result: str
     arguments: tuple
-    imports: bool  # "import" and "implicit none" are there
+    imports: bool  # whether it has "import" and "implicit none"
 
 
 def joined_lines(text):
-    """Lines without their continuations; comments stay only behind declarations."""
+    """Returns the lines with continuations joined. Only comments after declarations are kept."""
     text = re.sub(r"&[ \t]*\n[ \t]*&?", " ", text)
     return [line.strip() for line in text.splitlines() if not line.lstrip().startswith("!")]
 
 
 def entities_of(text):
-    """[(name, array)] of "a, b(*), c(2, n)"."""
+    """Returns [(name, array)] of "a, b(*), c(2, n)"."""
     return [(name, array or "") for name, array in
             re.findall(r"(\w+)\s*(\([^)]*\))?\s*(?:,|$)", text)]
 
 
 def declarations_of(line):
-    """The Arguments that a line declares, by name."""
+    """Returns the Arguments that a line declares, by name."""
     declaration, _, note = line.partition("!")
     left, _, right = declaration.partition("::")
     attributes = [part.strip() for part in re.split(r",(?![^(]*\))", left)]
@@ -54,7 +54,7 @@ HEAD = re.compile(r'function\s+(\w+)\s*\(([^)]*)\)\s*bind\(C(?:,\s*name="(\w+)")
 
 @functools.lru_cache(maxsize=2)
 def functions(text):
-    """{Fortran name: Function} of all interface bodies."""
+    """Returns {Fortran name: Function} of all interface bodies."""
     found, name = {}, None
     for line in joined_lines(text):
         head = HEAD.fullmatch(line)
@@ -80,6 +80,6 @@ def functions(text):
 
 @functools.lru_cache(maxsize=2)
 def constants(text):
-    """{name: integer} of all parameters."""
+    """Returns {name: integer} of all parameters."""
     return {name: int(value) for name, value in
             re.findall(r"parameter :: (PNPBS_\w+) = (-?\d+)", text)}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a METIS does whose integers are twice or half as wide as those of the one PNPBS is built
-// with, as far as the library asks before it trusts one.
+// A stand-in for a METIS whose integers are twice or half as wide as those that PNPBS is built
+// with. It has only the functions by which the library checks the width.
 #include <metis.h>
 
 #include <cstdint>

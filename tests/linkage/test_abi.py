@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The library keeps what it has promised to the programs linked with it; and of every single change
-that would break one, the comparison sees each.
+"""Tests that the library keeps the interface that it guarantees to linked programs, and that the
+comparison detects every single change that would break one.
 usage: test_abi.py <record> <header> <library> <C compiler>"""
 
 import pathlib
@@ -21,12 +21,12 @@ BEFORE = abi.recorded(RECORD) if pathlib.Path(RECORD).exists() else []
 
 
 def breaks(header=TEXT, name=NAME, versions=VERSIONS, tables=TABLES):
-    """What a change breaks, compared with what there is without it."""
+    """Returns what a change breaks, compared with the unchanged library."""
     return abi.compare(NOW, abi.describe(header, name, versions, tables))[0]
 
 
 def compiles(lines, header=TEXT):
-    """Does the compiler read the header as these lines say?"""
+    """Returns whether the compiler reads the header as these lines say."""
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "pnpbs").mkdir()
         (pathlib.Path(folder) / "pnpbs" / "pnpbs.h").write_text(header)

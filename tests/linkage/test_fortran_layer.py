@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The interface bodies of the Fortran layer are what the generator makes of the header; and of a
-changed header it makes changed ones, with which the independent comparison agrees.
+"""Tests that the interface bodies of the Fortran layer are the output of the generator for the
+header. For a changed header, the generator must produce changed bodies that the independent
+comparison accepts.
 usage: test_fortran_layer.py <header> <its interfaces, pnpbs_c.f90 or pnpbs_geo_c.f90>"""
 
 import itertools
@@ -21,7 +22,7 @@ PATHS = [pathlib.Path(path) for path in sys.argv[1:3]]
 HEADER, INTERFACES = (path.read_text() for path in PATHS)
 [MODULE] = [one for one in make_fortran_layer.MODULES if one.name == PATHS[1].stem]
 INCLUDED = (ROOT / "include" / MODULE.included).read_text() if MODULE.included else ""
-IS_WHOLE = MODULE.name == "pnpbs_c"  # with callbacks and constants
+IS_WHOLE = MODULE.name == "pnpbs_c"  # whether the module has callbacks and constants
 DECLARATION = re.compile(r"^PNPBS_API [^;]*?(\w+)\(([^;]*)\);", re.S | re.M)
 CALLBACK = re.compile(r"^typedef int32_t \(\*(\w+)\)\(([^;]*)\);", re.S | re.M)
 
@@ -31,7 +32,7 @@ def made(header):
 
 
 def with_arguments(header, declaration, arguments):
-    """A header in which one declaration has other arguments."""
+    """Returns the header with other arguments in one declaration."""
     return header[:declaration.start(2)] + arguments + header[declaration.end(2):]
 
 
@@ -40,7 +41,7 @@ def with_one_more(declaration, argument):
 
 
 def body(text, name):
-    """The interface body of a C function."""
+    """Returns the interface body of a C function."""
     fortran_name = name.replace("pnpbs_", "c_", 1)
     return re.search(rf"^    function {fortran_name}\(.*?end function", text, re.S | re.M)[0]
 
@@ -65,7 +66,8 @@ class FortranLayer(unittest.TestCase):
 
 class Follows(unittest.TestCase):
     def assert_follows(self, header, what):
-        """The layer changes, and agrees with the changed header."""
+        """Checks that the layer of a changed header differs and agrees with this header. Returns
+        the layer."""
         layer = made(header)
         self.assertTrue(make_fortran_layer.differences("", INTERFACES, layer), what)
         self.assertEqual(check_signatures.differences(header, layer), [], what)
@@ -73,7 +75,7 @@ class Follows(unittest.TestCase):
 
 
 class Changes(Follows):
-    """One change at a time, to copies of the header."""
+    """Tests single changes of copies of the header."""
 
     def test_argument_added(self):
         found = list(DECLARATION.finditer(HEADER))
@@ -97,7 +99,7 @@ class Changes(Follows):
     def test_function_removed(self):
         for declaration in DECLARATION.finditer(HEADER):
             header = HEADER[:declaration.start()] + HEADER[declaration.end():]
-            if f"  as {declaration[1]}\n" in HEADER:  # whose parameters others have
+            if f"  as {declaration[1]}\n" in HEADER:  # others refer to its parameters
                 with self.assertRaisesRegex(ValueError, f"refer to {declaration[1]}"):
                     made(header)
                 continue
@@ -120,7 +122,7 @@ class Changes(Follows):
 
 @unittest.skipUnless(IS_WHOLE, "the header has no callbacks and no constants")
 class ChangesOfTheWhole(Follows):
-    """And of callbacks and constants."""
+    """Tests changes of callbacks and constants."""
 
     def test_constant_changed(self):
         for name, value in c_header.constants(HEADER).items():

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Fortran interface bodies agree with the C header (Agreement); and the comparison detects every
-single change that could be made to an argument on either side (Changes).
-usage: test_signatures.py <header> <its interfaces, pnpbs_c.f90 or pnpbs_geo_c.f90> Agreement | Changes"""
+"""Tests that the Fortran interface bodies agree with the C header (Agreement), and that the
+comparison detects every single change of an argument on either side (Changes).
+usage: test_signatures.py <header> <its interfaces, pnpbs_c.f90 or pnpbs_geo_c.f90> Agreement |
+Changes"""
 
 import pathlib
 import re
@@ -13,8 +14,8 @@ import check_signatures
 import fortran_interfaces
 
 HEADER, INTERFACES = (pathlib.Path(path).read_text() for path in sys.argv[1:3])
-# What is found at least, so that nothing is overlooked: functions, constants, changes of arguments
-# in C and of lines in Fortran; and how many callbacks there are.
+# Lower bounds, which show that nothing is overlooked: functions, constants, changes of arguments in
+# C and of lines in Fortran; and the number of callbacks.
 FUNCTIONS, CONSTANTS, IN_C, IN_FORTRAN, CALLBACKS = {
     "pnpbs.h": (60, 20, 1000, 500, 4), "pnpbs_geo.h": (13, -1, 150, 60, 0)
 }[pathlib.Path(sys.argv[1]).name]
@@ -23,12 +24,12 @@ FUNCTIONS, CONSTANTS, IN_C, IN_FORTRAN, CALLBACKS = {
 def is_caught(header, interfaces):
     try:
         return bool(check_signatures.differences(header, interfaces))
-    except ValueError:  # cannot be read any more
+    except ValueError:  # it cannot be read
         return True
 
 
 def changed_arguments(argument):
-    """An argument of the header's, changed in every way that matters."""
+    """Yields an argument of the header with every kind of change that matters."""
     if "*" in argument:
         yield argument.replace("*", "", 1)
     else:
@@ -41,12 +42,12 @@ def changed_arguments(argument):
         if re.search(rf"\b{re.escape(one)}", argument):
             yield argument.replace(one, other, 1)
     yield argument + "2"
-    yield ""  # left out
+    yield ""  # argument left out
     yield argument + ", int32_t more"
 
 
 def is_harmless(argument, changed):
-    """const before a value means nothing to callers."""
+    """Returns whether a change is irrelevant: const before a value does not matter to callers."""
     return "*" not in argument and changed == "const " + argument
 
 
