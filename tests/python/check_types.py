@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The types that the package promises with py.typed: mypy, as strict as it is, of the package, of a
-program with types and, less strict, of the examples; and the program runs. A program that breaks the
-promise is refused.
+"""Tests the types that the package guarantees with py.typed. mypy checks the package and a typed
+program in strict mode and the examples in normal mode, and the program runs. mypy must reject a
+program that violates the types.
 usage: check_types.py <folder of pnpbs> <source folder> <folder for mypy's cache>"""
 import os
 import subprocess
@@ -15,7 +15,7 @@ program = Path(__file__).with_name("typed_program.py")
 
 
 def mypy(*arguments):
-    """From the folder above the package, where `import pnpbs` finds it."""
+    """Runs mypy in the folder above the package, where `import pnpbs` finds the package."""
     command = [sys.executable, "-m", "mypy", f"--cache-dir={cache}", *map(str, arguments)]
     return subprocess.run(command, cwd=package.parent,
                           env=dict(os.environ, MYPYPATH=str(package.parent))).returncode

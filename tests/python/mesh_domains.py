@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Domains whose meshes other packages get."""
+"""Domains for the tests that pass meshes to other packages."""
 import numpy as np
 import pnpbs
 
@@ -15,7 +15,7 @@ def box(context):
 
 
 def of_file(context, path):
-    """The domain in the file, and the middle of the box around it."""
+    """Returns the domain in a file, and the centre of its bounding box."""
     if path.endswith(".poly"):
         domain = pnpbs.Domain(context).read_poly(path)
     else:
@@ -31,8 +31,8 @@ SIDES = [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), (0, 1, 5), (0, 5, 4), (2, 3
 
 
 def blocks(context, dim):
-    """Two, of the sizes 0.3 and 0.6 along the axes, in a square or box with the tag 1. The curves
-    or surfaces around them have the tag 7."""
+    """Returns a square or box with the tag 1 that contains two blocks of the sizes 0.3 and 0.6
+    along the axes. The curves or surfaces around the blocks have the tag 7."""
     domain = pnpbs.Domain(context, dim=dim)
     if dim == 2:
         domain.add_polyline(CORNERS[:4, :2], tags=1)
@@ -48,7 +48,8 @@ def blocks(context, dim):
 
 
 def blocks_with_regions(context, dim):
-    """The first has the tag 7, the other 20, and what is around them none."""
+    """Returns the blocks as regions: the first has the tag 7, the other one 20, and the rest has
+    none."""
     domain = blocks(context, dim)
     return domain.add_region((0.2, 0.5, 0.5)[:dim], 7).add_region((0.8, 0.5, 0.5)[:dim], 20)
 

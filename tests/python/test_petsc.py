@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distributed meshes in PETSc, on the ranks of MPI: cells stay on their rank, facets and cells keep
-their tags, fields go to the vertices and back, and Poisson's equation has the errors that
-examples/c/petsc_poisson has, before and after the spacing is adapted. usage: test_petsc.py [FILE D],
-instead of the square and the box. petsc4py 3.18."""
+"""Tests distributed meshes in PETSc (petsc4py 3.18), on the ranks of MPI. Cells stay on their rank,
+facets and cells keep their tags, fields are transferred to vertices and back, and Poisson's
+equation has the errors of examples/c/petsc_poisson, before and after the spacing is adapted.
+usage: test_petsc.py [FILE D], with the domain of a file instead of the square and the box."""
 import math
 import sys
 import traceback
@@ -27,7 +27,8 @@ def peak(x, centre, length):
 
 
 def load(x, centre, length):
-    """Rounded as in the program in C, for on its last bits depends where nodes go."""
+    """Returns the load, rounded as in the C program, because the positions of nodes depend on its
+    last bits."""
     r2 = ((x - centre)**2).sum(axis=-1) / length**2
     one = 1 + r2
     return (2 * x.shape[-1] / (one * one) - 8 * r2 / (one * one * one)) / length**2
@@ -48,7 +49,7 @@ def to_nodes(nodes, at_vertices, count):
 
 
 class Plex:
-    """What it says of itself: coordinates, and the vertices of points."""
+    """A DMPlex with its own data: coordinates, and the vertices of its points."""
 
     def __init__(self, plex):
         self.plex = plex
@@ -66,22 +67,23 @@ class Plex:
         return there.indices if there else np.zeros(0, np.int32)
 
     def owned(self, points):
-        """Those of the points that belong to this rank."""
+        """Returns those of the points that belong to this rank."""
         try:
             _, leaves, _ = self.plex.getPointSF().getGraph()
-        except ValueError:  # of petsc4py, where ranks share nothing and PETSc keeps no graph
+        except ValueError:  # petsc4py raises it if ranks share nothing and PETSc has no graph
             return points
         return np.setdiff1d(points, leaves)
 
     def measures(self, corners):
-        """Of simplices with these vertices."""
+        """Returns the measures of simplices with these vertices."""
         sides = self.x[corners[:, 1:]] - self.x[corners[:, :1]]
         gram = np.linalg.det(sides @ sides.transpose(0, 2, 1))
         return np.sqrt(gram) / math.factorial(corners.shape[1] - 1)
 
 
 def sums(part, of_elements):
-    """Numbers and measures of what has a tag, over all ranks, each counted once."""
+    """Returns the numbers and measures of elements or facets by tag over all ranks, each counted
+    once."""
     rows = part.elements[:part.owned_elements] if of_elements else part.facets
     mine = np.full(len(rows), True) if of_elements else part.facet_owners == WORLD.rank
     tags = part.element_tags[:len(rows)] if of_elements else part.facet_tags
@@ -130,7 +132,8 @@ def check_plex(part, plex, nodes):
 
 
 def check_points(there, depth):
-    """Every point has one owner, at the same place; so ranks agree on edges and faces."""
+    """Checks that every point has one owner and a position of its own, so that ranks agree on edges
+    and faces."""
     plex = there.plex
     points = np.arange(*plex.getDepthStratum(depth))
     centres = np.array([there.x[there.vertices(point)].mean(axis=0) for point in points])
@@ -142,7 +145,8 @@ def check_points(there, depth):
 
 
 def finite_elements(there, centre, length):
-    """Stiffness and right side of each cell, the points of a quadrature, and its functions."""
+    """Returns stiffness matrix and load of each cell, the points of a quadrature, and the basis
+    functions there."""
     x, dim = there.x[there.cells], there.x.shape[1]
     functions = np.full((dim + 1, dim + 1), FAR[dim]) + np.eye(dim + 1) * (1 - (dim + 1) * FAR[dim])
     points = functions @ x
@@ -155,7 +159,7 @@ def finite_elements(there, centre, length):
 
 
 def error_of(there, centre, length):
-    """Of linear elements, in L2."""
+    """Returns the L2 error of linear elements."""
     plex = there.plex
     section = PETSc.Section().create(plex.comm)
     section.setChart(*plex.getChart())
@@ -190,7 +194,8 @@ def error_of(there, centre, length):
 
 
 def run(domain, d, centre, length):
-    """Errors before and after adapting: d goes down where the load is large, up to three times."""
+    """Returns the errors before and after adapting. d decreases where the load is large, by up to a
+    factor of three."""
     placement, errors = pnpbs.Placement(domain).set_spacing(d), []
     for _ in range(2):
         placement.run()
@@ -218,14 +223,14 @@ def check_meshes_with_regions(context):
 
 
 def check_an_empty_rank(context):
-    """Two triangles or so, and cells that PETSc makes of their neighbours."""
+    """Checks a domain of about two triangles, for which some ranks have no cells."""
     triangle = pnpbs.Domain(context).add_polyline([(0, 0), (1, 0), (0, 1)], tags=1)
     part = placed(triangle, 0.9).mesh()
     check_plex(part, *part.to_petsc(WORLD))
 
 
 def check_overlap(context):
-    """A layer of PETSc's own ghost cells, with their labels."""
+    """Checks a layer of PETSc's own ghost cells, with their labels."""
     part = placed(blocks_with_regions(context, 2), 0.1).mesh()
     plex, _ = part.to_petsc(WORLD)
     if WORLD.size > 1:
