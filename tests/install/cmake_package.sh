@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# What find_package(pnpbs) gives, and what it says where it gives nothing.
+# Tests the targets and variables that find_package(pnpbs) defines, and its messages on errors.
 # usage: cmake_package.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -8,7 +8,7 @@ set -eu
 . "$scripts/common.sh"
 cases=0
 
-# A project with these languages (C, CXX, Fortran; with blanks between) and these lines.
+# Configures a project with these languages (C, CXX, Fortran, separated by blanks) and these lines.
 project() {
   cases=$((cases + 1))
   folder=$work/project_$cases
@@ -28,7 +28,8 @@ works() {
   project "$1" "$2" || { cat "$work/log"; fail "should work"; }
 }
 
-# Languages, lines, and what the message must contain, however CMake has broken its lines.
+# Requires that a project fails. Arguments: languages, lines, and a part of the message. CMake's
+# line breaks do not matter.
 is_refused() {
   say "is refused: $1: $2"
   if project "$1" "$2"; then
@@ -38,7 +39,7 @@ is_refused() {
   grep -qF -e "$3" "$work/message" || { cat "$work/log"; fail "should say: $3"; }
 }
 
-# Says in CMake that something must hold.
+# Prints CMake code that requires a condition.
 require() { echo "if(NOT ($1))"; echo "message(FATAL_ERROR \"$2\")"; echo "endif()"; }
 
 minor=${version%.*}
@@ -82,7 +83,7 @@ else
   is_refused C "find_package(pnpbs REQUIRED COMPONENTS MPI)" "was built without MPI"
 fi
 
-# The program of the last project, whose lines are those of no other.
+# Builds and runs the program of the last project, whose output is not compared with others.
 build_and_run_alone() {
   quietly "$cmake" --build "$folder/build"
   rm -f "$work/check_lines_before"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The installed tree file by file: all that belongs there, nothing else, and nothing that names the
-# folders of the machine it was built on.
+# Tests the installed tree file by file: it has all files that belong to it, no others, and no text
+# that contains folders of the machine on which it was built.
 # usage: contents.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -10,8 +10,9 @@ set -eu
 cd "$prefix"
 configuration=$(echo "${build_type:-noconfig}" | tr '[:upper:]' '[:lower:]')
 
-# ------------------------------------------------------------------ what there should be --------
-# A folder of the source tree, file for file: folder, where it lies in the prefix.
+# ------------------------------------------------------------------ expected files --------------
+# Prints the files of a folder of the source tree as installed files. Arguments: the folder, its
+# path in the prefix.
 same_files() {
   (cd "$source/$1" && find . -type f ! -name .clang-format ! -path '*/__pycache__/*') |
     sed "s,^\.,$2,"
@@ -123,7 +124,7 @@ if [ "$kokkos_is_shared" = FALSE ]; then
 fi
 
 # ------------------------------------------------------------------ folders of this machine -----
-# Texts in a file, compressed ones included, that name the source or the build folder.
+# Prints the texts in a file, also in a compressed one, that contain the source or the build folder.
 named_folders() {
   case $1 in
     *.mod) gzip -dc "$1" ;;
@@ -131,9 +132,10 @@ named_folders() {
   esac | strings -a | grep -F -e "$source/" -e "$build/"
 }
 
-# A Kokkos in the source tree's own .deps is linked where it lies: the rpath to a shared one, and
-# what pkg-config --static and pnpbs::static tell. gfortran keeps the names of the sources of what it compiles, for
-# its messages, and has no option against it.
+# Filters texts that are allowed. A Kokkos in .deps of the source tree is linked at its location:
+# this is the rpath to a shared one, and appears in the output of pkg-config --static and in
+# pnpbs::static. gfortran stores the names of source files for its messages and has no option
+# against it.
 allowed() {
   case $1 in
     *.so.* | *.pc | */pnpbsStatic.cmake) grep -vF "$kokkos_folder" ;;
@@ -151,13 +153,13 @@ if [ "$build_type" = Release ]; then
   if [ -s "$work/leaks" ]; then
     fail "$(cat "$work/leaks")"
   fi
-  # The search works: it finds what a build tree has in it.
+  # The search must find the folders in a file of the build tree.
   named_folders "$build/CMakeCache.txt" > "$work/leaks"
   [ -s "$work/leaks" ] || fail "the search finds nothing where there is something"
 fi
 
 # ------------------------------------------------------------------ links in the documents ------
-# Those that lead out of the folder of the documents included: nothing but what is installed counts.
+# Links that lead out of the folder of the documents must lead to installed files.
 say "links between installed documents"
 for link in "$datadir/doc/pnpbs/examples" "$datadir/pnpbs/docs"; do
   case $(readlink "$link") in
