@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What scripts/setup.sh asks apt-get for where something is missing; nothing is installed.
+# Tests which packages scripts/setup.sh requests from apt-get if something is missing. Nothing is
+# installed.
 # usage: setup_needs.sh <source folder> <C++ compiler>
 set -euo pipefail
 source=$1 cxx=$(command -v "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# A compiler that knows no header of that name.
+# This compiler fails if the code includes the header $HIDDEN.
 cat > "$work/compiler" << COMPILER
 #!/bin/sh
 case "\$*" in *" -") ;; *) exec "$cxx" "\$@" ;; esac

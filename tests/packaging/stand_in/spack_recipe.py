@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stands in for Spack: reads a recipe and keeps what its directives say."""
+"""Stand-in for Spack: reads a recipe and stores the arguments of its directives."""
 
 import contextlib
 import re
@@ -8,7 +8,7 @@ import types
 
 
 class Recipe:
-    """What a package.py has said: its class, and its directives in order."""
+    """The contents of a package.py: its class, and its directives in order."""
 
     def __init__(self, path):
         self.variants, self.versions, self.dependencies, self.conflicts = {}, {}, [], []
@@ -26,7 +26,7 @@ class Recipe:
         sys.modules.update(modules)
         try:
             names = {"__name__": "package"}
-            exec(compile(path.read_text(), str(path), "exec"), names)  # the recipe is our own
+            exec(compile(path.read_text(), str(path), "exec"), names)  # our own recipe
         finally:
             sys.modules.clear()
             sys.modules.update(before)
@@ -60,7 +60,7 @@ class Recipe:
         self.conditions.pop()
 
     def cmake_args(self, variants):
-        """What CMake is told, {option: value}, with these variants."""
+        """Returns the options for CMake, {option: value}, with these variants."""
         package = self.package()
         package.variants = variants
         package.spec = {re.match(r"[\w-]+", spec)[0]: types.SimpleNamespace(prefix="/somewhere")
@@ -73,7 +73,7 @@ class Recipe:
 
 
 class Package:
-    """What a recipe's class calls."""
+    """The base class of a recipe's class, with the methods that it calls."""
 
     def define(self, option, value):
         if isinstance(value, bool):
