@@ -78,7 +78,7 @@ START_TEST(corners_and_tags_of_a_polyline) {
 }
 END_TEST
 
-/* With a corner angle, only vertices at which the curve turns by more than it are nodes. */
+/* With a corner angle, only vertices at which the curve turns by more than this angle are nodes. */
 START_TEST(a_polyline_that_is_a_circle) {
   double xy[2 * 360 + 4];
   job it = job_begin();

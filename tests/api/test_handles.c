@@ -58,8 +58,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
 
 /* ---------------------------------------------------------------- every call ------------ */
 
-/* X(function, its arguments): a call that succeeds with a live handle of the right dimension.
- * Functions that create or destroy have tests of their own. */
+/* X(function, its arguments): a call that accepts a live handle of the right kind and dimension,
+ * and may fail for other reasons. Functions that create or destroy have tests of their own. */
 #define CONTEXT_CALLS(X)                          \
   X(context_set, (handle, "steps", "10"))         \
   X(context_set_int64, (handle, "steps", 10))     \

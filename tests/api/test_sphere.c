@@ -305,8 +305,8 @@ static void cells_free(cells* c) {
   free(c->areas), free(c->distances), free(c->normals);
 }
 
-/* Checks that faces lie across the great circle between two nodes, that both sides have the same
- * area, and that lengths are along the sphere. */
+/* Checks that the normal of each face points along the chord between its two nodes, that both sides
+ * have the same area, and that distances are along the sphere. */
 static void check_faces(const results* r, const cells* c) {
   int64_t i, k, m;
   int a;
@@ -335,7 +335,7 @@ static double sum_of(int64_t n, const double* values) {
 }
 
 /* The cells cover the area of the triangles, and their parts of the coast sum up to its length. A
- * regular cell has the area of a hexagon, and its faces have the lengths of the hexagon's sides. */
+ * regular cell has the area of a hexagon. */
 START_TEST(voronoi_cells) {
   job it = sea_job();
   double coast = 0, boundary = 0, hexagons = 0;

@@ -226,8 +226,8 @@ START_TEST(fine_in_a_small_place) {
 }
 END_TEST
 
-/* A spacing for which tetrahedra and surface nodes choose different diagonals of flat sides. The
- * sides stay flat in both cases. */
+/* A spacing for which the tetrahedra and the nodes on the surface may choose different diagonals of
+ * four nodes on a flat side. No boundary triangle counts as missing then. */
 static int32_t graded_from_a_layer(int64_t n, int32_t dim, const double* xyz, double* d,
                                    void* user) {
   int64_t i;

@@ -230,7 +230,7 @@ contains
     call expect(stat < 0, 'an error on one rank is that of all')
     if (rank == size - 1) &
       call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'offsets has room for')
-    ! So is an array with a wrong shape.
+    ! An array with a wrong shape on one rank is an error on all ranks as well.
     allocate (xy(merge(3, 2, rank == 0), 1))
     xy = 0.5d0
     call placement%set_nodes(xy, stat=stat, errmsg=errmsg)

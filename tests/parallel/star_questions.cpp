@@ -80,8 +80,8 @@ void check_questions() {
   require(pnpbs_placement_star_size(placement, &entries), "stars");
   const message_counts::Counts sent = message_counts::counts;
 
-  // Distance within which a rank may be asked: the circumcircles of a star, and a leaf or two
-  // between the nodes and the border of a part.
+  // Distance within which a rank may receive requests: the circumcircles of a star, and a leaf or
+  // two between the nodes and the border of a part.
   constexpr double kWay = 4 * kGap;
   std::int64_t near = 0;
   for (int r = 0; r < comm->size(); ++r) {

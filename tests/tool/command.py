@@ -44,7 +44,8 @@ SQUARE_AREA = 0.96
 
 
 def receive_signals():
-    """A background process may ignore these signals, and its children inherit that."""
+    """Restores the default handlers of signals in a child process. A background process ignores
+    these signals, and its children inherit that."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 

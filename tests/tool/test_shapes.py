@@ -136,7 +136,7 @@ class Shapes(ShapesTest):
         _, err = self.run_command("--domain", self.geojson(island, coast), *ask, code=LEFT_OUT)
         self.assertIn("warning: outside the domain and left out: ", err.decode())
         self.assertIn("nodes.csv", self.files())
-        # With the open boundary the coast is closed, and the island is an island in it.
+        # With the open boundary the coast is closed, and the domain surrounds the island.
         ends = feature("LineString", [SQUARE[3], SQUARE[0]], name="open")
         self.run_command("--domain", self.geojson(island, coast, ends), *ask)
         report = json.loads((self.folder / "report.json").read_text())
