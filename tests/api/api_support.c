@@ -1,4 +1,6 @@
-/* SPDX-License-Identifier: BSD-3-Clause */
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Implements the helpers of api_support.h. Reference results are computed by brute force. */
 #include "api_support.h"
 
 /* ---------------------------------------------------------------- jobs ------------------ */
@@ -151,7 +153,7 @@ int32_t edge_between(const result* it, int64_t a, int64_t b) {
   return 0;
 }
 
-/* Returns the index of b within the star of a, or -1. */
+/* Returns the index of b among the entries of the star of a, or -1. */
 static int64_t place_in_star(const result* it, int64_t a, int64_t b) {
   int64_t k;
   for (k = it->offsets[a]; k < it->offsets[a + 1]; ++k) {
@@ -254,14 +256,13 @@ static void check_edges(const result* it) {
   }
 }
 
-/* Returns the neighbour that follows entry k in the star of i. The last entry is followed by the
- * first. */
+/* Returns the neighbour that follows entry k in the star of i, in cyclic order. */
 static int64_t next_around(const result* it, int64_t i, int64_t k) {
   return it->neighbours[k + 1 < it->offsets[i + 1] ? k + 1 : it->offsets[i]];
 }
 
-/* Checks that every star goes round its node once, counter-clockwise, and that every triangle is in
- * the stars of its three corners. */
+/* Checks that every star goes round once, counter-clockwise, and that every triangle is in three
+ * stars. */
 static void check_stars(const result* it) {
   int64_t i, k, triangles = 0;
   ck_assert_int_eq(it->offsets[0], 0);
@@ -282,7 +283,7 @@ static void check_stars(const result* it) {
                     (long long)i, (long long)j);
       ck_assert(it->is_triangle[k] == 0 || it->is_triangle[k] == 1);
       if (!it->is_triangle[k]) {
-        /* The star has a gap here, so this edge and the next one must be boundary edges. */
+        /* The star has a gap here, so this edge and the next one must be on the boundary. */
         ck_assert_int_ne(edge_between(it, i, j), 0);
         ck_assert_int_ne(edge_between(it, i, next), 0);
         closed = 0;
@@ -295,7 +296,7 @@ static void check_stars(const result* it) {
       turned += atan2(cross(x, it->xy + 2 * j, it->xy + 2 * next),
                       (it->xy[2 * j] - x[0]) * (it->xy[2 * next] - x[0]) +
                           (it->xy[2 * j + 1] - x[1]) * (it->xy[2 * next + 1] - x[1]));
-      /* The stars of the other two corners must hold the same triangle. */
+      /* The second corner must have the same triangle in its star. */
       ck_assert_msg(place_in_star(it, j, next) >= 0 &&
                         it->is_triangle[place_in_star(it, j, next)] &&
                         next_around(it, j, place_in_star(it, j, next)) == i,
@@ -325,7 +326,8 @@ static void check_triangles(const result* it) {
   }
 }
 
-/* Checks that the two angles opposite a common edge sum to at most 180 degrees. */
+/* Checks the Delaunay property: the two angles opposite to a common edge sum up to at most 180
+ * degrees. */
 static void check_delaunay(const result* it) {
   int64_t i, k;
   for (i = 0; i < it->n; ++i) {

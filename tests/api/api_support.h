@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Support code of the C interface's tests: calls that must succeed or fail in a certain way,
- * domains, and copies of results that are checked by brute force. */
+ * Helpers of the tests of the C interface: calls that must succeed or fail with a given message,
+ * domains, and results that are copied out and checked by brute force.
+ */
 #ifndef PNPBS_TESTS_API_SUPPORT_H
 #define PNPBS_TESTS_API_SUPPORT_H
 
@@ -19,7 +20,7 @@
 
 /* ---------------------------------------------------------------- calls ----------------- */
 
-/* The last message of the calling thread, whatever context it belongs to. */
+/* Returns the last message of the calling thread, for any context. */
 #define MESSAGE() pnpbs_last_error(NULL)
 
 #define MUST_BE(expected, call)                                                                    \
@@ -31,7 +32,7 @@
 
 #define MUST(call) MUST_BE(PNPBS_OK, call)
 
-/* Checks that a run or a step succeeds, converged or not. */
+/* Requires that a run or step succeeds, converged or not. */
 #define MUST_COMPUTE(call)                                                       \
   do {                                                                           \
     const pnpbs_status must_status = (call);                                     \
@@ -40,7 +41,7 @@
                   must_status < 0 ? MESSAGE() : "no error");                     \
   } while (0)
 
-/* Checks that a call fails with the expected status and a message that contains both texts. */
+/* Requires that a call fails with this status, and that its message contains both texts. */
 #define MUST_FAIL(expected, call, first, second)                                                   \
   do {                                                                                             \
     MUST_BE(expected, call);                                                                       \
@@ -58,16 +59,16 @@ typedef struct {
   pnpbs_placement placement;
 } job;
 
-job job_begin(void);         /* a context and an empty domain */
-void job_place(job* it);     /* a placement in the domain as it is now */
-job square_job(double side); /* a placement in the square [0, side]^2 */
+job job_begin(void);         /* creates a context and an empty domain */
+void job_place(job* it);     /* creates a placement in the current domain */
+job square_job(double side); /* creates a placement in the square [0, side]^2 */
 void job_end(job* it);
 
 void add_rectangle(pnpbs_domain domain, int32_t role, double x0, double y0, double x1, double y1,
                    int32_t tag);
 void add_circle(pnpbs_domain domain, int32_t role, double x, double y, double radius, int32_t tag);
 
-/* Parameters of the spacing callback cone_spacing: d = a + b hypot(x - x0, y - y0). */
+/* A spacing callback with d = a + b hypot(x - x0, y - y0). */
 typedef struct {
   double a, b, x0, y0;
 } cone;
@@ -82,7 +83,7 @@ hash_text hash_of(pnpbs_placement placement);
 
 /* ---------------------------------------------------------------- results --------------- */
 
-/* A copy of all results of a placement. */
+/* All results of a placement in the plane that can be copied out. */
 typedef struct {
   int64_t n;
   double* xy;
@@ -90,7 +91,7 @@ typedef struct {
   int32_t* tags;
   double* d;
 
-  int64_t entries; /* entries of all stars together */
+  int64_t entries; /* number of entries of the stars */
   int64_t* offsets;
   int64_t* neighbours;
   int8_t* is_triangle;
@@ -101,37 +102,37 @@ typedef struct {
   int64_t edges; /* number of boundary edges */
   int64_t* ends; /* [edges][2] */
   int32_t* edge_tags;
-  char* on_boundary; /* [n], 1 if a boundary edge ends at the node */
+  char* on_boundary; /* [n], whether the node ends a boundary edge */
 } result;
 
 result result_of(pnpbs_placement placement);
 void result_free(result* it);
 
-/* Returns the node with exactly these coordinates, or -1. */
+/* Returns the index of the node at exactly this position, or -1. */
 int64_t node_at(const result* it, double x, double y);
 int64_t node_with_id(const result* it, int64_t id);
 /* Returns the tag of the boundary edge between nodes a and b, or 0 if there is none. */
 int32_t edge_between(const result* it, int64_t a, int64_t b);
-/* Returns whether b is in the star of a and a in the star of b. */
+/* Returns whether b is in the star of a, and a in that of b. */
 int are_star_neighbours(const result* it, int64_t a, int64_t b);
 
-/* distance to the boundary edges that do not end at the node */
-double clearance(const result* it, int64_t node);
+double clearance(const result* it, int64_t node); /* to edges without the node */
 
-/* Returns the quality 2 r_in / R of a triangle. */
+/* Returns the quality of a triangle: 2 r_in / R. */
 double quality(const double* a, const double* b, const double* c);
 typedef struct {
   double mean, least;
-  double below_95; /* share of triangles below 0.95 */
+  double below_95; /* share of the triangles with a quality below 0.95 */
 } quality_summary;
 quality_summary quality_of(const result* it);
 
-double triangle_area(const result* it); /* total area */
+double triangle_area(const result* it); /* sum over all triangles */
 
-/* Checks what must hold for any node set: The nodes are finite, distinct and in the order of their
- * ids. Boundary edges are edges of the stars. Stars go round counter-clockwise and agree with each
- * other and with the triangles. All edges except boundary edges are Delaunay. Euler's formula holds
- * with `euler` = pieces - holes. Inner nodes are at least 0.35 d from the boundary. */
+/* Checks the invariants of any set of nodes: positions are finite and distinct, ids increase,
+ * boundary edges are edges of the stars, stars go round counter-clockwise and agree with each other
+ * and with the triangles, all triangles are Delaunay except at boundary edges, and inner nodes keep
+ * 0.35 d off the boundary. `euler` is the number of pieces minus the number of holes, for Euler's
+ * formula. */
 void check_result(const result* it, int euler);
 void check_placement(pnpbs_placement placement, int euler);
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of repeated runs on one placement: with a new spacing, with given nodes, in single steps,
- * and without any change. */
+ * Tests calls on a live placement: new spacings, given nodes, single steps and further runs.
+ */
 #include "api_support.h"
 
-/* Returns the number of nodes of `after` whose ids are in `before`. */
+/* Returns the number of nodes of `after` whose ids are also in `before`. */
 static int64_t kept(const result* before, const result* after) {
   int64_t i = 0, j = 0, count = 0;
   while (i < before->n && j < after->n) {
@@ -17,7 +17,7 @@ static int64_t kept(const result* before, const result* after) {
   return count;
 }
 
-/* Returns whether one of the warnings contains the text. */
+/* Returns whether a warning contains this text. */
 static int has_warning(pnpbs_placement placement, const char* part) {
   const char* text = "";
   int32_t count = 0, k;
@@ -59,7 +59,7 @@ static void respace(double factor, double tolerance, double least_kept, double m
   before = result_of(it.placement);
 
   MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &second));
-  /* A new spacing leaves the nodes unchanged until the next run. */
+  /* A new spacing does not change the nodes before the next run. */
   ck_assert_int_eq(integer_of(it.placement, "nodes"), before.n);
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   after = result_of(it.placement);
@@ -111,7 +111,7 @@ END_TEST
 START_TEST(a_little_finer) { respace(0.95, 0.1, 0.7, 1); }
 END_TEST
 
-/* A run with the same spacing again deletes no node. */
+/* Setting the same spacing again changes no node. */
 START_TEST(the_same_spacing_again) {
   job it = square_job(1);
   result before, after;
@@ -130,7 +130,7 @@ START_TEST(the_same_spacing_again) {
 }
 END_TEST
 
-/* If d is refined in one corner, the nodes of the opposite corner stay. */
+/* If d becomes finer in one corner, the opposite corner keeps its nodes. */
 static int32_t finer_in_a_corner(int64_t n, int32_t dim, const double* x, double* d, void* user) {
   int64_t i;
   (void)dim, (void)user;
@@ -164,9 +164,9 @@ START_TEST(refined_in_one_corner) {
 END_TEST
 
 START_TEST(a_grid_equals_its_function) {
-  /* The grid of 5 x 9 points holds d = 0.04 + 0.03 x + 0.02 y + 0.05 x y. This function is
-   * bilinear, so that interpolation is exact at multiples of a power of two and correct within
-   * rounding elsewhere. */
+  /* d = 0.04 + 0.03 x + 0.02 y + 0.05 x y is given on a grid of 5 x 9 points. It is bilinear, so
+   * interpolation is exact for coordinates that are multiples of a power of two, and elsewhere up
+   * to rounding. */
   const int64_t size[2] = {5, 9};
   const double origin[2] = {0, 0}, step[2] = {0.25, 0.125};
   double values[45];
@@ -199,7 +199,7 @@ static int32_t binary_ramp(int64_t n, int32_t dim, const double* x, double* d, v
   return 0;
 }
 
-/* A grid of equal values gives bitwise the same nodes as a constant callback. */
+/* A grid with equal values gives the bits of the callback, since interpolating 0.0625 is exact. */
 START_TEST(a_grid_of_one_value) {
   const int64_t size[2] = {2, 1};
   const double origin[2] = {0.25, 0.5}, step[2] = {0.5, 1}, values[2] = {0.0625, 0.0625};
@@ -217,7 +217,7 @@ END_TEST
 START_TEST(a_grid_is_constant_beyond_its_rim) {
   const int64_t size[2] = {2, 2};
   const double origin[2] = {0.4, 0.4}, step[2] = {0.2, 0.2};
-  const double values[4] = {0.05, 0.08, 0.05, 0.08}; /* x fastest */
+  const double values[4] = {0.05, 0.08, 0.05, 0.08}; /* x varies fastest */
   job it = square_job(1);
   result nodes;
   int64_t i;
@@ -239,8 +239,8 @@ START_TEST(a_grid_is_constant_beyond_its_rim) {
 }
 END_TEST
 
-/* A grid covers half a step around its points. A domain within this distance of the points causes
- * no warning, even if the distance exceeds d. */
+/* Cells reach half a step beyond the grid points, and d may be larger than the part that is not
+ * covered. So there is no warning. */
 START_TEST(a_grid_that_covers_the_domain) {
   const int64_t size[2] = {2, 2};
   const double origin[2] = {0.25, 0.27}, step[2] = {0.5, 0.46};
@@ -253,8 +253,8 @@ START_TEST(a_grid_that_covers_the_domain) {
 }
 END_TEST
 
-/* A grid beside the domain is rejected, unless it has only one point in that direction and so is
- * constant along it. */
+/* A grid that lies beside the domain is an error. With a single point in a direction, d is constant
+ * in that direction, so there is no error. */
 START_TEST(a_grid_beside_the_domain) {
   const int64_t size[2] = {2, 2}, row[2] = {2, 1};
   const double origin[2] = {0, 5}, step[2] = {1, 1}, values[4] = {0.05, 0.08, 0.05, 0.08};
@@ -270,7 +270,7 @@ START_TEST(a_grid_beside_the_domain) {
 }
 END_TEST
 
-/* Values at nodes are interpolated linearly, so that a linear function is reproduced exactly. */
+/* Values at nodes are interpolated linearly, so a linear function is reproduced. */
 START_TEST(values_at_nodes_equal_their_function) {
   job it = square_job(1);
   result before, after;
@@ -289,9 +289,9 @@ START_TEST(values_at_nodes_equal_their_function) {
   MUST_FAIL(PNPBS_ERROR_ARGUMENT,
             pnpbs_placement_set_spacing_at_nodes(it.placement, before.n, NULL), "argument d", "");
   MUST(pnpbs_placement_set_spacing_at_nodes(it.placement, before.n, d));
-  memset(d, 0, (size_t)before.n * sizeof *d); /* the library has copied the values */
+  memset(d, 0, (size_t)before.n * sizeof *d); /* the library has copied them */
   free(d);
-  /* The second run uses values at nodes that no longer exist. */
+  /* The second run evaluates a spacing whose nodes no longer exist. */
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   after = result_of(it.placement);
@@ -305,6 +305,7 @@ START_TEST(values_at_nodes_equal_their_function) {
 }
 END_TEST
 
+/* A cone of slope b > g is limited to slope g: d = a + g r everywhere. */
 START_TEST(growth_limits) {
   static const struct {
     double a, b, g;
@@ -342,7 +343,8 @@ START_TEST(given_nodes_keep_their_ids) {
   result start, end;
   int64_t i;
   int k;
-  /* 300 nodes form a sunflower pattern well inside the square. Six more nodes cannot be used. */
+  /* The points form a sunflower about the middle: 300 points well inside. Six further points cannot
+   * become nodes. */
   for (k = 0; k < MANY; ++k) {
     const double r = 0.44 * sqrt((k + 0.5) / MANY), t = 2.399963229728653 * k;
     xy[2 * k] = 0.5 + r * cos(t);
@@ -373,8 +375,8 @@ START_TEST(given_nodes_keep_their_ids) {
   check_result(&end, 1);
   ck_assert_double_ge(quality_of(&end).mean, 0.94);
   ck_assert_int_gt(kept(&start, &end), 300);
-  /* An initialisation starts from the given nodes again, but a new spacing from the current nodes.
-   */
+  /* Initialising begins again from the given nodes, whereas a new spacing begins from the current
+   * positions. */
   MUST(pnpbs_placement_initialise(it.placement));
   result_free(&end);
   end = result_of(it.placement);
@@ -402,7 +404,7 @@ START_TEST(given_nodes_without_ids) {
 }
 END_TEST
 
-/* The nodes of one placement can be the start of another. */
+/* The result of one placement can be the start of another. */
 START_TEST(from_one_placement_to_another) {
   job first = square_job(1), second = square_job(1);
   result before, after;
@@ -414,8 +416,7 @@ START_TEST(from_one_placement_to_another) {
   MUST_COMPUTE(pnpbs_placement_run(second.placement));
   after = result_of(second.placement);
   check_result(&after, 1);
-  /* The given nodes include boundary nodes, which are dropped because the library creates its own.
-   */
+  /* Boundary nodes are given as well. The library drops them, as it places its own. */
   ck_assert_int_eq(integer_of(second.placement, "dropped"),
                    integer_of(first.placement, "boundary_nodes"));
   ck_assert_int_eq(after.n, before.n);
@@ -427,7 +428,7 @@ START_TEST(from_one_placement_to_another) {
 }
 END_TEST
 
-/* The population control corrects bad initial nodes: too few, too many, or coincident ones. */
+/* Population control corrects any start: too few nodes, too many, or many at one point. */
 START_TEST(bad_starts_are_mended) {
   static double xy[2 * 3000];
   job it = square_job(1);
@@ -438,27 +439,27 @@ START_TEST(bad_starts_are_mended) {
   if (_i == 0) { /* one node */
     xy[0] = xy[1] = 0.5;
     n = 1;
-  } else if (_i == 1) { /* ten times too many */
+  } else if (_i == 1) { /* ten times too many nodes */
     for (n = 0; n < 3000; ++n) {
       xy[2 * n] = fmod(0.5 + 0.7548776662466927 * (double)n, 1);
       xy[2 * n + 1] = fmod(0.5 + 0.5698402909980532 * (double)n, 1);
     }
-  } else if (_i == 2) { /* many coincident nodes */
+  } else if (_i == 2) { /* many nodes at one point */
     for (n = 0; n < 50; ++n) xy[2 * n] = xy[2 * n + 1] = 0.5;
-  } else if (_i == 3) { /* all on one side */
+  } else if (_i == 3) { /* all nodes on one side */
     for (n = 0; n < 100; ++n) {
       xy[2 * n] = 0.1 + 0.001 * (double)(n % 10);
       xy[2 * n + 1] = 0.1 + 0.008 * (double)n;
     }
-  } /* else there is no node at all */
+  } /* otherwise no nodes at all */
   for (k = 0; k < 2; ++k) {
     MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.06));
     MUST(pnpbs_placement_set_nodes(it.placement, n, n > 0 ? xy : NULL, NULL));
     MUST_COMPUTE(pnpbs_placement_run(it.placement));
     nodes = result_of(it.placement);
     check_result(&nodes, 1);
-    /* Without an initial inner node none is inserted, so that only the 68 boundary nodes exist. A
-     * boundary node accounts for half the area of an inner node. */
+    /* Without a start node no node is inserted. 68 nodes are on the boundary, each of which covers
+     * half the area of an inner node. */
     wanted = n == 0 ? 68 : 2 / sqrt(3) / (0.06 * 0.06) + 34;
     ck_assert_msg(fabs((double)nodes.n / wanted - 1) < 0.2, "%d nodes, %d wanted", (int)nodes.n,
                   (int)wanted);
@@ -480,7 +481,7 @@ static job stepping_job(void) {
   return it;
 }
 
-/* Steps in several calls with queries in between equal the same number of steps in one call. */
+/* Steps have the same result in portions of any size, with queries in between. */
 START_TEST(steps_add_up) {
   enum { STEPS = 77 };
   static const int portions[] = {1, 7, 20, 13};
@@ -514,7 +515,7 @@ START_TEST(steps_add_up) {
 }
 END_TEST
 
-/* A run equals its steps followed by a finish. */
+/* A run equals its steps followed by a finish; here the finish has nothing to do. */
 START_TEST(a_run_is_its_steps) {
   job run = stepping_job(), step = stepping_job();
   MUST(pnpbs_placement_set(run.placement, "steps", "60"));
@@ -529,7 +530,7 @@ START_TEST(a_run_is_its_steps) {
 }
 END_TEST
 
-/* Stepping ends when the nodes are at rest, and the status says so. */
+/* step() ends when the bubbles rest, and its status says so. */
 START_TEST(steps_until_rest) {
   job it = square_job(1);
   int64_t steps = 0;
@@ -544,7 +545,7 @@ START_TEST(steps_until_rest) {
 }
 END_TEST
 
-/* The same job twice in one process gives bitwise equal nodes. */
+/* The same job twice in one process has the same bits. */
 START_TEST(runs_repeat) {
   job first = stepping_job(), second = stepping_job();
   result a, b;
@@ -554,7 +555,7 @@ START_TEST(runs_repeat) {
   b = result_of(second.placement);
   check_same(&a, &b);
   ck_assert_str_eq(hash_of(first.placement).text, hash_of(second.placement).text);
-  /* An initialisation discards the previous nodes. */
+  /* Initialising starts from the beginning. */
   MUST(pnpbs_placement_initialise(first.placement));
   ck_assert_str_ne(hash_of(first.placement).text, hash_of(second.placement).text);
   MUST_COMPUTE(pnpbs_placement_run(first.placement));
@@ -568,7 +569,7 @@ START_TEST(runs_repeat) {
 }
 END_TEST
 
-/* A second run continues from the result of the first one and does not deteriorate it. */
+/* A second run continues the first one and does not reduce the quality. */
 START_TEST(run_twice) {
   job it = stepping_job();
   result once, twice;
@@ -619,7 +620,7 @@ START_TEST(population_by_hand) {
   int64_t inserted = -1, deleted = -1, sum_in = 0, sum_out = 0;
   int round;
   const double start[2] = {0.5, 0.5};
-  /* The population control starts with one node, so it inserts many and deletes none. */
+  /* The start is one node, so many nodes must be inserted and none deleted. */
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.05));
   MUST(pnpbs_placement_set_nodes(it.placement, 1, start, NULL));
   for (round = 0; round < 3; ++round) {
@@ -637,7 +638,7 @@ START_TEST(population_by_hand) {
     result_free(&before);
     result_free(&after);
   }
-  /* With a far larger spacing it deletes many nodes. */
+  /* The spacing is now far coarser, so many nodes must be deleted. */
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
   MUST(pnpbs_placement_adjust_population(it.placement, &inserted, &deleted));
   ck_assert_int_gt(deleted, 0);
@@ -646,7 +647,7 @@ START_TEST(population_by_hand) {
 }
 END_TEST
 
-/* A change of the domain after the initialisation has no effect on the current nodes. */
+/* Changing the domain does not affect the nodes of a placement until it is initialised again. */
 START_TEST(the_domain_is_taken_at_initialise) {
   job it = stepping_job(), plain = stepping_job();
   double area = 0;

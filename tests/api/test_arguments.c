@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of invalid arguments, one by one. A call must return the right status and a message that
- * names the argument and its value. Outputs and objects must stay unchanged. */
+ * Tests invalid arguments, one by one: the status, a message that names the argument and its value,
+ * unchanged outputs, and objects that can be used as before.
+ */
 #include <limits.h>
 
 #include "api_support.h"
@@ -9,7 +10,7 @@
 #define N NAN
 #define I HUGE_VAL
 
-static job it; /* the objects that the calls use */
+static job it; /* the calls use the objects of this job */
 static int32_t curve_answer;
 static double curve_x;
 
@@ -24,7 +25,7 @@ static int32_t curve(int64_t n, int32_t dim, const double* t, double* xy, void* 
   return curve_answer;
 }
 
-/* Memory for the outputs of the calls; see check_outputs. */
+/* Buffer for outputs; check_outputs checks that no byte has changed. */
 static union {
   double reals[64];
   int64_t integers[64];
@@ -44,7 +45,7 @@ static void check_outputs(const char* call) {
 
 /* ---------------------------------------------------------------- the calls ------------- */
 
-/* X(expected status, a part of the message, another part, the call). */
+/* The expected status, two parts of the message, the text of the call and its line. */
 typedef struct {
   pnpbs_status expected;
   const char *first, *second;
@@ -70,7 +71,7 @@ static void refuse(const row* r, pnpbs_status status) {
     refuse(&r, (call));                                                   \
   } while (0)
 
-/* Checks a failing call that involves no context. */
+/* For calls without a context. */
 #define REFUSE_ANYWHERE(status, first, second, call)      \
   do {                                                    \
     prepare_outputs();                                    \
@@ -87,7 +88,7 @@ static void set_up(void) {
 
 static void tear_down(void) {
   double area = 0;
-  /* None of the errors has changed the objects. */
+  /* The errors must not have changed anything. */
   MUST(pnpbs_domain_measure(it.domain, &area));
   ck_assert_double_eq(area, 1);
   check_placement(it.placement, 1);
@@ -403,7 +404,7 @@ START_TEST(given_nodes) {
   REFUSE(ARGUMENT, "coordinates[1]", "inf", pnpbs_placement_set_nodes(p, 2, bad, NULL));
   REFUSE(ARGUMENT, "ids[1]", "-8", pnpbs_placement_set_nodes(p, 2, xy, below));
   REFUSE(ARGUMENT, "ids", "7", pnpbs_placement_set_nodes(p, 2, xy, same));
-  /* An id of this size would leave no ids for new nodes. */
+  /* With the largest id in use, no id is left for new nodes. */
   REFUSE(ARGUMENT, "ids[1]", "9223372036854775807", pnpbs_placement_set_nodes(p, 2, xy, last));
 }
 END_TEST
@@ -512,7 +513,7 @@ END_TEST
 
 /* ---------------------------------------------------------------- states ---------------- */
 
-/* Calls that need nodes fail before there are any, and runs fail before a spacing is set. */
+/* Checks queries before there are nodes, and before there is a spacing. */
 START_TEST(nothing_yet) {
   job empty = square_job(1);
   pnpbs_placement p = empty.placement;
@@ -580,7 +581,7 @@ START_TEST(domains_that_are_none) {
 }
 END_TEST
 
-/* Each context keeps its own last message. */
+/* Each context keeps its own message. */
 START_TEST(last_errors) {
   job one = square_job(1), other = square_job(1);
   char first[200];
@@ -592,7 +593,7 @@ START_TEST(last_errors) {
   ck_assert_str_eq(pnpbs_last_error(one.context), first);
   ck_assert_ptr_nonnull(strstr(pnpbs_last_error(other.context), "d = -1"));
   ck_assert_str_eq(pnpbs_last_error(NULL), pnpbs_last_error(other.context));
-  /* A successful call does not delete the message. */
+  /* A successful call does not clear the message. */
   MUST(pnpbs_placement_set_spacing_constant(other.placement, 1));
   ck_assert_ptr_nonnull(strstr(pnpbs_last_error(other.context), "d = -1"));
   job_end(&one);
@@ -635,7 +636,7 @@ START_TEST(versions) {
 }
 END_TEST
 
-/* MPI is not initialised in this test, so a communicator is rejected. */
+/* MPI is not initialised here, so no communicator can be converted. */
 START_TEST(no_mpi) {
   pnpbs_context context = (pnpbs_context)(void*)&context;
   const pnpbs_status expected =

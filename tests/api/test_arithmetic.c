@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of hosts that change the rounding mode, floating-point traps or flush-to-zero mode. They
- * get the same nodes and their own mode back, and callbacks run in the mode of the host. */
+ * Tests hosts with floating-point settings of their own: rounding modes, traps and flushing of
+ * subnormals. They get the same nodes, their settings are restored, and their callbacks run with
+ * the default settings.
+ */
 #define _GNU_SOURCE
 #include <fenv.h>
 

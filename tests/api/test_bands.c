@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests that the mean edge length equals d in every band of d, whatever the spacing's source. A
- * force that leaves residual stress compresses the coarse part beside a fine line to half of its d.
- * Neither a mean over all edges nor a spacing that grows from a point shows this. */
+ * Tests that d is followed in every band of d: the mean edge length over d is 1 in each of them. A
+ * force that leaves stress compresses coarse regions beside a fine line to half of their d. A mean
+ * over all edges, or a spacing that grows from a point, does not show this.
+ */
 #include "api_support.h"
 
 typedef struct {
@@ -33,8 +34,9 @@ static int32_t graded_spacing(int64_t n, int32_t dim, const double* xyz, double*
 
 enum { BANDS = 8, FEWEST = 200 };
 
-/* Compares the mean of edge length over d with 1 in each band. It counts the edges of all triangles
- * that have an inner end, so that edges inside the domain count twice. */
+/* Expects that the mean of edge length over d is 1 within the tolerance in each band. The mean is
+ * over the edges of all triangles that have an end inside; edges between two triangles count twice.
+ */
 static void expect_bands_at_d(const result* r, const graded* g, double tolerance) {
   double sum[BANDS] = {0}, count[BANDS] = {0};
   const double width = log(g->coarse / g->fine) / BANDS;
@@ -72,7 +74,7 @@ START_TEST(the_mean_edge_is_d_in_every_band) {
     MUST_COMPUTE(pnpbs_placement_run(it.placement));
     r = result_of(it.placement);
     check_result(&r, 1);
-    expect_bands_at_d(&r, &cases[k], 0.015); /* 0.01, plus the scatter of some hundred edges */
+    expect_bands_at_d(&r, &cases[k], 0.015); /* 0.01, plus scatter of the mean */
     result_free(&r);
     job_end(&it);
   }
@@ -88,8 +90,8 @@ static int32_t jump(int64_t n, int32_t dim, const double* xyz, double* d, void* 
   return 0;
 }
 
-/* Returns the number of nodes that d demands in the unit square, which is 2 / sqrt(3) per d^2. d
- * jumps at x = 0.503 and grows with slope g beside it. */
+/* Returns the expected number of nodes in the unit square, 2 / sqrt(3) per d^2, for a d that jumps
+ * at x = 0.503 and grows by g beside it. */
 static double nodes_beside_jump(double fine, double g) {
   const double far = fine + g * (1 - 0.503);
   return 2 / sqrt(3.) * (0.503 / (fine * fine) + (1 / fine - 1 / far) / g);
@@ -107,7 +109,7 @@ static int warnings_with(pnpbs_placement placement, const char* words) {
   return found;
 }
 
-/* Returns the x coordinate of the point that the warning names. */
+/* Returns the x of the point that the warning about steep growth names, or NaN. */
 static double steep_at(pnpbs_placement placement) {
   int32_t warnings = 0, k;
   double x = NAN;
@@ -121,8 +123,8 @@ static double steep_at(pnpbs_placement placement) {
   return x;
 }
 
-/* Nodes cannot follow a jump of d. By default the growth of d is limited beside it, and a warning
- * names the point. */
+/* Nodes cannot follow a jump. So by default d grows beside it at a rate that nodes can follow, and
+ * a warning names the point. */
 START_TEST(a_jump_is_limited) {
   static double fine[] = {0.01, 0.004};
   job it = square_job(1);
@@ -149,7 +151,8 @@ START_TEST(a_jump_is_limited) {
 }
 END_TEST
 
-/* The user can set another growth limit, or none. The warning explains the effect. */
+/* Setting the option is the user's decision: a smaller limit gives no warning. Without a limit, a
+ * warning explains the consequences. */
 START_TEST(a_jump_as_the_user_wants_it) {
   static double fine = 0.01;
   job it = square_job(1);
@@ -169,7 +172,7 @@ START_TEST(a_jump_as_the_user_wants_it) {
 }
 END_TEST
 
-/* A spacing that grows slowly is used unchanged, to the last bit. */
+/* A d that grows slowly is used as given, to the last bit. */
 START_TEST(slow_growth_is_not_limited) {
   static graded d = {0.004, 0.29, 0.08, from_line};
   hash_text hashes[2];
@@ -187,7 +190,7 @@ START_TEST(slow_growth_is_not_limited) {
 }
 END_TEST
 
-/* The final number of nodes does not depend on the number of initial nodes. */
+/* The number of nodes does not depend on the start: it equals that of a fresh run. */
 START_TEST(the_population_forgets) {
   static cone d = {0.012, 0.03, 0.5, 0.5};
   int64_t fresh, after;

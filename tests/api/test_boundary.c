@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of nodes on the user's geometry: corners, arcs, curves, fixed nodes, and the regions
- * between them. */
+ * Tests nodes on the curves that the user gives: corners, arcs, curves by callback, fixed nodes,
+ * and the regions between curves.
+ */
 #include "api_support.h"
 
 static void run(job* it, double d) {
@@ -16,7 +17,7 @@ static double edge_length(const result* it, int64_t e) {
   return hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-/* Returns the number of boundary edges with this tag, and their total length. */
+/* Returns the number of boundary edges with this tag, and the sum of their lengths. */
 static int edges_tagged(const result* it, int32_t tag, double* length) {
   int64_t e;
   int count = 0;
@@ -38,7 +39,7 @@ static void check_corner(const result* it, double x, double y, int32_t tag) {
 /* ---------------------------------------------------------------- corners and tags ------ */
 
 START_TEST(corners_and_tags_of_a_polyline) {
-  /* No computation would produce these coordinates by accident. */
+  /* These coordinates are not results of simple arithmetic. */
   const double xy[10] = {0.1, 0.3, 2.7, 1.0 / 3, 3.3, 1.7, 1.9, 2.9000000000000004, 0.2, 2.3};
   const int32_t tags[5] = {10, 20, -30, 2147483647, 50};
   job it = job_begin();
@@ -52,11 +53,12 @@ START_TEST(corners_and_tags_of_a_polyline) {
   nodes = result_of(it.placement);
   check_result(&nodes, 1);
   ck_assert_double_eq_tol(triangle_area(&nodes), area, 1e-12);
-  /* A corner has the tag of the first of its two segments. */
+  /* A corner has the tag of the segment that ends there, except the first corner, which has that of
+   * the first segment. */
   for (k = 0; k < 5; ++k) {
     check_corner(&nodes, xy[2 * k], xy[2 * k + 1], k == 0 ? tags[0] : tags[k - 1]);
   }
-  /* The other nodes have the tag of their segment. They lie on it at equal distances. */
+  /* Other nodes have the tag of their segment and divide it into equal steps. */
   for (k = 0; k < 5; ++k) {
     const double *a = xy + 2 * k, *b = xy + 2 * ((k + 1) % 5);
     const double whole = hypot(b[0] - a[0], b[1] - a[1]);
@@ -76,7 +78,7 @@ START_TEST(corners_and_tags_of_a_polyline) {
 }
 END_TEST
 
-/* With a corner angle only sharp vertices become nodes. */
+/* With a corner angle, only vertices at which the curve turns by more than this angle are nodes. */
 START_TEST(a_polyline_that_is_a_circle) {
   double xy[2 * 360 + 4];
   job it = job_begin();
@@ -103,7 +105,7 @@ START_TEST(tags_of_a_graph) {
   const double xy[10] = {0, 0, 1, 0, 1, 1, 0, 1, 0.5, 0.5};
   const int32_t vertex_tags[5] = {7, 0, 9, 0, 11};
   const int64_t ends[8] = {0, 1, 1, 2, 2, 3, 3, 0};
-  const int32_t segment_tags[4] = {1, 2, 0, 4}; /* tag 0 means none and is replaced by 1 */
+  const int32_t segment_tags[4] = {1, 2, 0, 4}; /* the tag 0 means no marker and becomes 1 */
   job it = job_begin();
   result nodes;
   double length;
@@ -115,7 +117,7 @@ START_TEST(tags_of_a_graph) {
   check_corner(&nodes, 1, 0, 1);
   check_corner(&nodes, 1, 1, 9);
   check_corner(&nodes, 0, 1, 1);
-  check_corner(&nodes, 0.5, 0.5, 11); /* it belongs to no segment, so it is a fixed node */
+  check_corner(&nodes, 0.5, 0.5, 11); /* not in a segment, so a fixed node */
   ck_assert_int_eq(edges_tagged(&nodes, 1, &length), 20);
   ck_assert_int_eq(edges_tagged(&nodes, 2, &length), 10);
   ck_assert_int_eq(edges_tagged(&nodes, 4, &length), 10);
@@ -156,7 +158,7 @@ START_TEST(arcs_are_followed_exactly) {
   check_result(&after, 0);
   check_on_circle(&after, 3, 0.25, -0.5, 1.5);
   check_on_circle(&after, 4, 0.5, -0.25, 0.5);
-  /* No boundary node has moved. */
+  /* Boundary nodes must not move. */
   for (i = 0; i < before.n; ++i) {
     int64_t now;
     if (!before.on_boundary[i]) continue;
@@ -166,14 +168,14 @@ START_TEST(arcs_are_followed_exactly) {
     ck_assert(after.xy[2 * now + 1] == before.xy[2 * i + 1]);
     ck_assert_int_eq(after.tags[now], before.tags[i]);
   }
-  /* Equal steps on the arc give edges of equal length. */
+  /* Steps on the arc are equal, so edges are equal. */
   count = edges_tagged(&after, 3, &length);
   ck_assert_int_eq(count, lround(2 * PI * 1.5 / 0.1));
   for (e = 0; e < after.edges; ++e) {
     if (after.edge_tags[e] != 3) continue;
     ck_assert_double_eq_tol(edge_length(&after, e), 2 * 1.5 * sin(PI / count), 1e-9);
   }
-  /* The triangles fill the region between the two inscribed polygons. */
+  /* The triangles fill the difference of the two inscribed polygons. */
   MUST(pnpbs_domain_measure(it.domain, &area));
   ck_assert_double_eq_tol(area, PI * (1.5 * 1.5 - 0.5 * 0.5), 1e-6);
   area = 0.5 * count * 1.5 * 1.5 * sin(2 * PI / count);
@@ -186,7 +188,7 @@ START_TEST(arcs_are_followed_exactly) {
 }
 END_TEST
 
-/* Arcs and segments that join form a stadium. Their ends need to agree only to 1e-9 of the size. */
+/* Arcs and segments join to a stadium. Their ends need to agree only to 1e-9 of the size. */
 START_TEST(arcs_that_join_segments) {
   const double right[2] = {2, 0}, left[2] = {0, 0};
   const double below[4] = {0, -1, 2, -1}, above[4] = {2, 1 + 1e-12, 0, 1};
@@ -209,7 +211,7 @@ START_TEST(arcs_that_join_segments) {
 }
 END_TEST
 
-/* The curve is r = 1 + 0.3 cos 5 t. */
+/* A curve callback: r = 1 + 0.3 cos 5 t. */
 static int32_t flower(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
   (void)dim;
   int64_t i;
@@ -241,7 +243,7 @@ START_TEST(a_curve_by_callback) {
 }
 END_TEST
 
-/* Nodes on a curve have equal distances, whatever the speed of its parameter. */
+/* Steps on a curve are equal in length, for any speed of the parameter. */
 START_TEST(equal_steps_on_a_curve) {
   job it = job_begin();
   result nodes;
@@ -265,8 +267,8 @@ END_TEST
 
 /* ---------------------------------------------------------------- inner curves ---------- */
 
-/* Follows the nodes with this tag from (x0, y0) to (x1, y1). They must form a chain of boundary
- * edges that are in both stars, or a ring if the ends are equal. Returns the number of edges. */
+/* Checks that the nodes with this tag form a chain of boundary edges from (x0, y0) to (x1, y1), or
+ * a ring if both ends are equal. Both stars must have each edge. Returns the number of edges. */
 static int follow(const result* it, int32_t tag, double x0, double y0, double x1, double y1) {
   const int64_t first = node_at(it, x0, y0), last = node_at(it, x1, y1);
   int64_t now = first, before = -1;
@@ -327,7 +329,7 @@ START_TEST(a_smooth_inner_curve) {
   run(&it, 0.07);
   nodes = result_of(it.placement);
   check_result(&nodes, 1);
-  /* The outline and the wave have tag 1. The outline has 4 x 14 edges. */
+  /* Both curves have tag 1: the outline has 4 x 14 edges and the wave 15. */
   ck_assert_int_eq(edges_tagged(&nodes, 1, &length), 56 + 15);
   check_corner(&nodes, xy[0], xy[1], 1);
   check_corner(&nodes, xy[80], xy[81], 1);
@@ -359,13 +361,14 @@ START_TEST(a_closed_inner_curve) {
   for (i = 0; i < nodes.n; ++i) {
     inner += nodes.tags[i] == 0 && hypot(nodes.xy[2 * i] - 0.5, nodes.xy[2 * i + 1] - 0.5) < 0.3;
   }
-  ck_assert_int_gt(inner, 40); /* the closed inner curve is not a hole */
+  ck_assert_int_gt(inner, 40); /* an inner curve is not a hole */
   result_free(&nodes);
   job_end(&it);
 }
 END_TEST
 
-/* Inner curves run from the outline to a common vertex and on to the outline. */
+/* Inner curves join at common vertices: one leads from the outline to the outline, the other from
+ * the first to the outline. */
 START_TEST(inner_curves_that_meet) {
   const double across[6] = {0, 0.4, 0.5, 0.5, 1, 0.4};
   const double upward[4] = {0.5, 0.5, 0.5, 1};
@@ -415,7 +418,7 @@ START_TEST(fixed_nodes_appear_exactly) {
     ck_assert_msg(i >= 0 && j >= 0, "fixed node %d is missing", k);
     ck_assert_int_eq(before.ids[i], after.ids[j]);
     ck_assert_int_eq(after.tags[j], tags[k]);
-    /* Other nodes keep their distance. */
+    /* Other nodes keep away from a fixed node. */
     for (other = 0; other < after.n; ++other) {
       if (other == j) continue;
       nearest = fmin(
@@ -463,7 +466,7 @@ START_TEST(disjoint_pieces) {
   int64_t i;
   int in_first = 0, in_second = 0, in_third = 0;
   add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 1, 1, 1);
-  add_rectangle(it.domain, PNPBS_BOUNDARY, 1.02, 0, 2, 1, 2); /* the gap is narrower than d */
+  add_rectangle(it.domain, PNPBS_BOUNDARY, 1.02, 0, 2, 1, 2); /* at a distance of less than d */
   add_circle(it.domain, PNPBS_BOUNDARY, 10, 10, 0.5, 3);
   MUST(pnpbs_domain_measure(it.domain, &area));
   ck_assert_double_eq_tol(area, 1.98 + PI / 4, 1e-6);
@@ -491,8 +494,7 @@ START_TEST(disjoint_pieces) {
 }
 END_TEST
 
-/* A lake with an island, a pond in it and an islet in the pond is given by squares, and then by
- * circles. */
+/* Five nested squares are a lake with an island with a pond with an islet in turn. */
 START_TEST(nested_holes_and_islands) {
   job it = job_begin();
   result nodes;
@@ -508,7 +510,7 @@ START_TEST(nested_holes_and_islands) {
   ck_assert_double_eq_tol(area, 25 - 16 + 9 - 4 + 1, 1e-12);
   run(&it, 0.11);
   nodes = result_of(it.placement);
-  /* The domain has two rings and a square. */
+  /* Two rings and a square have the Euler number 1 = 3 pieces - 2 holes. */
   check_result(&nodes, 1);
   ck_assert_double_eq_tol(triangle_area(&nodes), area, 1e-11);
   for (i = 0; i < nodes.n; ++i) {
@@ -544,8 +546,8 @@ START_TEST(holes_by_points) {
 }
 END_TEST
 
-/* A graph follows the rules of the Triangle mesh generator. This one has shared vertices, a
- * T-junction, a loop without a hole point, and a hole. */
+/* The file follows Triangle's rules: it has shared vertices, a T-junction, a loop without a hole
+ * point, and a hole. */
 START_TEST(a_graph_by_text) {
   static const char text[] =
       "# a box with a hole, a loop and a wall\n"
@@ -614,7 +616,7 @@ START_TEST(segments_show_the_domain) {
 }
 END_TEST
 
-/* The nodes of a real lake fill it, and none lies outside. */
+/* The triangles of a real lake fill it completely and nothing outside. */
 START_TEST(a_lake) {
   job it = job_begin();
   cone slope = {8, 0.04, 0, 0};
@@ -701,7 +703,7 @@ START_TEST(a_shore_finer_than_d) {
 }
 END_TEST
 
-/* Between corners, nodes on a graph are d apart, however short its segments are. */
+/* Between corners, nodes on a graph are spaced by d, however fine the graph is. */
 START_TEST(a_graph_that_is_a_circle) {
   double xy[2 * 720];
   int64_t ends[2 * 720];
@@ -732,7 +734,7 @@ END_TEST
 
 /* ---------------------------------------------------------------- the first row --------- */
 
-/* Returns the quality beside a hole from which d grows. Here rows of bubbles slip along the
+/* Returns the quality around a hole from which d grows. There, rows of bubbles slip against the
  * boundary. */
 static quality_summary quality_around_a_hole(const char* first_row, const char* sweeps,
                                              hash_text* hash) {

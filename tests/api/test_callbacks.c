@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of callbacks: their arguments, the effect of failures and invalid values, stops by the
- * monitor, and the calls that are allowed from inside. */
+ * Tests callbacks: their arguments, errors and invalid values, a monitor that stops, and the calls
+ * that are allowed inside a callback.
+ */
 #include "api_support.h"
 
 /* ---------------------------------------------------------------- spacing callbacks ----- */
 
 typedef struct {
-  double d, growth;    /* it returns d (1 + growth x), except */
-  double bad;          /* this value */
-  int32_t answer;      /* and this status */
-  int64_t bad_from;    /* from this call on, counted from 0 */
-  double x, y, radius; /* if radius is 0 or the point is near */
+  double d, growth;    /* returned value is d (1 + growth x), except */
+  double bad;          /* for this value, */
+  int32_t answer;      /* with this return value, */
+  int64_t bad_from;    /* from this call on, counted from 0, */
+  double x, y, radius; /* everywhere if the radius is 0, else near this point */
   int64_t calls, points;
-  int64_t longest; /* largest batch */
+  int64_t longest; /* largest number of points in a call */
   int32_t dim;
 } probe;
 
@@ -97,16 +98,16 @@ START_TEST(a_good_one) {
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   ck_assert_int_gt(asked.calls, 0);
   ck_assert_int_gt(asked.points, 100);
-  ck_assert_int_gt(asked.longest, 10); /* it is called for batches of points */
+  ck_assert_int_gt(asked.longest, 10); /* called with batches of points */
   ck_assert_int_eq(asked.dim, 2);
-  /* Copying results does not call the callback. */
+  /* Copying results does not evaluate the spacing. */
   calls = asked.calls;
   nodes = result_of(it.placement);
   MUST(pnpbs_placement_adjacency_size(it.placement, &entries));
   real_of(it.placement, "d_error.mean");
   ck_assert_int_eq(asked.calls, calls);
   result_free(&nodes);
-  /* A callback that returns a constant gives the same nodes as the constant spacing. */
+  /* A callback that returns a constant gives the nodes of that constant. */
   MUST(pnpbs_placement_set(plain.placement, "steps", "45"));
   MUST(pnpbs_placement_set_spacing_constant(plain.placement, 0.1));
   MUST_COMPUTE(pnpbs_placement_run(plain.placement));
@@ -116,7 +117,7 @@ START_TEST(a_good_one) {
 }
 END_TEST
 
-/* Invalid values, each with two parts of the expected message. */
+/* Invalid values, and two parts of the message about each. */
 static const struct {
   double value;
   const char* words[2];
@@ -169,8 +170,9 @@ START_TEST(bad_in_one_place) {
 }
 END_TEST
 
-/* Lets the callback fail at call number k, for every k, by a bad value or a status. Afterwards the
- * placement must be valid, and a run must succeed once the callback is correct again. */
+/* Makes the callback fail at call number k, for every k, with an error or an invalid value.
+ * Afterwards the placement must be as before the call, and must continue once the callback
+ * succeeds. */
 static void fail_at_every_call(double bad, int32_t answer, pnpbs_status expected, int by_steps) {
   int64_t k, failures = 0;
   for (k = 0;; ++k) {
@@ -211,8 +213,8 @@ END_TEST
 START_TEST(answers_with_nothing_but_zeros) { fail_at_every_call(0, 0, PNPBS_ERROR_SPACING, 1); }
 END_TEST
 
-/* Makes a run, an initialisation that fails at its call number k unless k < 0, and steps. Returns
- * whether it failed. */
+/* Runs, then initialises with a failure at call number k (none if k < 0), and then makes steps.
+ * Returns whether the call failed. */
 static int steps_after_failure(int64_t k, hash_text* hash) {
   probe asked = good_probe(0.012);
   job it;
@@ -233,7 +235,7 @@ static int steps_after_failure(int64_t k, hash_text* hash) {
   return status < 0;
 }
 
-/* An initialisation that fails leaves no trace, also where it fails on a coarser level. */
+/* A failed initialise leaves everything as it was, wherever it fails, also on coarser levels. */
 START_TEST(a_failed_initialise_leaves_all_as_it_was) {
   hash_text expected, hash;
   int64_t k = 0;
@@ -262,7 +264,7 @@ START_TEST(the_error_is_passed_on) {
 }
 END_TEST
 
-/* A failing call on a placement with nodes leaves them unchanged, whichever call it is. */
+/* An error leaves the nodes of a live placement as they were, for every call. */
 START_TEST(a_failure_on_a_live_placement) {
   probe asked = good_probe(0.1), bad = good_probe(0.1);
   job it = probed_square(&asked);
@@ -291,7 +293,7 @@ END_TEST
 
 typedef struct {
   double d;
-  double (*outside)(double x, double y); /* distance outside the domain, < 0 inside */
+  double (*outside)(double x, double y); /* distance from the domain, negative inside */
   double farthest;
   int64_t points, strangers;
 } watcher;
@@ -349,8 +351,8 @@ START_TEST(asked_inside_an_ell) {
 }
 END_TEST
 
-/* Boundary edges at a hole run inside the true hole by at most d^2 / 8 R. The callback is evaluated
- * no farther outside the domain. */
+/* The spacing may be evaluated on boundary edges of a hole. These are chords that lie outside the
+ * domain by at most d^2 / 8 R. */
 START_TEST(asked_inside_a_ring) {
   watcher seen = {0.07, outside_ring, -1, 0, 0};
   job it = job_begin();
@@ -369,7 +371,7 @@ END_TEST
 
 typedef struct {
   pnpbs_placement placement;
-  int calls, stop_at; /* from this call on, counted from 0 */
+  int calls, stop_at; /* stops from this call on, counted from 0 */
   double last_fraction;
   int64_t last_step;
 } monitor;
@@ -412,7 +414,7 @@ START_TEST(it_is_told_to_the_end) {
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_step(it.placement, 60));
   ck_assert_int_ge(watch.calls, 3);
   ck_assert_double_eq(watch.last_fraction, 1);
-  /* A monitor that has been removed is not called. */
+  /* A monitor can be removed. */
   watch.calls = 0;
   MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(it.placement));
@@ -431,7 +433,7 @@ static int32_t monitor_of_the_fill(double fraction, int64_t step, int64_t nodes,
   return 1;
 }
 
-/* The monitor can stop the creation of millions of initial nodes, long before the first step. */
+/* The monitor can stop the fill of millions of nodes, long before the first step. */
 START_TEST(it_stops_the_first_nodes) {
   job it = square_job(1);
   int64_t nodes = -1;
@@ -455,7 +457,7 @@ START_TEST(it_stops_the_first_nodes) {
 }
 END_TEST
 
-/* The monitor can stop a run between its events, where these are far apart. */
+/* The monitor can also stop a run between events that are far apart. */
 START_TEST(it_stops_between_events) {
   monitor watch;
   job it = watched_square(&watch);
@@ -490,7 +492,7 @@ START_TEST(it_stops) {
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(it.placement));
   ck_assert_int_eq(integer_of(it.placement, "steps"), steps + 100);
   check_good(it.placement);
-  /* The monitor also stops pnpbs_placement_step. */
+  /* Steps can be stopped as well. */
   watch.stop_at = 0;
   watch.last_fraction = 0;
   MUST_BE(PNPBS_STOPPED, pnpbs_placement_step(it.placement, 1000));
@@ -518,7 +520,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   return 0;
 }
 
-/* Makes the calls that change, compute or destroy. All must be refused. */
+/* Tries all calls that change, compute or destroy. None is allowed inside a callback. */
 static void try_what_is_not_allowed(void) {
   static const double xy[8] = {0.4, 0.4, 0.6, 0.4, 0.6, 0.6, 0.4, 0.6};
   static const int64_t ends[8] = {0, 1, 1, 2, 2, 3, 3, 0}, size[2] = {1, 1};
@@ -544,7 +546,7 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_domain_parse_poly(d, "0", 1, "text"));
   REFUSED(pnpbs_domain_destroy(&inside.domain));
   REFUSED(pnpbs_context_destroy(&inside.context));
-  if (p == NULL) { /* the domain is incomplete, and a check would call its curves again */
+  if (p == NULL) { /* while the domain is being built, since a check would evaluate its curves */
     REFUSED(pnpbs_domain_check(d));
     return;
   }
@@ -594,8 +596,7 @@ static void try_what_is_not_allowed(void) {
   ck_assert(isnan(real));
 }
 
-/* Makes queries, which must succeed. Nodes are in the order of their ids and have the requested
- * state. */
+/* Tries all queries. Nodes are in the order of their ids, and as many as reported. */
 static void try_what_is_allowed(void) {
   int32_t number = 0;
   const char *name = NULL, *text = NULL;
@@ -673,7 +674,7 @@ static int32_t curious_curve(int64_t n, int32_t dim, const double* t, double* xy
   return small_curve(n, dim, t, xy, user);
 }
 
-/* A run whose callbacks make queries gives the same nodes as one whose callbacks make none. */
+/* Queries inside callbacks do not change the result of a run. */
 START_TEST(only_questions_from_inside) {
   hash_text with, without;
   int k;
@@ -698,7 +699,7 @@ START_TEST(only_questions_from_inside) {
 }
 END_TEST
 
-/* A query of nodes from a callback leaves no outdated copy behind. */
+/* Querying nodes inside a callback leaves no stale data behind. */
 START_TEST(nodes_after_nodes_from_inside) {
   job plain = square_job(1);
   result asked, not_asked;
@@ -710,7 +711,7 @@ START_TEST(nodes_after_nodes_from_inside) {
     job* it = k == 0 ? &inside : &plain;
     MUST(pnpbs_placement_set_spacing_callback(it->placement, cone_spacing, &slope));
     if (k == 0) MUST(pnpbs_placement_set_monitor(it->placement, curious_monitor, NULL));
-    MUST_COMPUTE(pnpbs_placement_step(it->placement, 39)); /* one event and steps after it */
+    MUST_COMPUTE(pnpbs_placement_step(it->placement, 39)); /* covers an event and steps after it */
   }
   asked = result_of(inside.placement);
   not_asked = result_of(plain.placement);
@@ -746,7 +747,7 @@ START_TEST(only_questions_from_inside_a_curve) {
 }
 END_TEST
 
-/* Calls on another context, which is not in use, are all allowed. */
+/* A callback may use another context without restriction. */
 static int32_t busy_spacing(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
   (void)dim, (void)xyz;
   if (batches_inside++ == 0) {
@@ -776,8 +777,8 @@ END_TEST
 typedef struct {
   int64_t calls, bad_from;
   int32_t answer;
-  double offset;      /* error of the points from call bad_from on */
-  double least, most; /* range of parameters */
+  double offset;      /* added to the points of a bad call */
+  double least, most; /* range of the parameters */
 } curve_probe;
 
 static int32_t probing_curve(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
@@ -808,7 +809,7 @@ START_TEST(curves_fail_at_every_call) {
     add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 1, 1, 1);
     status = pnpbs_domain_add_curve(it.domain, PNPBS_BOUNDARY, probing_curve, &asked, 0, 2 * PI, 3);
     if (status != PNPBS_OK) {
-      /* The domain is unchanged. */
+      /* The domain must be unchanged. */
       ck_assert_int_eq(status, PNPBS_ERROR_CALLBACK);
       ck_assert_ptr_nonnull(strstr(MESSAGE(), "77"));
       MUST(pnpbs_domain_measure(it.domain, &area));
@@ -841,7 +842,7 @@ START_TEST(curves_fail_at_every_call) {
 }
 END_TEST
 
-/* If a curve returns NaN from call k on, for any k, the error has a message and is not internal. */
+/* A curve callback may return invalid points in a later call, after the checks of the first one. */
 START_TEST(curves_give_nonsense) {
   int64_t k;
   for (k = 0;; ++k) {

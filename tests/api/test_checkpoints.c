@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of checkpoints on one rank: rejected files, and objects that stay unchanged. Tests in
- * tests/parallel check that a run continues with the same bits, and tests in tests/tool read
- * damaged files. */
-#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+ * Tests checkpoints on one rank: which files and states are rejected, and that the placement then
+ * stays as it was. tests/parallel checks that a continued run has the same bits, tests/tool checks
+ * damaged files.
+ */
+#define _POSIX_C_SOURCE 200809L /* for mkdtemp */
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -87,8 +88,8 @@ START_TEST(what_cannot_be_written) {
 }
 END_TEST
 
-/* Reads the checkpoint into a placement that has nodes. The call must fail and leave these nodes
- * unchanged. */
+/* Reads the checkpoint into a placement that has nodes already. The call must fail, and the nodes
+ * must stay as they are. */
 static void must_refuse(job it, pnpbs_status status, const char* first, const char* second) {
   const hash_text before = hash_of(it.placement);
   const int64_t steps = integer_of(it.placement, "steps");
@@ -159,8 +160,8 @@ static int32_t keep_held_round(double fraction, int64_t step, int64_t nodes, dou
 
 static job held_job(void) { return WHEN_SANITIZED(unresolved_surface_job(), unresolved_job()); }
 
-/* A run is stopped in a round that reduces d. From its checkpoint it continues with the same bits
- * in another placement. */
+/* A run that is stopped in a round in which d is held down continues with the same bits in another
+ * placement. */
 START_TEST(held_spacing_is_saved) {
   job whole, stopped, other;
   if (!with_hdf5()) return;
@@ -182,7 +183,8 @@ START_TEST(held_spacing_is_saved) {
   job_end(&whole);
   job_end(&stopped);
 
-  /* The same holds at the end of the run. The reduced d is part of the spacing. */
+  /* A checkpoint at the end of the run contains the held-down values as well, as they are part of
+   * the spacing. */
   MUST(pnpbs_placement_write_checkpoint(other.placement, path));
   whole = held_job();
   MUST(pnpbs_placement_read_checkpoint(whole.placement, path));

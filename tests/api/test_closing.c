@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of bodies that are rough relative to d. The boundary of the tetrahedra must be a closed
- * surface like the body's; where it is not, the run and the check must report it. */
+ * Tests bodies that are rough compared with d. The boundary of the tetrahedra must still be one
+ * closed surface with the topology of the body. Otherwise the run and the check must report it.
+ */
 #include "volume_support.h"
 
 /* ---------------------------------------------------------------- bodies ---------------- */
 
-/* Adds a cube with a slit from above of the given width and depth. The tip of the slit is at x. */
+/* Adds a cube with a slit of this width and depth that is open at the top and whose tip is at `x`.
+ */
 static void add_slit_cube(pnpbs_domain domain, double width, double depth, double x) {
   enum { kSides = 7 };
   const double outline[kSides][2] = {{x, 1 - depth}, {x - width / 2, 1}, {0, 1}, {0, 0}, {1, 0},
@@ -19,7 +21,7 @@ static void add_slit_cube(pnpbs_domain domain, double width, double depth, doubl
     xyz[k][1] = outline[k % kSides][1];
     xyz[k][2] = k / kSides;
   }
-  for (k = 0; k < kSides; ++k) { /* all of the outline is visible from the tip */
+  for (k = 0; k < kSides; ++k) { /* the end faces are triangulated from the tip */
     const int64_t next = (k + 1) % kSides,
                   side[2][3] = {{k, next, next + kSides}, {k, next + kSides, k + kSides}},
                   ends[2][3] = {{0, next, k}, {kSides, k + kSides, next + kSides}};
@@ -40,8 +42,8 @@ static int by_ends(const void* a, const void* b) {
   return p[0] != q[0] ? (p[0] < q[0] ? -1 : 1) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Lists the edges of the boundary triangles. Returns the number of edges that do not have exactly
- * two triangles. */
+/* Collects the edges of the boundary triangles. Returns the number of edges that do not have
+ * exactly two triangles. */
 static int64_t open_edges(const volume* v, int64_t* edges) {
   int64_t(*ends)[2] = malloc((size_t)(3 * v->triangles) * sizeof *ends);
   int64_t t, e = 0, wrong = 0;
@@ -65,9 +67,9 @@ static int64_t open_edges(const volume* v, int64_t* edges) {
   return wrong;
 }
 
-/* Checks that all nodes on the surface, and no others, belong to the boundary. Its triangles must
- * have two at each edge, and the Euler characteristic must be a sphere's. It is smaller where two
- * sheets share a node. */
+/* Checks that the nodes of the boundary triangles are those on the surface, and that the triangles
+ * form a sphere: two at each edge, and the Euler characteristic 2. The characteristic is smaller if
+ * two sheets share a node. */
 static void check_closed(const volume* v) {
   char* on_boundary = calloc((size_t)v->n, 1);
   int64_t i, t, edges, nodes = 0;
@@ -77,7 +79,7 @@ static void check_closed(const volume* v) {
     nodes += on_boundary[i];
   }
   ck_assert_int_eq(open_edges(v, &edges), 0);
-  ck_assert_int_eq(nodes - edges + v->triangles, 2); /* Euler's characteristic of a sphere */
+  ck_assert_int_eq(nodes - edges + v->triangles, 2); /* the Euler characteristic of a sphere */
   free(on_boundary);
 }
 
@@ -90,8 +92,8 @@ static void check_is_closed(const job* it) {
   volume_free(&v);
 }
 
-/* Runs the placement and checks the boundary. The run may report a missed spacing, as bodies that
- * are rough relative to d need not follow it. */
+/* Runs and checks that the body is closed. The status may be that d is missed, as bodies that are
+ * rough compared with d need not follow it. */
 static void run_and_check_closed(const job* it) {
   const pnpbs_status status = pnpbs_placement_run(it->placement);
   ck_assert_msg(status >= 0 && status != PNPBS_STOPPED && status != PNPBS_NOT_CONFORMING,
@@ -129,7 +131,8 @@ START_TEST(torn_bodies_are_told) {
 }
 END_TEST
 
-/* The body closes with its geometry repaired to the resolution of d, as the message advises. */
+/* The message about a torn body advises to remove features that d does not resolve. The repaired
+ * body is then closed at the same d. */
 START_TEST(repaired_to_the_spacing_it_closes) {
   const double d = 0.4;
   job it = repaired_job(0.7, 6.5, d, d);
@@ -150,8 +153,8 @@ START_TEST(torn_bodies_are_mended) {
 }
 END_TEST
 
-/* The walls of a slit are nearer to each other than d. Other elements are chosen until the boundary
- * is closed, and no node is inserted. */
+/* If the walls of a slit are nearer to each other than d, other elements are chosen until the
+ * boundary closes. No node needs to be inserted. */
 START_TEST(a_slit_closes) {
   const double half_angle = 8.4428 / 2 * 3.14159265358979 / 180, depth = 0.5497;
   job it = {NULL, NULL, NULL};
@@ -166,7 +169,7 @@ START_TEST(a_slit_closes) {
 }
 END_TEST
 
-/* The boundary of a body with a rough surface is closed in the same way. */
+/* The same holds if the surface is rough. */
 START_TEST(a_rough_body_closes_at_once) {
   job it = rough_job(0.4, 8, 0.3);
   MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
@@ -175,7 +178,7 @@ START_TEST(a_rough_body_closes_at_once) {
 }
 END_TEST
 
-/* Inner nodes that prevent a closed boundary are removed. */
+/* If inner nodes prevent the boundary from closing, they are deleted. */
 START_TEST(blocking_nodes_leave) {
   job it = rough_job(0.5, 6.5, 0.32);
   MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
@@ -188,7 +191,7 @@ END_TEST
 /* ---------------------------------------------------------------- rounds ---------------- */
 
 typedef struct {
-  double fraction, stop_from; /* stops at the first call after steps from here on */
+  double fraction, stop_from; /* stops after the first step from this fraction on, once */
   int64_t step;
   int falls, stopped;
 } progress;
@@ -205,8 +208,8 @@ static int32_t follow(double fraction, int64_t step, int64_t nodes, double speed
   return 1;
 }
 
-/* A run that reduces d at gaps of the boundary reports increasing progress. The monitor can stop it
- * in any part, and the next run continues from there. */
+/* In a run that holds d down where the body is torn, the reported fraction never decreases. The
+ * monitor can stop the run in any of its parts, and the next run continues from there. */
 START_TEST(rounds_are_monitored) {
   static const double stops[] = {2, 0.9, 0.9001, 0.91};
   progress seen = {0, stops[_i], 0, 0, 0};
@@ -227,7 +230,7 @@ START_TEST(rounds_are_monitored) {
 }
 END_TEST
 
-/* The number of given nodes that a run drops holds for all of its rounds. */
+/* The number of start nodes that a run dropped remains available after further rounds. */
 START_TEST(rounds_keep_what_was_left_out) {
   static const double xyz[] = {0, 0, 0, 9, 9, 9};
   job it = unresolved_job();
@@ -239,7 +242,7 @@ START_TEST(rounds_keep_what_was_left_out) {
 }
 END_TEST
 
-/* Returns the largest growth of d between two nodes per unit of length. */
+/* Returns the largest growth of d between any two nodes, per unit of length. */
 static double steepest(const volume* v) {
   double growth = 0;
   int64_t i, j;
@@ -249,8 +252,8 @@ static double steepest(const volume* v) {
   return growth;
 }
 
-/* Around the points where d is reduced it grows as slowly as nodes can follow, even without a
- * growth limit. */
+/* d grows from the points where it is held down at a rate that nodes can follow, even without
+ * another limit of growth. */
 START_TEST(held_spacing_grows_gently) {
   job it = unresolved_job();
   volume v;
@@ -281,8 +284,8 @@ static double finest(const volume* v) {
   return least;
 }
 
-/* The triangles of a level set do not represent details below its resolution. With more rounds this
- * body's boundary would be closed. */
+/* d is not held below the resolution of a level set, since its triangles do not represent anything
+ * smaller. (With more rounds the body closes.) */
 START_TEST(held_spacing_ends_at_the_resolution) {
   static const double low[] = {-2, -2, -2}, high[] = {2, 2, 2};
   job it = {NULL, NULL, NULL};
@@ -313,7 +316,7 @@ TEST_SUITE(test_closing) {
   tcase_add_test(tests, blocking_nodes_leave);
   tcase_add_test(tests, torn_bodies_are_told);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, repaired_to_the_spacing_it_closes);
-  /* rounds_are_monitored covers these two tests for sanitizers. */
+  /* Sanitized code does not need these two tests, as rounds_are_monitored covers them. */
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, torn_bodies_are_mended);
   tcase_add_loop_test(tests, rounds_are_monitored, 0, WHEN_SANITIZED(2, 4));
   tcase_add_test(tests, rounds_keep_what_was_left_out);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests that contexts are independent. Host threads may use one each at the same time and get the
- * same results as alone. Destroyed contexts leave no memory behind. */
-#define _GNU_SOURCE /* mallinfo2 */
+ * Tests that contexts are independent: host threads may each use one at the same time and get the
+ * results that they get alone. Destroyed objects leave no memory behind.
+ */
+#define _GNU_SOURCE /* for mallinfo2 */
 #include <malloc.h>
 #include <pthread.h>
 #include <unistd.h>
@@ -16,10 +17,10 @@ typedef struct {
   int rounds;
   int with_errors;
   char hash[8][32];
-  char failure[400]; /* the first call that failed */
+  char failure[400]; /* message of the first call that failed */
 } worker;
 
-/* Records a failed call. Assertions of Check are allowed in the main thread only. */
+/* Check's assertions are for the main thread only, so workers store their first failure. */
 static int failed(worker* it, pnpbs_status status, const char* what) {
   if (status >= 0) return 0;
   snprintf(it->failure, sizeof it->failure, "%s: %s", what, pnpbs_last_error(NULL));
@@ -98,7 +99,8 @@ END_TEST
 
 /* ---------------------------------------------------------------- nothing is left ------- */
 
-/* Returns the bytes in use by the C library's allocator, or 0 if another allocator replaces it. */
+/* Returns the bytes in use by the allocator of the C library, or 0 if another allocator replaces
+ * it. */
 static double bytes_in_use(void) {
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
   const struct mallinfo2 info = mallinfo2();
@@ -117,7 +119,8 @@ static double resident_bytes(void) {
   return pages * (double)sysconf(_SC_PAGESIZE);
 }
 
-/* Makes a run, a second run that fails half way, copies all results, and destroys everything. */
+/* Makes a run, an error in the middle of another one, reads all results, and destroys everything.
+ */
 static void use_and_destroy(int k) {
   const double middle[2] = {0.5, 0.5};
   job it = square_job(1);
@@ -137,7 +140,7 @@ static void use_and_destroy(int k) {
   MUST_BE(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement));
   if (k % 2 == 0) {
     job_end(&it);
-  } else { /* parents are destroyed first */
+  } else { /* parents before children */
     MUST(pnpbs_context_destroy(&it.context));
     MUST(pnpbs_domain_destroy(&it.domain));
     MUST(pnpbs_placement_destroy(&it.placement));
@@ -153,7 +156,8 @@ START_TEST(memory_comes_back) {
   for (k = 0; k < 200; ++k) use_and_destroy(k);
   used = bytes_in_use() - used;
   resident = resident_bytes() - resident;
-  /* A placement takes more than 300 KB, a domain 10 KB, a context 1 KB. */
+  /* The limit would detect one leaked object per round: a placement takes more than 300 KB, a
+   * domain 10 KB and a context 1 KB. */
   ck_assert_msg(used < 50e3, "%g more bytes are in use", used);
 #if !defined(PNPBS_TESTS_SANITIZED) /* sanitizers keep freed memory to detect its use */
   ck_assert_msg(resident < 4e6, "%g more bytes are resident", resident);

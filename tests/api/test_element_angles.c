@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of small dihedral angles. Those at sharp edges of the body are reported separately. The
- * others are reported to the user, and the option min_angle enlarges them by a smaller d. Where
- * nodes are too near each other, or in a plane across a bar, one node is removed or inserted. */
+ * Tests small dihedral angles. Those at sharp edges of the body are counted separately. The others
+ * are reported to the user and, with the option min_angle, enlarged by a smaller d. If nodes are
+ * too close to each other, or lie in a plane across a bar, one is removed or inserted.
+ */
 #include "volume_support.h"
 
 /* ---------------------------------------------------------------- by hand --------------- */
@@ -16,7 +17,7 @@ static double dot(const double* a, const double* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Computes the component of x - a that is perpendicular to the edge from a to b. */
+/* Computes the part of x - a that is orthogonal to the edge from a to b. */
 static void across(const double* a, const double* b, const double* x, double* part) {
   double edge[3], way[3];
   int k;
@@ -67,7 +68,7 @@ static int is_at_the_edge(const volume* v, int64_t t) {
   for (k = 0; k < 4; ++k) {
     const int64_t i = v->corners[4 * t + k];
     const double* x = v->xyz + 3 * i;
-    found |= sqrt(x[0] * x[0] + x[2] * x[2]) < v->d[i]; /* y is between 0 and 1 */
+    found |= sqrt(x[0] * x[0] + x[2] * x[2]) < v->d[i]; /* all y are between 0 and 1 */
   }
   return found;
 }
@@ -90,7 +91,7 @@ START_TEST(those_at_sharp_edges_are_told_apart) {
   ck_assert_double_gt(elsewhere, 20);
   ck_assert_double_eq_tol(real_of(it.placement, "quality.min_angle_at_sharp_edges"), at_edge, 1e-6);
   ck_assert_double_eq_tol(real_of(it.placement, "quality.min_angle_elsewhere"), elsewhere, 1e-6);
-  /* d is unchanged. */
+  /* d has not been reduced. */
   ck_assert_int_eq(integer_of(it.placement, "unresolved_places"), 0);
   ck_assert_int_eq(warnings_with(it.placement, "dihedral angles"), 0);
   job_end(&it);
@@ -110,7 +111,7 @@ END_TEST
 
 /* ---------------------------------------------------------------- nodes that come and go - */
 
-/* Adds a roof over a square whose ridge is a tenth of d long. */
+/* Adds a roof over a square, whose ridge is a tenth of d long. */
 static pnpbs_status roof(pnpbs_domain domain, const char* data) {
   const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.495, 0.5, 0.5, 0.505, 0.5, 0.5};
   static const int faces[][4] = {
@@ -119,7 +120,7 @@ static pnpbs_status roof(pnpbs_domain domain, const char* data) {
   return volume_add_quads(domain, PNPBS_BOUNDARY, 6, xyz, 5, faces);
 }
 
-/* Adds the same roof with both ends of the ridge as fixed nodes. */
+/* Adds the same roof, with both ends of the ridge as fixed nodes. */
 static pnpbs_status roof_with_nodes(pnpbs_domain domain, const char* data) {
   const double xyz[] = {0.495, 0.5, 0.5, 0.505, 0.5, 0.5};
   const pnpbs_status status = roof(domain, data);
@@ -143,8 +144,8 @@ START_TEST(one_end_of_a_short_edge_leaves) {
 }
 END_TEST
 
-/* Adds a plate whose thickness is a quarter of d. No node is removed, as its upper and lower edges
- * are parallel. */
+/* Adds a plate as thick as a quarter of d. No nodes are removed, although its upper and lower edges
+ * run close to each other. */
 static pnpbs_status plate(pnpbs_domain domain, const char* data) {
   const double low[] = {0, 0, 0}, high[] = {1, 1, 0.025};
   (void)data;
@@ -161,7 +162,7 @@ START_TEST(edges_beside_each_other_keep_their_nodes) {
 }
 END_TEST
 
-/* Adds a bar as thick as d with slanted ends. Four nodes on its edges lie nearly in a plane across
+/* Adds a bar as thick as d with oblique ends. Four nodes on its edges lie nearly in a plane across
  * it. */
 static pnpbs_status bar(pnpbs_domain domain, const char* data) {
   const double xyz[] = {0,   0, 0, 0,    0.08, 0, 0,   0.08, 0.08, 0,    0, 0.08,
@@ -194,10 +195,10 @@ END_TEST
 
 /* ---------------------------------------------------------------- a smaller d ----------- */
 
-/* Places nodes in the bracket, whose steps are 1 mm, with d = 6 mm. */
+/* Runs with d = 6 mm on a bracket with steps of 1 mm. */
 static job coarse_bracket(const char* min_angle) {
   job it = body_job(volume_bracket);
-  MUST(pnpbs_placement_set_spacing_constant(it.placement, 6)); /* mm */
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 6)); /* d, in mm */
   MUST(pnpbs_placement_set(it.placement, "min_angle", min_angle));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   return it;
@@ -219,7 +220,7 @@ START_TEST(they_are_enlarged) {
 }
 END_TEST
 
-/* More rounds never give more small angles, as a round without improvement does not count. */
+/* More rounds never give more small angles, as a round without an improvement is discarded. */
 START_TEST(the_best_round_counts) {
   const int last = WHEN_SANITIZED(1, 6);
   int64_t small_before = INT64_MAX, steps_before = 0;
@@ -238,11 +239,11 @@ START_TEST(the_best_round_counts) {
     ck_assert_int_le(small, small_before);
     ck_assert_int_eq(warnings_with(it.placement, "dihedral angles below 25"), small > 0);
     if (small == small_before) ck_assert_str_eq(hash_of(it.placement).text, hash_before.text);
-    ck_assert_int_ge(steps, steps_before); /* the steps of all rounds */
+    ck_assert_int_ge(steps, steps_before); /* steps of all rounds */
     small_before = small;
     steps_before = steps;
     hash_before = hash_of(it.placement);
-    /* The placement can continue from there. */
+    /* The placement can continue afterwards. */
     if (rounds == last) {
       MUST_COMPUTE(pnpbs_placement_step(it.placement, 10));
       MUST_COMPUTE(pnpbs_placement_run(it.placement));
@@ -256,7 +257,7 @@ END_TEST
 typedef struct {
   pnpbs_placement placement;
   int64_t turns;      /* calls in rounds after the first */
-  pnpbs_status saved; /* status of writing a checkpoint in the second of them */
+  pnpbs_status saved; /* status of a checkpoint in one of these rounds */
 } trial;
 
 /* Stops the run in the second round. */
@@ -269,7 +270,7 @@ static int32_t stop_in_a_trial(double fraction, int64_t step, int64_t nodes, dou
   return it->turns > 2;
 }
 
-/* If a run is stopped in a round of improvement, the best state before it is the result. */
+/* A stop in a round restores the best result so far. */
 START_TEST(a_stop_in_a_round_leaves_the_best_one) {
   job first = rough_job(0.4, 6, 0.3), stopped = rough_job(0.4, 6, 0.3);
   trial it = {stopped.placement, 0, PNPBS_OK};
@@ -279,7 +280,7 @@ START_TEST(a_stop_in_a_round_leaves_the_best_one) {
   MUST(pnpbs_placement_set_monitor(stopped.placement, stop_in_a_trial, &it));
   MUST_BE(PNPBS_STOPPED, pnpbs_placement_run(stopped.placement));
   ck_assert_int_eq(it.turns, 3);
-  ck_assert_int_eq(it.saved, PNPBS_ERROR_STATE); /* the current round may be discarded */
+  ck_assert_int_eq(it.saved, PNPBS_ERROR_STATE); /* the round may be discarded */
   ck_assert_str_eq(hash_of(stopped.placement).text, hash_of(first.placement).text);
   ck_assert_int_eq(integer_of(stopped.placement, "unresolved_places"), 0);
   ck_assert_int_eq(integer_of(stopped.placement, "finished"), 0);
@@ -292,7 +293,8 @@ START_TEST(a_stop_in_a_round_leaves_the_best_one) {
 }
 END_TEST
 
-/* By default angles below 2 degrees are enlarged. With min_angle = 0 a warning reports them. */
+/* By default, elements with angles below 2 degrees are enlarged. If the user sets 0, a warning
+ * mentions them. */
 START_TEST(a_user_is_told) {
   job it = rough_job(0.3, 8, 0.3), enlarged = rough_job(0.3, 8, 0.3);
   MUST(pnpbs_placement_set(it.placement, "min_angle", "0"));

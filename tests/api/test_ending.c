@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests that end Kokkos while other threads make calls, and that fork processes before and after
- * Kokkos has started. Kokkos can be ended once per process, so each case runs in a child process.
- * The parent never starts Kokkos. */
+ * Tests the end of Kokkos while other threads make calls, and processes that fork before and after
+ * it has started. Kokkos can be ended once per process, so each case runs in a child of this
+ * process, in which Kokkos never starts.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
 #include <stdatomic.h>
@@ -12,9 +13,9 @@
 
 #include "api_support.h"
 
-enum { TIME_LIMIT = 60 }; /* seconds */
+enum { TIME_LIMIT = 60 }; /* in seconds */
 
-/* Ends the process if the condition is false. Check's assertions do not work in a child process. */
+/* Ends the child if a condition fails, as Check's assertions do not work there. */
 static void demand(int condition, const char* what) {
   if (condition) return;
   fprintf(stderr, "%s: %s\n", what, pnpbs_last_error(NULL));
@@ -64,7 +65,7 @@ static void destroy_job(job* it) {
 enum { ASKING = 3 };
 static atomic_int ready, ended;
 
-/* Makes queries until Kokkos has ended. They may fail then. */
+/* Makes queries until Kokkos has ended. */
 static void* ask(void* unused) {
   job it = square_with_nodes("2", NULL);
   int64_t n = 0;
@@ -107,7 +108,8 @@ END_TEST
 
 static atomic_int started, refused, finished;
 
-/* Keeps its run in progress until another call has been refused. Queries during the run succeed. */
+/* Keeps its run in progress until a call of the other thread was refused. Queries inside the
+ * callback are part of the run. */
 static int32_t waiting_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
   const job* it = user;
   const struct timespec moment = {0, 1000000L};
@@ -192,7 +194,7 @@ static void fork_with_threads(int threads) {
   }
   DEMAND(waitpid(child, &status, 0) == child);
   DEMAND(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  DEMAND(pnpbs_placement_run(before_fork.placement) >= 0); /* the parent has started its threads */
+  DEMAND(pnpbs_placement_run(before_fork.placement) >= 0); /* starts threads */
 }
 
 START_TEST(forked_processes_lack_threads) { run_in_child(fork_with_threads, 2); }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of the estimate of nodes and memory, and of runs that would need more memory than is
- * available. */
+ * Tests estimates of nodes, memory and time, and runs that would need more memory than is
+ * available.
+ */
 #include "volume_support.h"
 
 static job lake_job(void) {
@@ -15,7 +16,7 @@ static void expect_nodes(job* it, double tolerance) {
   int64_t nodes, bytes, placed;
   double seconds;
   MUST(pnpbs_placement_estimate(it->placement, &nodes, &bytes, &seconds));
-  ck_assert_int_eq(integer_of(it->placement, "nodes"), 0); /* the estimate creates no nodes */
+  ck_assert_int_eq(integer_of(it->placement, "nodes"), 0); /* an estimate places no node */
   ck_assert_int_ge(pnpbs_placement_run(it->placement), PNPBS_OK);
   placed = integer_of(it->placement, "nodes");
   ck_assert_msg(fabs((double)nodes / (double)placed - 1) < tolerance, "%d expected, %d placed",
@@ -40,8 +41,9 @@ START_TEST(near_what_comes) {
 }
 END_TEST
 
-/* In space the spacing is uniform, or grows from the middle of the body, from a line through it,
- * from a point on a facet far larger than d there, or from a whole side. */
+/* The estimate is close in space: for a constant d, and for a d that grows from the middle of the
+ * body, from a line through it, from a point on a facet far larger than d there, and from a whole
+ * side. */
 START_TEST(near_what_comes_in_space) {
   static const struct {
     volume_body body;
@@ -58,7 +60,8 @@ START_TEST(near_what_comes_in_space) {
 }
 END_TEST
 
-/* The estimate of more nodes than could be placed returns at once. The current nodes stay. */
+/* The estimate works for more nodes than could be placed, takes no noticeable time, and leaves the
+ * nodes as they are. */
 START_TEST(of_a_hundred_billion_nodes) {
   job it = square_job(1);
   int64_t nodes, bytes;
@@ -84,7 +87,7 @@ START_TEST(what_is_missing) {
 }
 END_TEST
 
-/* The memory limit is a share of the available memory that is too small for the run. */
+/* The option allows so small a share of the memory that it is not enough. */
 START_TEST(too_little_memory) {
   job it = square_job(1);
   hash_text before;

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of extreme domains and spacings: small domains far from the origin, tiny ones, spacings far
- * larger than the domain, boundaries far finer than the spacing. */
+ * Tests the limits of domains and spacings: small domains far from the origin, tiny domains,
+ * spacings far larger than the domain, and boundaries far finer than the spacing.
+ */
 #include "api_support.h"
 
 static void add_loop(job* it, int64_t n, const double* xy) {
   MUST(pnpbs_domain_add_polyline(it->domain, PNPBS_BOUNDARY, 1, n, xy, NULL, 0));
 }
 
-/* Checks that the triangles fill the domain, and all other properties. */
+/* Checks the results, and that the triangles fill the domain. */
 static void check_job(const job* it) {
   double area;
   result nodes;
   MUST(pnpbs_placement_check(it->placement));
   MUST(pnpbs_domain_measure(it->domain, &area));
   nodes = result_of(it->placement);
-  /* Coordinates near 1e4 have a rounding error of 2e-12, and the domain has a size of 1e-3. */
+  /* Coordinates of about 1e4 are rounded to 2e-12, and the domain is 1e-3 wide. */
   ck_assert_double_eq_tol(triangle_area(&nodes), area, 1e-7 * area);
   result_free(&nodes);
 }
@@ -26,8 +27,8 @@ static void place_and_check(job* it, double d) {
   check_job(it);
 }
 
-/* The domain is 1e-3 wide at y = 1e4. Its hole touches the outline at a point where rounding moves
- * the border of cells of the background tree. */
+/* The domain is 1e-3 wide at y = 1e4. A hole touches its outer side where rounding moves the border
+ * of cells of the background tree. */
 START_TEST(a_hole_that_touches_far_from_the_origin) {
   static const double spacings[] = {6.55572e-5, 5e-5, 6e-5, 7e-5, 1e-4, 3e-5};
   job it = job_begin();
@@ -111,7 +112,7 @@ START_TEST(spacings_far_larger_than_the_domain) {
   ck_assert_int_eq(warnings, 1);
   MUST(pnpbs_placement_get_warning(it.placement, 0, &text));
   ck_assert_ptr_ne(strstr(text, "larger than the feature"), NULL);
-  /* The next spacings fit the domain, and then are huge in one half of it. */
+  /* Then d becomes one that fits, and later one that is huge in half of the domain. */
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   check_placement(it.placement, 1);
@@ -136,14 +137,14 @@ static void add_fine_circle(job* it, int n) {
   free(xy);
 }
 
-/* A circle has tens to hundreds of segments per d. It gets about as many inner nodes as a circle
- * with edges of length d. The time is proportional to the number of pairs of a node and an edge
- * within d of it, not to the square of the number of edges. */
+/* A circle has tens to hundreds of segments per spacing. The number of inner nodes must be as in a
+ * circle with edges of length d, and the time must grow with the number of pairs of a node and an
+ * edge within d of it, not with its square. */
 START_TEST(a_boundary_far_finer_than_the_spacing) {
   static const struct {
     int segments;
     double d;
-    int least, most; /* inner nodes */
+    int least, most; /* bounds of the number of inner nodes */
   } cases[] = {{5000, 0.2, 40, 110}, {2500, 0.1, 200, 350}, {20000, 0.1, 200, 350}};
   job it = job_begin();
   pnpbs_status status;
@@ -152,7 +153,8 @@ START_TEST(a_boundary_far_finer_than_the_spacing) {
   job_place(&it);
   MUST(pnpbs_placement_set_int64(it.placement, "steps", 40));
   MUST(pnpbs_placement_set_spacing_constant(it.placement, cases[_i].d));
-  /* Some edges from the small bubbles of the boundary to the inside are far longer than their d. */
+  /* Some edges from the small bubbles of the boundary to the inside are far longer than the d of
+   * these bubbles. */
   status = pnpbs_placement_run(it.placement);
   ck_assert_msg(status == PNPBS_NOT_CONVERGED || status == PNPBS_SPACING_MISSED, "status %d; %s",
                 (int)status, status < 0 ? MESSAGE() : "no error");
@@ -164,8 +166,7 @@ START_TEST(a_boundary_far_finer_than_the_spacing) {
 }
 END_TEST
 
-/* If the boundary is too fine to finish in acceptable time, the call fails at once with a reason.
- */
+/* A boundary that is too fine to be finished in time is rejected at once, with a reason. */
 START_TEST(a_boundary_too_fine_for_the_spacing) {
   job it = job_begin();
   add_fine_circle(&it, 60000);
@@ -176,7 +177,7 @@ START_TEST(a_boundary_too_fine_for_the_spacing) {
 }
 END_TEST
 
-/* There is no room for inner nodes, so that every boundary node sees all others. */
+/* There is no room for inner nodes, so every boundary node has all others within its range. */
 START_TEST(a_boundary_too_fine_and_nothing_within) {
   static const double spacings[] = {1, 3, 1e200};
   job it = job_begin();
@@ -186,7 +187,7 @@ START_TEST(a_boundary_too_fine_and_nothing_within) {
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "4000 of its edges",
             "smaller d");
   job_end(&it);
-  /* A circle of some hundred segments is accepted. */
+  /* A circle of some hundred segments is not too fine. */
   it = job_begin();
   add_fine_circle(&it, 300);
   job_place(&it);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of the files that the library writes: every format, rejected calls, and that no incomplete
- * file ever appears. Tests in tests/tool read the contents with third-party readers. */
-#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+ * Tests files that the library writes: every format, rejected arguments, and that incomplete files
+ * never appear. tests/tool reads the contents by independent readers.
+ */
+#define _POSIX_C_SOURCE 200809L /* for mkdtemp */
 #include <dirent.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,7 +25,7 @@ static void make_folder(void) {
   ck_assert_ptr_nonnull(mkdtemp(folder));
 }
 
-/* Removes the files of the folder and returns their number. */
+/* Removes the files in the folder and returns their number. */
 static int empty_folder(void) {
   DIR* open = opendir(folder);
   const struct dirent* entry;
@@ -112,7 +113,7 @@ static void add_ones(pnpbs_placement placement, const char* name, int32_t compon
   free(values);
 }
 
-/* Without HDF5 these formats are rejected, before and after nodes exist. */
+/* A build without HDF5 reports the error even before there are nodes. */
 START_TEST(without_hdf5_there_is_an_error) {
   const char* names[] = {"a.vtkhdf", "a.xdmf", "a.hdf5"};
   job it = square_job(1);
@@ -173,7 +174,8 @@ START_TEST(every_format) {
   if (with_hdf5()) ck_assert_int_gt(size_of("a.h5"), size_of("a.xdmf"));
   ck_assert_int_eq(of_bodies, 3);
   ck_assert_int_eq(of_spheres, 2);
-  /* The count includes a_0.vtu; a.h5; a_facets.vtu, .pvtu and _0.vtu; .vtkhdf, .xdmf and .h5. */
+  /* Beside one file per format there are a_0.vtu; a.h5; a_facets.vtu, .pvtu and _0.vtu; and the
+   * facets as .vtkhdf, .xdmf and .h5. */
   ck_assert_int_eq(empty_folder(), count - of_bodies - of_spheres + (with_hdf5() ? 8 : 1));
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_info(count, NULL, NULL, NULL, NULL), "index",
             "0 ..");
@@ -182,7 +184,7 @@ START_TEST(every_format) {
 }
 END_TEST
 
-/* Particle formats need a field with the volume and, except Peridigm's, one with the density. */
+/* Formats of particles need a volume, and a density except for Peridigm. */
 START_TEST(fields_that_formats_need) {
   job it = placed_cube();
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder("a.peridigm"), 0),
@@ -203,7 +205,7 @@ START_TEST(fields_that_formats_need) {
 }
 END_TEST
 
-/* Returns the third number of the line of this file that begins with the given text. */
+/* Returns the third number of the node whose line begins like this. */
 static double third_number(const char* name, const char* beginning) {
   char line[200];
   double numbers[3] = {0, 0, 0};
@@ -237,7 +239,7 @@ START_TEST(depths_of_nodes) {
 }
 END_TEST
 
-/* A field must not have a name that the format itself uses. */
+/* In formats with a single set of names, some names of fields are reserved. */
 START_TEST(fields_with_names_of_others) {
   job it = placed_square();
   const char* names[] = {"mesh", "region", "mesh_node_x", "-x"};
@@ -353,7 +355,7 @@ START_TEST(refused) {
 }
 END_TEST
 
-/* HDF5 formats cannot be written to a stream, as their parts are written at file offsets. */
+/* HDF5 files are written at several positions, so they cannot be streams. */
 START_TEST(no_streams_by_hdf5) {
   const char *paths[] = {"-", "/dev/null"}, *formats[] = {"vtkhdf", "xdmf"};
   job it = placed_square();
@@ -382,7 +384,7 @@ START_TEST(without_nodes) {
 }
 END_TEST
 
-/* If the second file fails, the first one does not appear either. */
+/* The second file fails, so the first one must not appear either. */
 START_TEST(together_or_not_at_all) {
   const char* paths[] = {in_folder("a.csv"), in_folder("a.pvtu"), "/dev/full"};
   const char* formats[] = {"csv", "pvtu", "vtu"};
@@ -500,7 +502,7 @@ START_TEST(fields_belong_to_the_nodes_there_are) {
   MUST(pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
   plain = size_of("a.vtu");
   MUST(pnpbs_placement_add_output_field(it.placement, "u", 1000, 2, values));
-  /* Adjacency lists and stars do not change the nodes in the file. */
+  /* Building lists and stars does not invalidate output fields. */
   MUST(pnpbs_placement_adjacency_size(it.placement, &entries));
   MUST(pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
   ck_assert_int_gt(size_of("a.vtu"), plain + 16 * n);

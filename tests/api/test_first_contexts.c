@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Several threads of the host make the first calls of the process at the same time. Each creates a
- * context, places nodes and writes them. The library starts Kokkos once. */
+ * Tests host threads that make the first calls of the process at the same time. Each creates a
+ * context of its own, places nodes and writes them. Kokkos is started once.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
 #include <unistd.h>

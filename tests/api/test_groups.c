@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of groups: names of tags, roles by tag, and Gmsh files, which define both. */
+ * Tests groups: names of tags, roles by tag, and Gmsh files, which contain both.
+ */
 #include "api_support.h"
 
 #define DATA PNPBS_SOURCE_DIR "/examples/data"
 
-/* A Gmsh file of a square of side 2 around a square of side 1, in two groups. */
+/* A square of side 2 with a square of side 1 in its middle. Their sides are in two groups. */
 static const char* const square =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
     "$PhysicalNames\n3\n1 4 \"rim\"\n1 5 \"hole\"\n2 9 \"sea\"\n$EndPhysicalNames\n"

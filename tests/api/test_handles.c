@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of handles. Every function must return an error for a handle that is not live or of another
- * kind. Objects may be destroyed in any order and keep alive what they need. */
+ * Tests handles: every function returns an error for a handle that is not live or of another kind.
+ * Objects may be destroyed in any order, and keep alive what they need.
+ */
 #include "api_support.h"
 #include "volume_bodies.h"
 
-/* Memory for the outputs of the calls below. A failing call must not change it. */
+/* Buffer for the outputs of the calls below, which an error must not change. */
 static union {
   double reals[64];
   int64_t integers[64];
@@ -20,7 +21,7 @@ static union {
 
 static void prepare_outputs(void) {
   memset(&out, 0x5a, sizeof out);
-  memset(out.bytes, 0, sizeof(void*)); /* output handles become NULL */
+  memset(out.bytes, 0, sizeof(void*)); /* outputs that are handles become NULL */
 }
 
 static void check_outputs(const char* name) {
@@ -36,7 +37,7 @@ static const int64_t ends[8] = {0, 1, 1, 2, 2, 3, 3, 0};
 static const double xyz[12] = {0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 1, 0};
 static const int64_t faces[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
 static const int64_t grid_size[2] = {1, 2};
-static const double grid[6] = {0.5, 0.5, 1, 1, 0.2, 0.3}; /* origin, step, values */
+static const double grid[6] = {0.5, 0.5, 1, 1, 0.2, 0.3}; /* origin, step and values */
 static cone a_cone = {0.1, 0, 0, 0};
 
 static int32_t circle(int64_t n, int32_t dim, const double* t, double* points, void* user) {
@@ -57,8 +58,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
 
 /* ---------------------------------------------------------------- every call ------------ */
 
-/* X(function, its arguments): the calls would accept a live handle of the right dimension.
- * Functions that create or destroy have tests of their own. */
+/* X(function, its arguments): a call that accepts a live handle of the right kind and dimension,
+ * and may fail for other reasons. Functions that create or destroy have tests of their own. */
 #define CONTEXT_CALLS(X)                          \
   X(context_set, (handle, "steps", "10"))         \
   X(context_set_int64, (handle, "steps", 10))     \
@@ -183,10 +184,10 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(particles_add_output_field, (handle, "mass", 1, 1, grid))                                   \
   X(particles_write, (handle, 0, NULL, NULL))
 
-/* The placement that fields are transferred to. */
+/* The placement to which fields are transferred. */
 static pnpbs_placement target;
 
-/* Defines each call as a function of a pointer that may not be a valid handle. */
+/* Defines each call as a function of a pointer that may not be a handle. */
 #define CALL_IT(Handle, name, arguments)            \
   static pnpbs_status call_##name(void* anything) { \
     const Handle handle = (Handle)anything;         \
@@ -203,7 +204,7 @@ PLACEMENT_CALLS(CALL_PLACEMENT)
 TRANSFER_CALLS(CALL_TRANSFER)
 PARTICLES_CALLS(CALL_PARTICLES)
 
-/* The kind of handle that a function takes as its first argument. */
+/* The kind of the first argument of each function. */
 typedef enum { CONTEXT, DOMAIN, PLACEMENT, TRANSFER, PARTICLES } kind;
 
 static const struct {
@@ -219,7 +220,7 @@ static const struct {
     CONTEXT_CALLS(ROW_CONTEXT) DOMAIN_CALLS(ROW_DOMAIN) PLACEMENT_CALLS(ROW_PLACEMENT)
         TRANSFER_CALLS(ROW_TRANSFER) PARTICLES_CALLS(ROW_PARTICLES)};
 
-/* The lists above contain all functions that the header declares, except those that create and
+/* The tables above contain every function that the header declares, except those that create and
  * destroy. */
 START_TEST(every_function_is_here) {
   FILE* header = fopen(PNPBS_SOURCE_DIR "/include/pnpbs/pnpbs.h", "r");
@@ -261,7 +262,7 @@ static void must_be_refused(int row, void* handle, const char* what) {
   check_outputs(calls[row].name);
 }
 
-/* Creates a transfer from the nodes of a job, which are placed if there are none. */
+/* Returns a transfer from the nodes of a job. Places them if there are none. */
 static pnpbs_transfer some_transfer(const job* it) {
   double values[300] = {0};
   pnpbs_transfer transfer = NULL;
@@ -277,7 +278,8 @@ static pnpbs_transfer some_transfer(const job* it) {
   return transfer;
 }
 
-/* Creates a square around that of a job. The margin is 0.15, half the distance of its nodes. */
+/* Returns a square around that of a job, larger by half of the spacing 0.3 of its nodes on each
+ * side. */
 static pnpbs_domain body_around(const job* it) {
   static const double corners[8] = {-0.15, -0.15, 1.15, -0.15, 1.15, 1.15, -0.15, 1.15};
   pnpbs_domain body = NULL;
@@ -286,7 +288,7 @@ static pnpbs_domain body_around(const job* it) {
   return body;
 }
 
-/* Creates particles from the nodes of some_transfer. */
+/* Returns particles of the nodes that some_transfer places. */
 static pnpbs_particles some_particles(const job* it) {
   pnpbs_domain body = body_around(it);
   pnpbs_particles particles = NULL;
@@ -352,8 +354,8 @@ START_TEST(placements_of_nothing) {
 }
 END_TEST
 
-/* A placement in a domain of another context is refused, as another thread could use that context.
- */
+/* A domain of another context could be in use by another thread, as one thread uses a context at a
+ * time. */
 START_TEST(a_domain_of_another_context) {
   job one = square_job(1), other = square_job(1);
   pnpbs_placement placement = NULL;
@@ -365,7 +367,7 @@ START_TEST(a_domain_of_another_context) {
 }
 END_TEST
 
-/* A transfer needs a live placement of the same context. */
+/* A transfer requires a live placement of the same context. */
 START_TEST(transfers_to_nothing) {
   job one = square_job(1), other = square_job(1);
   pnpbs_transfer transfer = some_transfer(&one), elsewhere = some_transfer(&other);
@@ -380,7 +382,7 @@ START_TEST(transfers_to_nothing) {
   ck_assert_ptr_null(transfer);
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_transfer_create(one.placement, 0, 1, &value, NULL),
             "transfer", "NULL");
-  /* The transfer outlives the placement it was created from and even the context. */
+  /* A transfer remains usable when its placement and its context are destroyed. */
   job_end(&other);
   value = 1;
   MUST(pnpbs_transfer_at_points(elsewhere, 1, xy, &value));
@@ -390,7 +392,7 @@ START_TEST(transfers_to_nothing) {
 }
 END_TEST
 
-/* Particles need a live placement and a live body of the same context. */
+/* Particles require a live placement and a live body of the same context. */
 START_TEST(particles_of_nothing) {
   job one = square_job(1), other = square_job(1);
   pnpbs_transfer transfer = some_transfer(&one); /* this places the nodes */
@@ -409,7 +411,7 @@ START_TEST(particles_of_nothing) {
   ck_assert_ptr_null(particles);
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_particles_create(one.placement, body, NULL), "particles",
             "NULL");
-  /* The particles outlive the placement and body they were created from and even the context. */
+  /* Particles remain usable when their placement, body and context are destroyed. */
   MUST(pnpbs_particles_create(one.placement, body, &particles));
   MUST(pnpbs_transfer_destroy(&transfer));
   MUST(pnpbs_domain_destroy(&body));
@@ -450,7 +452,7 @@ START_TEST(destroying_twice) {
   ck_assert_ptr_null(it.context);
   ck_assert_ptr_null(it.domain);
   ck_assert_ptr_null(it.placement);
-  job_end(&it); /* its handles are NULL by now */
+  job_end(&it); /* all are NULL already */
   MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_context_destroy(&copy.context), "context", "destroyed");
   MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_domain_destroy(&copy.domain), "domain", "destroyed");
   MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_placement_destroy(&copy.placement), "placement", "destroyed");
@@ -469,7 +471,7 @@ START_TEST(destroying_another_kind) {
 }
 END_TEST
 
-/* Handle values are not reused, so that an old handle never refers to a new object. */
+/* Handles are not used again, so an old one never refers to a new object. */
 START_TEST(handles_are_new) {
   job old = square_job(1);
   const job copy = old;
@@ -489,7 +491,7 @@ static void destroy_one(job* it, int which) {
   if (which == 2) MUST(pnpbs_placement_destroy(&it->placement));
 }
 
-/* Uses the objects that remain. They must work, and their messages must be available. */
+/* The remaining objects can be used, and their messages can be read. */
 static void use_what_is_left(const job* it) {
   int64_t nodes = 0;
   if (it->context != NULL) MUST(pnpbs_context_set(it->context, "steps", "25"));
@@ -516,7 +518,7 @@ START_TEST(any_order) {
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   for (k = 0; k < 3; ++k) {
     destroy_one(&it, orders[_i][k]);
-    /* A placement whose parents are destroyed computes as before. */
+    /* A placement without its context and domain computes as before. */
     if (it.placement != NULL && it.domain == NULL) {
       MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.15));
       MUST_COMPUTE(pnpbs_placement_run(it.placement));
@@ -524,7 +526,7 @@ START_TEST(any_order) {
     }
     use_what_is_left(&it);
   }
-  job_end(&it); /* all handles are NULL */
+  job_end(&it); /* all are NULL already */
 }
 END_TEST
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of placements in bodies given by level sets: Nodes lie where f = 0 and on its edges, and
- * normals are along its gradient. Callbacks may fail, and invalid input is rejected. */
+ * Tests placements in bodies given by level sets: nodes lie where f = 0 and on its edges, normals
+ * are its gradient, and callback errors and invalid input are rejected.
+ */
 #include "volume_support.h"
 
 static const double low[3] = {-1.5, -1.5, -1.5}, high[3] = {1.5, 1.5, 1.5};
@@ -24,7 +25,7 @@ static int32_t unit_ball(int64_t n, int32_t dim, const double* x, double* f, voi
   return 0;
 }
 
-/* The nodes lie far nearer to the ball's surface than its triangles, which have the size of the
+/* Nodes are far nearer to the ball than the triangles of its surface, which have the size of the
  * resolution. */
 START_TEST(nodes_lie_on_the_ball) {
   const double centre[3] = {0, 0, 0}, d = 0.2;
@@ -54,7 +55,7 @@ START_TEST(nodes_lie_on_the_ball) {
   ck_assert_double_eq_tol(boundary_area(&v, 7, &enclosed), 4 * PI, 0.25);
   ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.85);
   volume_free(&v);
-  /* The next run starts from these nodes with another spacing. */
+  /* A run at another spacing begins from the current nodes. */
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.75 * d));
   ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
   check_body(&it, 0.04);
@@ -87,7 +88,7 @@ END_TEST
 
 /* ---------------------------------------------------------------- edges ----------------- */
 
-/* The intersection of two unit balls whose centres are one unit apart. */
+/* A level-set callback: the intersection of two unit balls, whose centres are 1 apart. */
 static int32_t lens(int64_t n, int32_t dim, const double* x, double* f, void* user) {
   int64_t i;
   (void)user;
@@ -100,7 +101,8 @@ static int32_t lens(int64_t n, int32_t dim, const double* x, double* f, void* us
   return 0;
 }
 
-/* Nodes on the edge lie on both balls, are d apart, and have the mean of both normals. */
+/* Nodes on the edge lie on both balls, are as many as d requires, and have the mean of both
+ * normals. */
 START_TEST(nodes_lie_on_the_edge_of_a_lens) {
   const double d = 0.2, rim = sqrt(0.75);
   const int filled = _i == 0;
@@ -147,7 +149,7 @@ START_TEST(nodes_lie_on_the_edge_of_a_lens) {
 }
 END_TEST
 
-/* The normals of a cavity in a box point into the cavity. */
+/* The normal of a cavity in a box points into the cavity. */
 START_TEST(normals_of_a_cavity) {
   const double corner[3] = {2, 2, 2}, other[3] = {-2, -2, -2};
   job it = {NULL, NULL, NULL};
@@ -180,7 +182,7 @@ END_TEST
 typedef struct {
   int64_t calls, bad_from;
   int32_t answer;
-  double value; /* the invalid value */
+  double value; /* returned by bad calls */
 } level_set_probe;
 
 static int32_t probed(int64_t n, int32_t dim, const double* x, double* f, void* user) {
@@ -196,8 +198,8 @@ static int32_t probed(int64_t n, int32_t dim, const double* x, double* f, void* 
   return is_bad ? it->answer : 0;
 }
 
-/* The callback fails at each call in turn, when the level set is added and in the run. Existing
- * objects stay unchanged. */
+/* The callback fails at each of its calls in turn, when the level set is added and in the run. The
+ * domain and the nodes must stay as they were. */
 START_TEST(failing_at_every_call) {
   const pnpbs_status expected = _i == 0 ? PNPBS_ERROR_CALLBACK : PNPBS_ERROR_DOMAIN;
   int failed_adding = 0, failed_later = 0;

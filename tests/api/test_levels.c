@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of coarser levels: when they are used, that they can be monitored and stopped, and that
- * they improve the result. */
+ * Tests coarser levels: when they are used, that a monitor can watch and stop them, and that they
+ * improve the quality.
+ */
 #include "api_support.h"
 
 static job graded_square(cone* d) {
@@ -36,7 +37,7 @@ START_TEST(as_many_as_pay) {
 }
 END_TEST
 
-/* A constant d uses a single lattice and no coarser level. */
+/* A constant d needs no coarser levels, as one lattice fills the domain. */
 START_TEST(none_for_constant_spacing) {
   job it = square_job(1);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.008));
@@ -47,8 +48,8 @@ START_TEST(none_for_constant_spacing) {
 }
 END_TEST
 
-/* The corners of small holes are nodes on every level. The 36 holes with twelve nodes each are few
- * among 2500 nodes, but many among 600. */
+/* Small holes have their corners on every level. 36 holes of twelve nodes each are few among 2500
+ * nodes, but many among 600. */
 START_TEST(fewer_where_the_boundary_is_fine) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
   enum { ROW = 6, CORNERS = 12 };
@@ -70,8 +71,8 @@ START_TEST(fewer_where_the_boundary_is_fine) {
 }
 END_TEST
 
-/* Returns the quality of the nodes for the least spacing times `scale`. The first row stays as the
- * bubbles have formed it. */
+/* Returns the quality of a set whose least spacing is multiplied by `scale`. The first row is left
+ * as the bubbles have placed it. */
 static quality_summary quality_with(double scale, const char* key, const char* value) {
   cone graded = {0.0048, 0.016, 0.5, 0.5};
   job it = graded_square(&graded);
@@ -96,7 +97,7 @@ START_TEST(more_effort_is_better) {
 }
 END_TEST
 
-/* Returns the least quality of five node sets. */
+/* Returns the least quality of five sets. */
 static double least_quality_with(const char* key, const char* value) {
   double least = 1;
   int k;
@@ -115,9 +116,9 @@ START_TEST(defects_are_repaired) {
 }
 END_TEST
 
-/* Repairs reduce the number of nodes with a wrong number of neighbours and of imperfect triangles
- * by a tenth in the mean of 20 sets. Without repairs the share of imperfect triangles would be
- * 0.018 if levels lost nodes on the way. */
+/* Repairs reduce the number of nodes with the wrong number of neighbours, and so that of imperfect
+ * triangles: by a tenth, as measured on 20 sets. If levels lost nodes, the share of imperfect
+ * triangles without repairs would be 0.018. */
 START_TEST(defects_become_fewer) {
   double with = 0, without = 0;
   int k;
@@ -144,7 +145,7 @@ static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_sp
   (void)max_speed;
   ck_assert_msg(fraction >= it->last_fraction && fraction <= 1, "the fraction went from %g to %g",
                 it->last_fraction, fraction);
-  /* Each level has more nodes than the one before. */
+  /* The number of nodes increases from level to level. */
   ck_assert_msg((double)nodes > 0.95 * (double)it->most_nodes, "%d nodes after %d", (int)nodes,
                 (int)it->most_nodes);
   it->last_fraction = fraction;
@@ -152,8 +153,8 @@ static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_sp
   return it->calls++ == it->stop_at;
 }
 
-/* A run that is stopped on a coarser level still has nodes at the wanted spacing. The next run
- * continues from them. */
+/* If the monitor stops a run on a coarser level, the placement still has nodes of the requested
+ * spacing, and the next run continues from them. */
 START_TEST(they_can_be_stopped) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
   watcher seen = {0, 1, 0, 0};
@@ -179,7 +180,8 @@ START_TEST(they_can_be_stopped) {
 }
 END_TEST
 
-/* The spacing callback fails on a coarser level. The placement stays unchanged. */
+/* A spacing callback that fails while a coarser level evaluates it. The placement must stay as it
+ * was. */
 typedef struct {
   int calls, fail_at;
 } failing;
@@ -211,7 +213,7 @@ static figures figures_of(pnpbs_placement placement) {
   return f;
 }
 
-/* After a failure the statistics do not include the failed run. */
+/* The statistics do not include a failed call. */
 START_TEST(a_failure_tells_nothing) {
   failing f = {0, -1};
   job it = square_job(1);
@@ -236,7 +238,7 @@ START_TEST(a_failure_tells_nothing) {
 }
 END_TEST
 
-/* A call that initialises first returns the stopped status if the monitor stops the initialisation.
+/* Calls that initialise first return PNPBS_STOPPED if the monitor stops that, and do nothing else.
  */
 START_TEST(adjustments_can_be_stopped) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of warnings and errors as data. Messages record their points, which are never parsed from
- * the text. Warnings have codes, counts, values and points, which a checkpoint saves. Coordinates
- * beyond 1e60 are covered too. */
+ * Tests warnings and errors as data. Points belong to messages as data and are not found in their
+ * text. Warnings have codes, counts, values and points, which a checkpoint keeps. Also tests
+ * coordinates beyond 1e60.
+ */
 #include "api_support.h"
 
 static const double R = 6371;
@@ -78,7 +79,7 @@ START_TEST(points_on_a_sphere) {
                           1e-9 * R);
   ck_assert_double_eq_tol(degrees[0], 20, 1e-3);
   ck_assert_double_eq_tol(degrees[1], 17.077, 1e-3);
-  /* The next error does not concern curves. */
+  /* The following error has no points. */
   expect_in_error(&it, pnpbs_domain_add_hole(it.domain, NULL), "point");
   MUST(pnpbs_last_error_data(it.context, &reason, &points));
   ck_assert_int_eq(reason, PNPBS_REASON_OTHER);
@@ -100,7 +101,7 @@ START_TEST(points_in_the_plane) {
   ck_assert(point[0] == 1 && point[1] == 1 && isnan(point[2]));
   ck_assert_int_eq(strncmp(pnpbs_last_error(it.context) + begin, "(1, 1)", (size_t)(end - begin)),
                    0);
-  /* The last error of this thread has the same points. */
+  /* The message of this thread has the same point. */
   MUST(pnpbs_last_error_point(NULL, 0, point, &begin, &end));
   ck_assert(point[0] == 1 && point[1] == 1);
   job_end(&it);
@@ -196,7 +197,8 @@ START_TEST(warnings_on_a_sphere) {
 }
 END_TEST
 
-/* The cubic force law of the paper compresses the coarse part beside a fine line. */
+/* A spacing callback: the paper's law compresses coarse regions beside a fine line, which causes
+ * warnings. */
 static int32_t fine_line(int64_t n, int32_t dim, const double* x, double* d, void* user) {
   int64_t i;
   (void)user;
@@ -241,7 +243,8 @@ END_TEST
 
 /* ---------------------------------------------------------------- coordinates ------------ */
 
-/* The first point lies beyond the limit and the second is not a number. The message names both. */
+/* The first point is at a distance of 2, and the second one is not a number. The message names
+ * both. */
 START_TEST(coordinates_beyond_all_limits) {
   const double wrong[3] = {1e308, -1e308, NAN};
   job it = square_job(1);

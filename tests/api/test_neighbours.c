@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests by brute force: adjacency lists against all pairs of nodes, stars against their definition,
- * and the statistics that are computed from nodes. */
+ * Tests adjacency lists against all pairs, stars against their invariants, and statistics of nodes
+ * against brute force.
+ */
 #include "api_support.h"
 
 typedef struct {
@@ -28,13 +29,13 @@ static double cross(const double* o, const double* a, const double* b) {
   return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
 }
 
-/* Returns whether segments ab and pq cross at a point inside both. */
+/* Returns whether the segments ab and pq cross at a point inside both. */
 static int cross_inside(const double* a, const double* b, const double* p, const double* q) {
   return cross(a, b, p) * cross(a, b, q) < 0 && cross(p, q, a) * cross(p, q, b) < 0;
 }
 
-/* Returns whether the point is inside the domain according to the bounding edges. Inner curves do
- * not count, as they have triangles on both sides. */
+/* Returns whether the point is inside, by the edges that bound the domain. Inner curves do not
+ * count, as they have triangles on both sides. */
 static int is_inside(const result* r, const char* bounds, double x, double y) {
   int inside = 0;
   int64_t e;
@@ -46,7 +47,7 @@ static int is_inside(const result* r, const char* bounds, double x, double y) {
   return inside;
 }
 
-/* Returns which boundary edges have a gap of a star beside them. */
+/* Returns for each boundary edge whether the star has a gap beside it. */
 static char* bounding_edges(const result* r) {
   char* bounds = calloc((size_t)r->edges + 1, 1);
   int64_t e, k;
@@ -60,8 +61,8 @@ static char* bounding_edges(const result* r) {
   return bounds;
 }
 
-/* Returns whether the boundary separates i and j: The segment between them crosses a boundary edge
- * or runs outside. */
+/* Returns whether the boundary separates i and j: an edge crosses the segment between them, or the
+ * segment lies outside. */
 static int is_separated(const result* r, const char* bounds, int64_t i, int64_t j) {
   const double *x = r->xy + 2 * i, *y = r->xy + 2 * j;
   int64_t e;
@@ -74,8 +75,8 @@ static int is_separated(const result* r, const char* bounds, int64_t i, int64_t 
   return !is_inside(r, bounds, 0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1]));
 }
 
-/* Returns whether the segment from i to j passes another boundary node within rounding. Both
- * outcomes are correct then. */
+/* Returns whether the segment from i to j passes through another boundary node up to rounding. Such
+ * a pair may be listed or not. */
 static int grazes(const result* r, int64_t i, int64_t j) {
   const double *x = r->xy + 2 * i, *y = r->xy + 2 * j;
   const double length = hypot(y[0] - x[0], y[1] - x[1]);
@@ -107,7 +108,7 @@ static void check_lists(const result* r, const lists* l, double radius) {
     for (j = 0; j < r->n; ++j) {
       const double gap = hypot(r->xy[2 * i] - r->xy[2 * j], r->xy[2 * i + 1] - r->xy[2 * j + 1]);
       const double reach = 0.5 * radius * (r->d[i] + r->d[j]);
-      if (i == j || fabs(gap - reach) < 1e-12 * reach) continue; /* both are correct */
+      if (i == j || fabs(gap - reach) < 1e-12 * reach) continue; /* both are right */
       if (gap < reach && grazes(r, i, j)) continue;
       ck_assert_msg(listed[j] == (gap < reach && !is_separated(r, bounds, i, j)),
                     "nodes (%.17g, %.17g) and (%.17g, %.17g), %g of the radius apart, are %s",
@@ -121,8 +122,8 @@ static void check_lists(const result* r, const lists* l, double radius) {
 
 /* ---------------------------------------------------------------- domains --------------- */
 
-/* Places nodes in a square with a slit from its middle to the right side, narrower than d. The slit
- * is part of the boundary (0) or an inner curve (1). */
+/* A square with a slit from its middle to the right side, narrower than d. The sides of the slit
+ * are boundary if is_inner is 0; if it is 1, the slit is an inner curve. */
 static job slit_square(int is_inner) {
   const double outline[14] = {0, 0, 1, 0, 1, 0.499, 0.5, 0.5, 1, 0.501, 1, 1, 0, 1};
   const double curve[4] = {0.3, 0.5, 0.7, 0.5};
@@ -239,7 +240,7 @@ START_TEST(lists_against_all_pairs) {
 }
 END_TEST
 
-/* The stars do not depend on the radius of the adjacency lists. */
+/* Stars do not depend on the radius of the lists. */
 START_TEST(stars_do_not_depend_on_the_radius) {
   cone slope;
   job it = run_scene(_i, &slope), other;
@@ -328,7 +329,8 @@ START_TEST(spacing_errors_by_hand) {
 }
 END_TEST
 
-/* The hash does not depend on the order of the nodes. */
+/* Sets of nodes that differ in one bit of a position, in an id or in a tag have different hashes.
+ */
 START_TEST(hashes_tell_nodes_apart) {
   const double xy[4] = {0.3, 0.4, 0.7, 0.6}, moved[4] = {0.3, 0.4, 0.7, 0.6000000000000001};
   const int64_t ids[2] = {100, 200}, others[2] = {100, 201};
@@ -355,7 +357,7 @@ START_TEST(hashes_tell_nodes_apart) {
 }
 END_TEST
 
-/* Each optional output requested alone is the same. */
+/* Each optional output is the same if it is the only one. */
 START_TEST(outputs_one_by_one) {
   cone slope;
   job it = run_scene(5, &slope);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of bodies at a distance from other bodies: areas and volumes by Steiner's formula, d by a
- * callback, particles with their volumes, invalid input. */
+ * Tests bodies at a distance from others: areas and volumes by Steiner's formula, depths in units
+ * of d by a callback, nodes in these bodies, volumes of particles, and invalid input.
+ */
 #include "volume_support.h"
 
 /* ---------------------------------------------------------------- in the plane ---------- */
@@ -26,8 +27,8 @@ static void add_square_with_hole(pnpbs_domain domain) {
   add_rectangle(domain, PNPBS_BOUNDARY, 0.3, 0.3, 0.7, 0.7, 2);
 }
 
-/* A body in the plane with the numbers of its convex and reentrant right-angled corners and its
- * perimeter. */
+/* A body in the plane: its area, the length of its boundary, and the numbers of convex and
+ * reentrant right corners. */
 typedef struct {
   void (*add)(pnpbs_domain domain);
   double area, around;
@@ -36,8 +37,8 @@ typedef struct {
 static const plane_body plane_bodies[] = {
     {add_square, 1, 4, 4, 0}, {add_l, 3, 8, 5, 1}, {add_square_with_hole, 0.84, 5.6, 4, 4}};
 
-/* Returns the area of the body enlarged by h, or reduced by -h for h < 0. The difference consists
- * of straight strips, which overlap or are joined by arcs at corners. */
+/* Returns the area of the offset body. Along straight sides the area changes by strips, which
+ * overlap at one kind of corner and are joined by arcs at the other. */
 static double area_within(const plane_body* it, double h) {
   const int sharp = h < 0 ? it->convex : it->reentrant, round = h < 0 ? it->reentrant : it->convex;
   const double strips = it->around * fabs(h) - sharp * h * h + round * PI / 4 * h * h;
@@ -60,7 +61,7 @@ START_TEST(areas_by_steiner) {
       pnpbs_domain offset;
       MUST(pnpbs_domain_create(context, 2, &offset));
       MUST(pnpbs_domain_add_offset(offset, body, limits[a], limits[b], NULL, NULL, 0.02, 7));
-      /* Chords no longer than sqrt(2) times the resolution replace arcs. Without arcs the area is
+      /* Arcs become chords no longer than sqrt(2) times the resolution. Without arcs the area is
        * exact. */
       ck_assert_double_eq_tol(measure_of(offset), area, 5e-4);
       if (from->reentrant == 0 && limits[b] < 0)
@@ -92,7 +93,7 @@ static void pair_end(pair* it) {
   MUST(pnpbs_context_destroy(&it->context));
 }
 
-/* The four corners of the inset are corners of its boundary and have the tag. */
+/* The four corners of the inset are corners of its boundary, and all segments have the tag. */
 START_TEST(corners_are_kept) {
   double segments[400][4];
   int32_t tags[400];
@@ -121,7 +122,7 @@ static int has_vertex(pnpbs_domain domain, double x, double y) {
   return 0;
 }
 
-/* The ends of the arc of half a disc are corners of the inset too. */
+/* Corners at the ends of an arc are kept as well: those of half a disc. */
 START_TEST(corners_of_curves_are_kept) {
   const double centre[2] = {0, 0}, chord[4] = {-1, 0, 1, 0}, h = 0.15;
   const double corner = sqrt((1 - h) * (1 - h) - h * h);
@@ -136,8 +137,8 @@ END_TEST
 
 static int32_t constant(int64_t n, int32_t dim, const double* x, double* d, void* user);
 
-/* A small square beside another one is left out if its size is below twice the resolution or half
- * of d. */
+/* The inset of a small square beside a large one is left out if it is smaller than twice the
+ * resolution or than half of d. */
 START_TEST(tiny_pieces_are_left_out) {
   const struct {
     double side, d, depth, resolution;
@@ -160,8 +161,7 @@ START_TEST(tiny_pieces_are_left_out) {
 }
 END_TEST
 
-/* In an inset of the lake many bays become separate ponds, some of them no wider than the
- * resolution. */
+/* Many bays become separate ponds, some no wider than the resolution. */
 START_TEST(insets_of_a_lake) {
   pnpbs_domain lake;
   pnpbs_context context;
@@ -183,7 +183,7 @@ START_TEST(insets_of_a_lake) {
 }
 END_TEST
 
-/* With a growing d the boundary of the inset is at a distance proportional to the local d. */
+/* If d grows, the boundary lies where the distance is the given multiple of d. */
 START_TEST(depth_follows_the_spacing) {
   cone grows = {0.02, 0.1, 0, 0};
   double segments[2000][4];
@@ -239,8 +239,9 @@ static int32_t larger_bubbles(int64_t n, int32_t dim, const double* x, double* d
   return 0;
 }
 
-/* The number of particles follows from the body's measure. None lies on its wall. The volumes are
- * near d^dim and their sum is the measure. The test runs in the plane and in space. */
+/* The number of particles is that which the measure of the body requires. None lies on its wall,
+ * and their volumes sum up to the measure, each near d^dim. The test runs in the plane and in
+ * space. */
 START_TEST(particles_stand_for_the_body) {
   const int dim = _i + 2;
   const double corner[3] = {0, 0, 0}, other[3] = {1, 1, 1};
@@ -263,7 +264,7 @@ START_TEST(particles_stand_for_the_body) {
   MUST(pnpbs_placement_set_spacing_callback(it.placement, larger_bubbles, &grows));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   MUST(pnpbs_particles_create(it.placement, body, &particles));
-  MUST(pnpbs_domain_destroy(&body)); /* the particles keep no reference to it */
+  MUST(pnpbs_domain_destroy(&body)); /* particles do not refer to the body */
   MUST(pnpbs_particles_sizes(particles, NULL, &n, NULL));
   x = malloc((size_t)n * 3 * sizeof *x);
   volumes = malloc((size_t)n * sizeof *volumes);
@@ -275,7 +276,7 @@ START_TEST(particles_stand_for_the_body) {
     cone_spacing(1, dim, x + dim * i, &d, &grows);
     share = volumes[i] / pow(d, dim);
     for (k = 0; k < dim; ++k) nearest = fmin(nearest, fmin(x[dim * i + k], 1 - x[dim * i + k]));
-    /* Some particles were pushed along the wall to a point where d differs. */
+    /* Some were pushed along the wall to where d differs. */
     ck_assert_double_ge(nearest, (dim == 2 ? 0.42 : 0.46) * d * (1 - 0.01));
     ck_assert(share > 0.5 && share < 1.6);
     sum += volumes[i];
@@ -293,7 +294,7 @@ END_TEST
 typedef struct {
   int calls;
   double last;
-  int32_t stop; /* 1 to stop at the end */
+  int32_t stop; /* whether to stop at the end */
 } watcher;
 
 static int32_t watch(double fraction, int64_t step, int64_t nodes, double speed, void* user) {
@@ -314,8 +315,8 @@ static int lines_of(const char* path) {
   return lines;
 }
 
-/* The placement's monitor is called for particle files and can stop them. Particles outlive the
- * placement and accept fields with unique names. */
+/* Files of particles: the placement's monitor is called and can stop them, particles can be written
+ * after their placement is destroyed, and their fields need distinct names. */
 START_TEST(particle_files) {
   const char *csv[] = {"test_offsets.csv"}, *ele[] = {"test_offsets.ele"};
   double *masses, d = 0.1;
@@ -416,7 +417,7 @@ START_TEST(bad_input) {
   REFUSED(DOMAIN, "from -infinity to -6 d", "negative at none", box, box, -INFINITY, -6, constant,
           &d, 0, 1);
 #undef REFUSED
-  /* All objects are unchanged. */
+  /* No domain has changed. */
   ck_assert_double_eq(measure_of(to), 1);
   ck_assert_double_eq(measure_of(box), 1);
   MUST(pnpbs_domain_destroy(&to));
@@ -429,7 +430,7 @@ START_TEST(bad_input) {
 }
 END_TEST
 
-/* The body must contain all nodes, and the nodes must fill it. */
+/* The body must contain the nodes, and the nodes must fill it. */
 START_TEST(bad_bodies) {
   job it = square_job(1);
   pnpbs_domain body;

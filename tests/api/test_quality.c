@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of the statistics of elements: quality, angles, and edge length over d, by bands of d. They
- * are compared with values computed from the copied triangles. */
+ * Tests the statistics of the elements against those computed from the triangles that are copied
+ * out: quality, angles, and edge length over d, by bands of d.
+ */
 #include "api_support.h"
 
 #define BANDS 8
@@ -47,8 +48,8 @@ static void check_triangles(pnpbs_placement placement, const result* it) {
   free(qualities);
 }
 
-/* Returns on which side of the edge from a to b the circumcentre of (a, b, c) lies: > 0 on the side
- * of c. The value is half the cotangent of the angle at c. */
+/* Returns half the cotangent of the angle at c. It is positive if the circumcentre of (a, b, c) is
+ * on the side of c of the edge from a to b. */
 static double side_of_circumcentre(const double* a, const double* b, const double* c) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
   const double bb = bx * bx + by * by, cc = cx * cx + cy * cy, twice = 2 * (bx * cy - by * cx);
@@ -78,9 +79,9 @@ static void check_circumcentres(pnpbs_placement placement, const result* it, int
 
 /* ---------------------------------------------------------------- Voronoi cells --------- */
 
-/* A corner of a Voronoi cell, which lies in a triangle of the cell's node. It has the angle and
- * position relative to the node, and the last corner of the triangle, which the next triangle
- * shares. */
+/* A corner of a Voronoi cell, which is the circumcentre of a triangle at its node, with its
+ * direction from the node. `shared` is the last corner of the triangle, which the next triangle has
+ * as well. */
 typedef struct {
   double angle, x, y;
   int64_t shared;
@@ -108,7 +109,7 @@ static void add_corner(cell* to, const double* a, const double* b, const double*
   it->shared = shared;
 }
 
-/* Computes the Voronoi cells. Only those of nodes that lie on no curve are valid. */
+/* Returns the cells of all nodes that are not on curves. The others are not used. */
 static cell* cells_of(const result* it) {
   cell* cells = calloc((size_t)it->n, sizeof *cells);
   int64_t t, i, k;
@@ -170,8 +171,7 @@ static double deviation_of(const sums* it) {
   return sqrt(fmax(0, it->squares / it->n - mean_of(it) * mean_of(it)));
 }
 
-/* Checks the statistics of edges. Each edge counts once, although two triangles contain an inner
- * edge. */
+/* Checks edges of the triangles, each once: inner edges occur in both directions. */
 static void check_edges(pnpbs_placement placement, const result* it) {
   const bands told = bands_of(placement);
   sums all = {0, 0, 0}, in_band[BANDS];
@@ -204,7 +204,7 @@ typedef struct {
 } measured;
 
 static void add_measured(measured bands[BANDS + 1], int64_t band, double value, int smaller) {
-  const int64_t both[2] = {band, BANDS}; /* the band, and all bands together */
+  const int64_t both[2] = {band, BANDS}; /* in its band and in the sum of all */
   int k;
   for (k = 0; k < 2; ++k) {
     measured* it = &bands[both[k]];
@@ -237,8 +237,7 @@ static void check_measure(pnpbs_placement placement, const char* name, const ban
   }
 }
 
-/* Checks the statistics of cells. An edge appears at both ends and counts at the one with the
- * smaller index. */
+/* Edges occur at both ends and are counted at the end with the smaller index. */
 static void check_cells(pnpbs_placement placement, const result* it) {
   const bands limits = bands_of(placement);
   measured ratios[BANDS + 1], areas[BANDS + 1], offsets[BANDS + 1];
@@ -302,8 +301,7 @@ START_TEST(as_by_brute_force) {
 }
 END_TEST
 
-/* Centroidal sweeps move nodes towards the centroids of their cells and preserve a good topology.
- */
+/* Centroidal sweeps move nodes to the centroids of their cells and leave the topology good. */
 START_TEST(centroidal_sweeps) {
   const char* sweeps[3] = {"0", "10", "40"};
   double mean[3], max[3];
@@ -339,7 +337,7 @@ START_TEST(bands_share_out_d) {
   MUST_COMPUTE(pnpbs_placement_run(graded.placement));
   it = bands_of(graded.placement);
   ck_assert_int_eq(it.count, 8);
-  ck_assert_double_eq_tol(it.from[0], d.a, 1e-12); /* a corner is a node */
+  ck_assert_double_eq_tol(it.from[0], d.a, 1e-12); /* at a corner, which is a node */
   for (k = 0; k < 8; ++k) {
     ck_assert_double_eq_tol(it.to[k] / it.from[k], it.to[0] / it.from[0], 1e-9);
     if (k > 0) ck_assert_double_eq(it.from[k], it.to[k - 1]);
@@ -355,7 +353,8 @@ START_TEST(bands_share_out_d) {
 }
 END_TEST
 
-/* Statistics describe the current nodes, also after steps and before a run. */
+/* Statistics are those of the current nodes, also after single steps. Before there are nodes they
+ * are errors. */
 START_TEST(before_a_run) {
   cone d = {0.012, 0.03, 0, 0};
   job it = graded_job(&d);
@@ -374,7 +373,7 @@ START_TEST(before_a_run) {
   check_cells(it.placement, &found);
   check_circumcentres(it.placement, &found, 10);
   result_free(&found);
-  MUST_COMPUTE(pnpbs_placement_step(it.placement, 1)); /* the statistics are computed again */
+  MUST_COMPUTE(pnpbs_placement_step(it.placement, 1)); /* the cached statistics are recomputed */
   found = result_of(it.placement);
   check_triangles(it.placement, &found);
   result_free(&found);
@@ -429,7 +428,7 @@ static const char* last_warning(pnpbs_placement placement) {
   return text;
 }
 
-/* Without steps the given nodes remain, which are far too few for d. */
+/* The run has no steps and far too few nodes for d, and the finish cannot correct that. */
 START_TEST(missed_spacing_is_told) {
   job it = square_job(1);
   double xy[2 * 400];
@@ -452,7 +451,7 @@ START_TEST(missed_spacing_is_told) {
   ck_assert_int_eq(count, 1);
   MUST_BE(PNPBS_SPACING_MISSED, pnpbs_placement_run(it.placement));
   MUST(pnpbs_placement_warning_count(it.placement, &count));
-  ck_assert_int_eq(count, 1); /* the count includes the last run only */
+  ck_assert_int_eq(count, 1); /* of the last run only */
   MUST(pnpbs_placement_set_int64(it.placement, "steps", 300));
   MUST(pnpbs_placement_run(it.placement));
   MUST(pnpbs_placement_warning_count(it.placement, &count));
@@ -461,7 +460,7 @@ START_TEST(missed_spacing_is_told) {
 }
 END_TEST
 
-/* Without sweeps and repairs, which would compute the stars anyway, the result is the same. */
+/* The warning does not depend on sweeps and repairs, for which stars are built anyway. */
 START_TEST(missed_without_sweeps) {
   job it = square_job(1);
   const double xy[] = {0.5, 0.5};
@@ -475,8 +474,8 @@ START_TEST(missed_without_sweeps) {
 }
 END_TEST
 
-/* In a domain with short edges nodes at distance d do not fit. Distances that the user's corners
- * determine, and means over few edges, do not count as a missed spacing. */
+/* A domain with short edges has no room for nodes at d. Deviations that the user's corners cause,
+ * or that only few edges show, do not count as a missed d. */
 START_TEST(corners_are_no_miss) {
   job it = job_begin();
   add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 10, 0.1, 1);
@@ -491,7 +490,8 @@ START_TEST(corners_are_no_miss) {
 }
 END_TEST
 
-/* Checks that stars from a run equal those computed after adjacency lists. */
+/* Checks that stars restored from those of the run equal stars from lists that are built after
+ * them. */
 static void check_stars_before_and_after_lists(pnpbs_placement placement) {
   result before = result_of(placement);
   const int64_t rebuilds = integer_of(placement, "rebuilds");

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of regions with tags: the elements on both sides of inner curves and surfaces, however
- * coarsely d resolves these, and invalid input. */
+ * Tests regions with tags: elements on either side of inner curves and surfaces, which d may not
+ * resolve, and invalid input.
+ */
 #include "volume_support.h"
 
 /* ---------------------------------------------------------------- elements -------------- */
@@ -73,7 +74,7 @@ static void centre(const elements* e, int64_t k, double* x) {
   }
 }
 
-/* Checks that the distributed mesh has the same number of elements with the tag. */
+/* Checks that the elements of the distributed mesh have the same tags, in any order. */
 static void check_mesh(const job* it, const elements* e, int32_t tag) {
   pnpbs_mesh mesh;
   int64_t n, k, with_tag = 0, expected = 0;
@@ -118,7 +119,7 @@ START_TEST(strips_and_a_disc) {
   MUST(pnpbs_domain_add_region(it.domain, in[0], 30));
   MUST(pnpbs_domain_add_region(it.domain, in[1], -70));
   MUST(pnpbs_domain_add_region(it.domain, in[2], 5));
-  MUST(pnpbs_domain_add_region(it.domain, in[2], 5)); /* it repeats the tag */
+  MUST(pnpbs_domain_add_region(it.domain, in[2], 5)); /* repeats the same tag for the same region */
   it = placed(it, d);
   e = elements_of(&it, 2);
   ck_assert_double_eq_tol(measure_with(&e, 30), 1, 1e-12);
@@ -187,8 +188,7 @@ START_TEST(ring_that_d_does_not_resolve) {
 }
 END_TEST
 
-/* A change of the domain after the run does not change the tags of its elements until they are
- * computed again. */
+/* If the domain changes after a run, the elements keep their tags until the next initialise. */
 START_TEST(tags_stay_with_the_elements) {
   const double in[2] = {0.5, 0.5};
   job it = square_job(1);
@@ -220,8 +220,8 @@ static void add_quad(int64_t* corners, int64_t* count, int64_t a, int64_t b, int
   *count += 2;
 }
 
-/* Adds the box [0, 2] x [0, 1]^2, which a wall at x = 1 divides. Vertex i + 3 j + 6 k is at (i, j,
- * k). */
+/* Adds the box [0, 2] x [0, 1]^2, divided by a wall at x = 1. Vertex i + 3 j + 6 k is at (i, j, k).
+ */
 static void add_divided_box(pnpbs_domain domain) {
   double x[36];
   int64_t corners[66], count = 0, v, i;
@@ -243,7 +243,7 @@ static void add_divided_box(pnpbs_domain domain) {
   MUST(pnpbs_domain_set_role(domain, 40, PNPBS_INNER));
 }
 
-/* A wall divides a box, and each half contains a ball. d hardly resolves one of them. */
+/* A wall divides a box, and each half contains a ball, one of which d hardly resolves. */
 START_TEST(box_with_wall_and_balls) {
   const double middles[2][3] = {{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}}, outside[3] = {0.05, 0.05, 0.05};
   const double radii[2] = {0.3, 0.15};
@@ -282,7 +282,7 @@ START_TEST(box_with_wall_and_balls) {
 }
 END_TEST
 
-/* An inner ball is removed from the box. This reverses its triangles and the regions on their
+/* A hole point removes an inner ball. Its triangles are then reversed, and so are the tags of their
  * sides. */
 START_TEST(box_without_a_ball) {
   const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1}, middle[3] = {0.5, 0.5, 0.5},

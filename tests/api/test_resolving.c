@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of bodies whose shape d does not resolve: A warning reports it, and the option `resolve`
- * reduces d there. */
+ * Tests shapes that d does not resolve: a warning reports them, and the option `resolve` corrects
+ * it.
+ */
 #include "volume_support.h"
 
 static pnpbs_status wedge(pnpbs_domain domain, const char* data) {
@@ -12,7 +13,7 @@ static pnpbs_status wedge(pnpbs_domain domain, const char* data) {
   return volume_add_quads(domain, PNPBS_BOUNDARY, 6, xyz[0], 5, sides);
 }
 
-/* Runs in the body with the given d and the given value of the option resolve. */
+/* Runs with d as given, or refined as the option says. */
 static job run_in(volume_body body, double d, const char* resolve) {
   job it = body_job(body);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
@@ -33,7 +34,7 @@ START_TEST(nothing_is_missing) {
 }
 END_TEST
 
-/* A slot is as wide as a third or a sixth of d. Its sides have nodes opposite each other. */
+/* A slot as wide as a third or a sixth of d has nodes opposite to each other on its sides. */
 START_TEST(a_thin_slot) {
   static const double d[] = {0.12, 0.24};
   job it = run_in(volume_slotted, d[_i], "0");
@@ -58,7 +59,7 @@ START_TEST(a_sharp_wedge) {
 }
 END_TEST
 
-/* If the option is set after a run, the next run starts anew. */
+/* The option can be set after a run, which builds the level again. */
 START_TEST(set_later) {
   job it = run_in(volume_slotted, 0.12, "0");
   const int64_t before = integer_of(it.placement, "nodes");
@@ -71,7 +72,8 @@ START_TEST(set_later) {
 }
 END_TEST
 
-/* By default d is reduced where the boundary has gaps, and only there. */
+/* By default d is held down where the boundary is torn, and only there. Without rounds d stays as
+ * given. */
 START_TEST(held_down_where_torn) {
   job as_given = unresolved_job(), it = unresolved_job();
   MUST(pnpbs_placement_set(as_given.placement, "conforming_rounds", "0"));
@@ -83,9 +85,9 @@ START_TEST(held_down_where_torn) {
   ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
   ck_assert_int_eq(warnings_with(it.placement, "the spacing did not resolve the shape at"), 1);
   ck_assert_int_lt(integer_of(it.placement, "nodes"), 3 * integer_of(as_given.placement, "nodes"));
-  check_body(&it, 0.05); /* its bumps are smaller than d */
+  check_body(&it, 0.05); /* the boundary is coarse at its bumps */
 
-  /* A new spacing discards the reductions. */
+  /* A new spacing does not keep the reduced values. */
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
   MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
   ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
@@ -96,7 +98,7 @@ START_TEST(held_down_where_torn) {
 }
 END_TEST
 
-/* The same holds for surfaces without a volume, where triangles do not join. */
+/* The same holds on surfaces, where triangles do not join. */
 START_TEST(held_down_on_surfaces) {
   job as_given = unresolved_surface_job(), it = unresolved_surface_job();
   MUST(pnpbs_placement_set(as_given.placement, "conforming_rounds", "0"));

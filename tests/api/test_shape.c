@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of a spacing that follows the shape of a domain, and of a spacing for a wanted number of
- * nodes. */
+ * Tests the spacing from the shape of a domain, and spacings for a wanted number of nodes.
+ */
 #include "volume_support.h"
 
 static const double pi = 3.14159265358979323846;
 
-/* Returns a ring between circles of radius 1 and 2 with tags 1 and 2. */
+/* Returns a placement in the ring between circles of radius 1 and 2, which have the tags 1 and 2.
+ */
 static job ring_job(void) {
   static const double centre[] = {3, 4};
   job it = job_begin();
@@ -39,7 +40,7 @@ START_TEST(distances) {
 }
 END_TEST
 
-/* A change of the domain changes the distances. */
+/* Distances follow a change of the domain. */
 START_TEST(distances_after_a_change) {
   static const double x[] = {0.5, 0.5}, hole[] = {0.2, 0.2, 0.4, 0.2, 0.4, 0.4, 0.2, 0.4};
   double d;
@@ -70,7 +71,7 @@ START_TEST(spacing_of_a_ring) {
 }
 END_TEST
 
-/* The nodes have the spacing that the domain reports. */
+/* d at the nodes equals the spacing that the domain computes. */
 START_TEST(nodes_of_a_ring) {
   int64_t nodes, i;
   double *x, *d, *wanted;
@@ -112,14 +113,14 @@ START_TEST(as_many_as_wanted) {
   MUST(pnpbs_domain_read_poly(it.domain, PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly"));
   job_place(&it);
   MUST(pnpbs_placement_set_spacing_from_shape(it.placement, 20, 3, 1, 0, 0, 0));
-  expect_wanted(&it, "3e4", 0.015); /* sampling has an error of one percent for such an uneven d */
+  expect_wanted(&it, "3e4", 0.015); /* samples miss one per cent of so uneven a d */
   it = square_job(1);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.5));
   expect_wanted(&it, "2e4", 0.01);
 }
 END_TEST
 
-/* The estimate is off by two to four percent, which the run corrects. */
+/* The estimate is off by two to four per cent, which the run corrects. */
 START_TEST(as_many_as_wanted_where_few_are) {
   static const double corners[] = {0, 0, 5, 0, 6, 3, 3, 2.2, 0, 4};
   static const struct {
@@ -150,8 +151,8 @@ START_TEST(as_many_as_wanted_among_islands) {
 }
 END_TEST
 
-/* Fewer nodes are wanted than d gives. d is scaled as a whole, so its growth stays the same and is
- * not limited. */
+/* Fewer nodes are wanted than d requires. Scaling the sizes keeps the growth, so that it need not
+ * be limited. */
 START_TEST(growth_stays_where_few_are_wanted) {
   int32_t warnings;
   job it = ring_job();

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of domains with hardly any room, spacings too large or far too small, and every combination
- * of the options that choose a method. */
+ * Tests domains with hardly any room, spacings that are too large or far too small, and every
+ * combination of the options that select a method.
+ */
 #include "api_support.h"
 
 static void add_loop(job* it, int64_t n, const double* xy) {
@@ -43,7 +44,7 @@ START_TEST(a_triangle_smaller_than_d) {
 }
 END_TEST
 
-/* No inner node fits into the strip. Its triangles connect boundary nodes alone. */
+/* No inner node fits into the strip, so its triangles connect boundary nodes only. */
 START_TEST(a_strip_narrower_than_d) {
   const double xy[8] = {0, 0, 2, 0, 2, 0.05, 0, 0.05};
   job it = job_begin();
@@ -59,7 +60,7 @@ START_TEST(a_strip_narrower_than_d) {
 }
 END_TEST
 
-/* Strips of every width, from no inner row to three rows, give valid results. */
+/* Strips of every width from none to three rows of inner nodes have correct results. */
 START_TEST(strips) {
   const double width = 0.02 * (_i + 1);
   double xy[8] = {0, 0, 1, 0, 1, 0, 0, 0};
@@ -77,7 +78,7 @@ START_TEST(strips) {
 }
 END_TEST
 
-/* A hexagon of side d has room for one node, which moves to the centre. */
+/* A hexagon of side d has room for one inner node, which moves to the centre. */
 START_TEST(one_inner_node) {
   double xy[12];
   const double start[2] = {0.2, -0.1};
@@ -107,7 +108,7 @@ START_TEST(one_inner_node) {
 }
 END_TEST
 
-/* In a wedge of one degree nodes exist only where there is room. */
+/* A wedge of one degree has nodes only where there is room. */
 START_TEST(a_wedge) {
   const double xy[6] = {0, 0, 1, 0, 1, 0.0175};
   job it = job_begin();
@@ -121,7 +122,7 @@ START_TEST(a_wedge) {
 }
 END_TEST
 
-/* The domain lies far from the origin, or is tiny, or huge. */
+/* Domains far from the origin, tiny domains and huge ones have correct results. */
 START_TEST(scales) {
   static const double cases[][3] = {{1e-6, 0, 0},  {1e6, 0, 0},  {1, 1e6, -1e6},
                                     {1e-50, 0, 0}, {1e50, 0, 0}, {1, 1e9, 1e9}};
@@ -133,7 +134,7 @@ START_TEST(scales) {
   MUST_COMPUTE(pnpbs_placement_run(plain.placement));
   nodes = run(&it, 0.125 * s);
   if (s > 1e-100 && s < 1e100) {
-    check_result(&nodes, 1); /* the check's own arithmetic fails at larger scales */
+    check_result(&nodes, 1); /* beyond these limits the arithmetic of the check fails */
     ck_assert(fabs(quality_of(&nodes).mean - 1) < 0.1);
   }
   ck_assert_msg(fabs((double)nodes.n / (double)integer_of(plain.placement, "nodes") - 1) < 0.1,
@@ -156,11 +157,11 @@ START_TEST(more_nodes_than_allowed) {
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.01));
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "0.01", "1000");
   ck_assert_int_eq(integer_of(it.placement, "nodes"), 0);
-  /* The boundary alone would need too many nodes. */
+  /* The boundary nodes alone exceed the limit. */
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 1e-4));
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "1e-04", "1000");
-  /* This spacing would need more than 10^15 nodes. The call fails at once, whatever the limit is.
-   */
+  /* This spacing requires 10^15 nodes or more, beyond any limit. The error takes no noticeable
+   * time. */
   MUST(pnpbs_placement_set(it.placement, "max_nodes", "2000000000"));
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 1e-9));
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "1e-09", "nodes");
@@ -168,7 +169,7 @@ START_TEST(more_nodes_than_allowed) {
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.05));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   check_placement(it.placement, 1);
-  /* A fine tip in a coarse field is valid. */
+  /* A fine tip in a coarse field is not an error. */
   MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &tip));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   check_placement(it.placement, 1);
@@ -197,7 +198,7 @@ START_TEST(a_spacing_larger_than_a_feature) {
 }
 END_TEST
 
-/* Returns a spacing that jumps by a factor of 25. */
+/* A spacing callback with a jump by a factor of 25. */
 static int32_t coarse_beside_fine(int64_t n, int32_t dim, const double* xyz, double* d,
                                   void* user) {
   int64_t i;
@@ -206,8 +207,8 @@ static int32_t coarse_beside_fine(int64_t n, int32_t dim, const double* xyz, dou
   return 0;
 }
 
-/* The coarse side begins with far too many nodes, which are pressed into its corners. Of the nodes
- * that coincide there the first one stays. */
+/* The coarse side begins with far too many nodes, which are pressed into its corners. Of coincident
+ * nodes, the one with the smallest id stays. */
 START_TEST(a_crowded_corner) {
   static const char* const options[][2] = {
       {"steps", "40"}, {"steps", "60"}, {"sweeps", "4"}, {"topology_repairs", "2"}};
@@ -218,15 +219,15 @@ START_TEST(a_crowded_corner) {
   MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
   MUST(pnpbs_placement_set(it.placement, "sweeps", "0"));
   MUST(pnpbs_placement_set(it.placement, options[_i][0], options[_i][1]));
-  ck_assert_int_ge(pnpbs_placement_run(it.placement), PNPBS_OK); /* no node set can follow this d */
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), PNPBS_OK); /* no nodes can follow d */
   ck_assert_int_gt(integer_of(it.placement, "deleted"), 20);
   nodes = result_of(it.placement);
   check_result(&nodes, 1);
   for (i = 0; i < nodes.n; ++i)
-    for (j = 0; j < i; ++j) { /* in the order of their ids */
+    for (j = 0; j < i; ++j) { /* nodes are in the order of their ids */
       const double gap =
           hypot(nodes.xy[2 * i] - nodes.xy[2 * j], nodes.xy[2 * i + 1] - nodes.xy[2 * j + 1]);
-      /* A node that the last repairs move across the jump has another d afterwards. */
+      /* A node that the last repairs shift across the jump then has another d. */
       if (nodes.tags[i] == 0 && nodes.tags[j] == 0 && fabs(nodes.xy[2 * i] - 0.52) > 0.012)
         ck_assert_msg(gap >= 0.19 * nodes.d[i], "nodes at (%g, %g) and (%g, %g), %.3f d apart",
                       nodes.xy[2 * i], nodes.xy[2 * i + 1], nodes.xy[2 * j], nodes.xy[2 * j + 1],
@@ -237,7 +238,8 @@ START_TEST(a_crowded_corner) {
 }
 END_TEST
 
-/* Repairs far from rest must end, even if one of them inserts a node that another one deletes. */
+/* Far from rest, one repair may insert a node that another repair deletes. The rounds must still
+ * end. */
 START_TEST(rounds_of_repairs_end) {
   static const char* const rounds[] = {"30", "60"};
   int64_t inserted[2], deleted[2];
@@ -248,8 +250,7 @@ START_TEST(rounds_of_repairs_end) {
     MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
     MUST(pnpbs_placement_set(it.placement, "steps", "0"));
     MUST(pnpbs_placement_set(it.placement, "topology_repairs", rounds[k]));
-    /* no node set can follow this d */
-    ck_assert_int_ge(pnpbs_placement_run(it.placement), PNPBS_OK);
+    ck_assert_int_ge(pnpbs_placement_run(it.placement), PNPBS_OK); /* no nodes can follow d */
     inserted[k] = integer_of(it.placement, "inserted");
     deleted[k] = integer_of(it.placement, "deleted");
     job_end(&it);
@@ -263,7 +264,7 @@ END_TEST
 /* ---------------------------------------------------------------- methods --------------- */
 
 typedef struct {
-  const char* options[12]; /* keys and values in turn */
+  const char* options[12]; /* pairs of key and value */
   double mean, least;      /* lower bounds of the quality */
 } method;
 
@@ -302,7 +303,7 @@ static job job_of(const method* m) {
   return it;
 }
 
-/* Every method runs with a uniform spacing and one graded 1 : 4. */
+/* Each method runs with a uniform spacing and one graded by 1 : 4. */
 START_TEST(methods_run) {
   cone slope = {0.04, 0.12, 0, 0};
   int k;
@@ -329,7 +330,7 @@ START_TEST(methods_run) {
 }
 END_TEST
 
-/* The option method=paper equals the options that it stands for. */
+/* method=paper equals the options that it stands for. */
 START_TEST(the_paper_is_a_preset) {
   static const char* const options[][2] = {
       {"law", "cubic"},       {"scheme", "predictor_corrector"}, {"finish", "runge_kutta"},

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of domains on a sphere: Nodes lie on it, triangles cover the region that the coasts bound,
- * d is measured along it, and invalid input is rejected. */
+ * Tests domains on a sphere: nodes lie on it, triangles cover the domain that the coasts bound, d
+ * is a length along the sphere, and invalid input is rejected.
+ */
 #include "api_support.h"
 
 static const double R = 6371.22;
@@ -65,8 +66,8 @@ static void results_free(results* r) {
   free(r->corners);
 }
 
-/* Returns the area of the triangles on the sphere by the formula of Van Oosterom and Strackee
- * (1983). All triangles must be counter-clockwise seen from outside. */
+/* Returns the area of the triangles on the sphere, by the formula of Van Oosterom and Strackee
+ * (1983). All of them must be counter-clockwise as seen from outside. */
 static double area_on_sphere(const results* r) {
   double area = 0;
   int64_t t;
@@ -125,7 +126,7 @@ START_TEST(nodes_fill_what_coasts_bound) {
     ck_assert_double_eq_tol(r.d[i] / (120 + 0.1 * fabs(x[2])), 1, 1e-12);
   }
   ck_assert_double_eq_tol(area_on_sphere(&r) / whole, 1, 2e-3);
-  /* The triangles form a disc, whose Euler characteristic is 1. */
+  /* The Euler number is that of a disc. */
   MUST(pnpbs_placement_get_boundary_edges(it.placement, 0, &edges, NULL, NULL));
   ck_assert_int_eq(r.nodes - (3 * r.triangles + edges) / 2 + r.triangles, 1);
   ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.985);
@@ -136,8 +137,7 @@ START_TEST(nodes_fill_what_coasts_bound) {
 }
 END_TEST
 
-/* The same sea projected from two points has the same number of nodes, apart from random
- * differences. */
+/* The same sea in two projections has the same number of nodes for the same d, up to chance. */
 START_TEST(it_hardly_matters_from_where_it_is_seen) {
   int64_t nodes[2];
   int k;
@@ -170,8 +170,8 @@ START_TEST(distances_are_along_the_sphere) {
 }
 END_TEST
 
-/* The spacing is fine beside the coast, where a length in the projection is 13 times that on the
- * sphere. */
+/* A spacing callback that is fine beside the coast, where a length in the projection is 13 times as
+ * large as on the sphere. */
 static const double PIT = -0.87;
 
 static int32_t pit_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
@@ -196,8 +196,7 @@ START_TEST(growth_is_limited_along_the_sphere) {
     const double most = 60 + 0.2 * (way > 0 ? way : 0);
     if (most > 850) continue;
     ++limited;
-    /* Beside a line of fine d the growth limit may leave d a third too large; see growth_limit.hpp.
-     */
+    /* Beside a line of fine d the limit is exceeded by up to a third (spacing/growth_limit.hpp). */
     ck_assert_msg(r.d[i] < 1.34 * most + 5 && r.d[i] > 0.97 * most,
                   "d = %g, %g along the sphere: %g is the limit", r.d[i], way, most);
   }
@@ -207,7 +206,7 @@ START_TEST(growth_is_limited_along_the_sphere) {
 }
 END_TEST
 
-/* Nodes and values at nodes that the library returns can be its input again. */
+/* Nodes that are returned can be given as start nodes, and values at them as a spacing. */
 START_TEST(nodes_and_values_are_taken_back) {
   job it = sea_job();
   results r;
@@ -306,8 +305,8 @@ static void cells_free(cells* c) {
   free(c->areas), free(c->distances), free(c->normals);
 }
 
-/* Checks that faces lie on the great circle between two nodes, have the same length from both
- * sides, and that lengths are along the sphere. */
+/* Checks that the normal of each face points along the chord between its two nodes, that both sides
+ * have the same area, and that distances are along the sphere. */
 static void check_faces(const results* r, const cells* c) {
   int64_t i, k, m;
   int a;
@@ -335,9 +334,8 @@ static double sum_of(int64_t n, const double* values) {
   return sum;
 }
 
-/* The cells cover the same area as the triangles, and the lengths of their shares of the coast sum
- * to the coast's. A regular cell has the area of a hexagon, and its faces have the hexagon's
- * length. */
+/* The cells cover the area of the triangles, and their parts of the coast sum up to its length. A
+ * regular cell has the area of a hexagon. */
 START_TEST(voronoi_cells) {
   job it = sea_job();
   double coast = 0, boundary = 0, hexagons = 0;
@@ -375,7 +373,7 @@ START_TEST(voronoi_cells) {
       /* The normal points away from the domain, which lies in the north. */
       if (length > 0) ck_assert_double_lt(b[2], 0);
     }
-    /* The sum is smaller where the coast turns at a node. */
+    /* The sum of the vectors is less than the length where the coast turns at a node. */
     ck_assert_double_ge(coast * (1 + 1e-12), boundary);
     ck_assert_double_ge(boundary, 0.99 * coast);
     for (i = 0; i < c.nodes; ++i)
@@ -413,8 +411,8 @@ static int32_t gentle_spacing(int64_t n, int32_t dim, const double* x, double* d
   return 0;
 }
 
-/* Without a curve the triangles cover the whole sphere once, and nothing in the result reveals the
- * point of projection. */
+/* A whole sphere has no curve. The triangles cover it once, and nothing in the results reveals the
+ * centre of projection. */
 START_TEST(nothing_bounds_a_whole_sphere) {
   job it = globe_job(55, -82);
   double measure, outside[3], furthest = -2;
@@ -445,7 +443,7 @@ START_TEST(nothing_bounds_a_whole_sphere) {
     ck_assert_double_eq_tol(r.d[i] / (250 - 100 * x[2] / R), 1, 1e-9);
     ck_assert_int_eq(tags[i], 0);
   }
-  ck_assert_double_lt(R * acos(furthest), 0.7 * 350); /* in the middle of a triangle */
+  ck_assert_double_lt(R * acos(furthest), 0.7 * 350); /* it lies in the middle of a triangle */
   ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.994);
   ck_assert_double_gt(real_of(it.placement, "quality.min"), 0.6);
   ck_assert_double_eq_tol(real_of(it.placement, "edge.mean"), 1, 0.01);
@@ -455,7 +453,7 @@ START_TEST(nothing_bounds_a_whole_sphere) {
 }
 END_TEST
 
-/* The nodes that close the sphere at the point of projection are placed anew for a new spacing. */
+/* A new spacing replaces the patch that closes the sphere. */
 START_TEST(whole_spheres_follow_a_new_spacing) {
   job it = globe_job(10, 40);
   double *values, at[3], value, degrees[2] = {10, 40};
@@ -483,7 +481,7 @@ START_TEST(whole_spheres_follow_a_new_spacing) {
     ck_assert_double_eq_tol((double)r.nodes / (double)expected, 1, 0.04);
     results_free(&r);
   }
-  /* Values at nodes define a value at the point of projection too. */
+  /* Values at nodes can be evaluated at the centre of projection as well. */
   r = results_of(it.placement);
   values = malloc((size_t)r.nodes * sizeof *values);
   ck_assert(values);
@@ -491,8 +489,7 @@ START_TEST(whole_spheres_follow_a_new_spacing) {
   MUST(pnpbs_transfer_create(it.placement, r.nodes, 1, values, &transfer));
   MUST(pnpbs_sphere_points(1, 1, degrees, at));
   MUST(pnpbs_transfer_at_points(transfer, 1, at, &value));
-  /* The value comes from the triangle around the point, whose distance from the sphere this
-   * tolerance bounds. */
+  /* The value is that of its triangle, which lies at most this far below the sphere. */
   ck_assert_double_eq_tol(value, R * at[2], 350.0 * 350.0 / (6 * R));
   MUST(pnpbs_transfer_destroy(&transfer));
   free(values);
@@ -512,8 +509,8 @@ static int32_t spacing_from_point(int64_t n, int32_t dim, const double* x, doubl
   return 0;
 }
 
-/* d grows by half and more across the nodes that are placed first. There is no gap beside them. The
- * first call on the placement is the estimate. */
+/* d grows by half and more across the closing patch, and no gap is left beside it. The estimate
+ * works before there are nodes. */
 START_TEST(whole_spheres_are_closed_where_the_spacing_grows) {
   job it = globe_job(10, 40);
   double at[3];
@@ -547,8 +544,8 @@ static int32_t steep_spacing(int64_t n, int32_t dim, const double* x, double* d,
   return 0;
 }
 
-/* d is so steep that the triangle around the point would have edges far longer than d. The growth
- * limit prevents this. */
+/* d is so steep that the triangle around the centre of projection has edges far longer than d,
+ * unless its growth is limited. */
 START_TEST(whole_spheres_are_closed_where_the_spacing_is_steep) {
   job it = globe_job(20, -30);
   const double degrees[2] = {20, -30};
@@ -567,7 +564,7 @@ START_TEST(whole_spheres_are_closed_where_the_spacing_is_steep) {
 }
 END_TEST
 
-/* The number of nodes does not depend on the magnitude of the d that is scaled. */
+/* The result does not depend on the size of the d that is scaled. */
 START_TEST(whole_spheres_have_as_many_nodes_as_are_wanted) {
   double d;
   for (d = 1; d < 1e7; d *= 100) {
@@ -608,12 +605,12 @@ START_TEST(whole_spheres_have_curves_and_fixed_nodes_inside) {
 }
 END_TEST
 
-/* The region of the nodes placed first is wider on coarser levels. Levels on which it would reach a
- * curve are not used. */
+/* The closing patch is wider on coarser levels, so levels on which it would reach a curve are left
+ * out. */
 START_TEST(whole_spheres_have_curves_beside_what_is_laid_first) {
   job it = globe_job(0, -90);
   results r;
-  add_parallel(it.domain, 90, -58, 30, PNPBS_INNER); /* 14.2 d from the point */
+  add_parallel(it.domain, 90, -58, 30, PNPBS_INNER); /* 14.2 d from the centre of projection */
   job_place(&it);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 250));
   MUST(pnpbs_placement_run(it.placement));
@@ -626,8 +623,8 @@ START_TEST(whole_spheres_have_curves_beside_what_is_laid_first) {
 }
 END_TEST
 
-/* Neither the number of fixed nodes placed first nor the growth of d in the projection prevents
- * coarser levels, if there are enough nodes for them. */
+/* Neither the fixed nodes of the closing patch nor the growth of d there in the projection reduces
+ * the number of coarser levels. */
 START_TEST(whole_spheres_have_coarser_levels) {
   job it = globe_job(20, -30);
   job_place(&it);
@@ -662,8 +659,8 @@ START_TEST(what_whole_spheres_refuse) {
 }
 END_TEST
 
-/* The segments of a coast join each other on the sphere, along the great circles between its
- * vertices. A whole sphere has none. */
+/* The segments of a coast follow each other along the great circles between its vertices, and lie
+ * on the sphere. A whole sphere has none. */
 START_TEST(segments_of_a_coast) {
   static const double degrees[6] = {-10, 30, 60, 50, 40, -20}, outside[3] = {-1, 0, 0};
   const int32_t given[3] = {4, 5, 6};
@@ -698,7 +695,7 @@ START_TEST(segments_of_a_coast) {
       ck_assert_double_eq_tol(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / R, 1, 1e-14);
       ck_assert_double_eq_tol((n[0] * x[0] + n[1] * x[1] + n[2] * x[2]) / (size * R), 0, 1e-12);
     }
-    /* The end of the segment is the begin of the next one. */
+    /* The end of a segment is the begin of the next one. */
     if (s + 1 < count && tags[s + 1] == tags[s])
       ck_assert(memcmp(segments + 6 * s + 3, segments + 6 * s + 6, 3 * sizeof *segments) == 0);
   }
@@ -742,7 +739,8 @@ START_TEST(bad_input) {
   MUST_FAIL(PNPBS_ERROR_ARGUMENT,
             pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 3, x, NULL, 0), "vertex 0",
             "outside of the domain");
-  /* The first curve passes through the point of projection, the second beside it. */
+  /* A curve may not pass through the pole that is the centre of projection, but may pass beside it.
+   */
   MUST_FAIL(PNPBS_ERROR_ARGUMENT,
             pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 3, over_pole, NULL, 0),
             "vertex 0 (1, 0, -1) [longitude 0, latitude -45]", "lies on the curve");
@@ -756,7 +754,7 @@ START_TEST(bad_input) {
             "vertices 0 (-1, 0, 0) [longitude 180, latitude 0] and 1 (1, 0, 0)");
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, zero, 1, 0, 1, 1),
             "sphere", "plane");
-  /* Points in messages are longitude and latitude. */
+  /* Points in messages are given as longitude and latitude. */
   add_parallel(it.domain, 4, -40, 0, PNPBS_BOUNDARY);
   add_parallel(it.domain, 6, -44, 0, PNPBS_BOUNDARY);
   MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "cross at (longitude ",

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of repeated runs on a whole sphere: The nodes around the point of projection keep their
- * positions in steps, and the nodes come to rest. */
+ * Tests repeated runs on a whole sphere: the nodes of the closing patch around the centre of
+ * projection do not move in steps, and the nodes come to rest.
+ */
 #include "api_support.h"
 
 static const double R = 6371.22;
@@ -18,7 +19,7 @@ static job globe_job(double d) {
   return it;
 }
 
-/* The nodes by id, and the distance of each from the point of projection along the sphere. */
+/* Nodes by id, with their distances from the centre of projection along the sphere. */
 typedef struct {
   int64_t n;
   double *x, *away;
@@ -56,7 +57,8 @@ static void nodes_free(nodes_by_id* nodes) {
   free(nodes->away);
 }
 
-/* Checks about 500 nodes within 12 d. The last finish has moved those beyond 6 d. */
+/* The closing patch of some 500 nodes reaches up to 12 d. The last finish has moved those beyond 6
+ * d. */
 START_TEST(steps_move_none_of_those_laid_first) {
   const double d = 300;
   job it = globe_job(d);
@@ -87,8 +89,8 @@ START_TEST(steps_move_none_of_those_laid_first) {
 }
 END_TEST
 
-/* The second run settles the population. If bubbles moved towards the point, each run would delete
- * some there. */
+/* The first further run settles the population. If bubbles drifted to the centre of projection,
+ * each run would delete some of them there. */
 START_TEST(runs_again_delete_hardly_any) {
   job it = globe_job(300);
   int64_t before, after;

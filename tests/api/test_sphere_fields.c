@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of d on spheres given by values on grids, on meshes and at points. They compare d with the
- * functions that the values sample and with searches through all triangles. They include the ends
- * of grids, the poles and the point of projection, the messages about data that covers only a part,
- * and invalid data. */
+ * Tests spacings on spheres from values on grids, on meshes and at points, against the functions
+ * that were sampled and against searches through all triangles. The cases include the first and
+ * last columns of grids, poles and the centre of projection, fields that cover a part of the
+ * sphere, and invalid input.
+ */
 #include "api_support.h"
 
 static const double R = 6371.22;
 
-/* Returns a job on the whole sphere that is projected from this point. */
+/* Returns a placement on the whole sphere with this centre of projection. */
 static job globe_from(double longitude, double latitude) {
   const double degrees[2] = {longitude, latitude};
   double outside[3];
@@ -51,7 +52,7 @@ static double to_the_poles(double longitude, double latitude) {
   return 300 + 150 * pow(sin(PI * latitude / 180), 2);
 }
 
-/* A function that is steepest along the meridian of 180 degrees and smooth at the poles. */
+/* Returns a function that is steepest along 180 degrees and smooth at the poles. */
 static double sideways(double longitude, double latitude) {
   return 350 + 100 * cos(PI * latitude / 180) * sin(PI * longitude / 180);
 }
@@ -88,11 +89,10 @@ static void set_grid(pnpbs_placement placement, const degree_grid* grid, field f
   free(values);
 }
 
-/* Compares d with the function that each grid samples. Grids have values at points or in the
- * middles of cells; the first column repeated at the end; another origin; a shorter last step; no
- * rows at the poles. The checks include the surroundings of the point of projection, the meridian
- * where the grid begins, and the poles. The tolerance is the error of linear interpolation: step^2
- * / 8 times the curvature in each direction. */
+/* The grids have values at corners or at the middles of cells, repeat the first column at the end,
+ * have another origin, have a shorter last step, or lack the poles. At the centre of projection, at
+ * the meridian where the grid begins and at the poles, d must equal the function up to the
+ * interpolation error: step^2 / 8 times the curvature in each direction. */
 START_TEST(a_grid_around_the_sphere) {
   static const degree_grid grids[] = {
       {{72, 37}, {-180, -90}, {5, 5}},
@@ -156,8 +156,8 @@ START_TEST(a_grid_has_as_many_nodes_as_its_function) {
 }
 END_TEST
 
-/* A single low value lies in the middle of the sphere, beside the meridian where the grid begins,
- * or in the row next to a pole. Sampling of d alone would miss it. */
+/* A single low value lies in the middle of the sphere, at the meridian where the grid begins, or in
+ * the row next to a pole. Samples of d miss it, and the nodes must follow it nevertheless. */
 START_TEST(a_low_value_of_a_grid) {
   static const int64_t size[2] = {360, 181}, spots[3][2] = {{77, 121}, {0, 40}, {211, 179}};
   static const double origin[2] = {-180, -90}, step[2] = {1, 1};
@@ -184,7 +184,7 @@ START_TEST(a_low_value_of_a_grid) {
 }
 END_TEST
 
-/* If a row at a pole has different values, d at the pole is their mean. */
+/* A row at a pole with different values gives one value there: their mean. */
 START_TEST(a_pole_has_one_spacing) {
   const int64_t size[2] = {4, 3};
   const double origin[2] = {0, -90}, step[2] = {90, 90},
@@ -207,7 +207,7 @@ START_TEST(a_pole_has_one_spacing) {
 }
 END_TEST
 
-/* The domain is a sea of 20 degrees, and the grid lies on the other side of the Earth. */
+/* The sea is 20 degrees wide, and the grid lies on the other side of the Earth. */
 START_TEST(a_grid_beside_the_domain) {
   static const int64_t size[2] = {4, 4};
   static const double step[2] = {5, 5}, degrees[8] = {0, 0, 20, 0, 20, 20, 0, 20};
@@ -232,7 +232,7 @@ START_TEST(a_grid_beside_the_domain) {
 }
 END_TEST
 
-/* Returns the share of nodes that lie outside the grid according to the warning. */
+/* Returns the share of nodes that the warning reports as beyond the grid. */
 static double share_beyond(const char* warning) {
   long all = 0, beyond = 0;
   ck_assert_ptr_nonnull(warning);
@@ -245,8 +245,7 @@ static double share_beyond(const char* warning) {
   return (double)beyond / (double)all;
 }
 
-/* Outside the latitudes of the grid d is constant along meridians. The warning counts nodes before
- * they move. */
+/* Beyond the grid d is constant in latitude. The warning counts nodes before they move. */
 START_TEST(a_grid_of_some_latitudes) {
   static const degree_grid band = {{36, 13}, {-180, -60}, {10, 10}};
   job it = globe_from(20, -30);
@@ -271,8 +270,7 @@ START_TEST(a_grid_of_some_latitudes) {
 }
 END_TEST
 
-/* Returns the distance along the sphere from the half of a great circle that joins the poles at
- * this longitude. */
+/* Returns the distance along the sphere to a meridian, from pole to pole. */
 static double distance_to_meridian(const double* x, double longitude) {
   double least = 2 * R;
   int k;
@@ -285,7 +283,7 @@ static double distance_to_meridian(const double* x, double longitude) {
   return 2 * R * asin(least / (2 * R));
 }
 
-/* Outside the longitudes of the grid d is that of the end that is nearer in longitude. */
+/* Beyond the grid, the end that is nearer in longitude counts. */
 START_TEST(a_grid_of_some_longitudes) {
   static const degree_grid sector = {{13, 19}, {120, -90}, {10, 10}};
   job it = globe_from(20, -30);
@@ -380,7 +378,7 @@ typedef struct {
   int64_t* corners;
 } sphere_mesh;
 
-/* Returns the mesh of a placement with values of a function at its nodes. */
+/* Returns the triangles of a placement, with values of a function at its nodes. */
 static sphere_mesh mesh_of(pnpbs_placement placement, field f) {
   sphere_mesh mesh = {0};
   int64_t i;
@@ -403,7 +401,7 @@ static void mesh_free(sphere_mesh* mesh) {
   free(mesh->corners);
 }
 
-/* Returns the triangles of a whole sphere that is projected from this point. */
+/* Returns the triangles of a whole sphere with this centre of projection. */
 static sphere_mesh globe_mesh(double longitude, double latitude, double spacing, field f) {
   job it = globe_from(longitude, latitude);
   sphere_mesh mesh;
@@ -419,9 +417,9 @@ static void set_mesh(pnpbs_placement placement, const sphere_mesh* mesh) {
                                         mesh->corners));
 }
 
-/* Interpolates the value linearly at the point where the ray from the centre through x meets a
- * triangle, by T. Moeller, B. Trumbore (J. Graphics Tools 2 (1997) 21-28). Returns 0 if it misses
- * the triangle. */
+/* Computes the value at the intersection of a triangle and the ray from the centre through x, by
+ * linear interpolation (T. Moeller, B. Trumbore, J. Graphics Tools 2 (1997) 21-28). Returns whether
+ * they intersect. */
 static int value_on_ray(const sphere_mesh* mesh, int64_t t, const double* x, double* value) {
   const int64_t* c = mesh->corners + 3 * t;
   const double* a = mesh->x + 3 * c[0];
@@ -445,9 +443,9 @@ static int value_on_ray(const sphere_mesh* mesh, int64_t t, const double* x, dou
   return 1;
 }
 
-/* The first sphere has the same point of projection as the mesh, so that the mesh triangle around
- * it is unbounded in the chart. Growth is not limited, so that d at nodes equals the value of the
- * mesh. */
+/* One domain has the mesh's own centre of projection, about which the mesh's triangle is unbounded
+ * in the chart; the others have other centres. Growth is not limited, so d at nodes equals the
+ * values of the mesh. */
 START_TEST(a_mesh_of_the_whole_sphere) {
   static const double from[3][2] = {{20, -30}, {-160, 30}, {85, 88}};
   sphere_mesh mesh = globe_mesh(20, -30, 800, sideways);
@@ -473,8 +471,8 @@ START_TEST(a_mesh_of_the_whole_sphere) {
 }
 END_TEST
 
-/* A placement with the d of earlier nodes has the same number of nodes. This holds for both ways to
- * give the values, also if d is smallest near the point of projection. */
+/* If d at the nodes is given back as a spacing, the number of nodes stays the same. The test uses
+ * both a mesh and points, also for a d that is finest at the centre of projection. */
 START_TEST(as_many_nodes_by_their_own_spacing) {
   field f = _i % 2 == 0 ? to_the_poles : sideways;
   job it = globe_from(-90, 5);
@@ -487,7 +485,7 @@ START_TEST(as_many_nodes_by_their_own_spacing) {
     set_mesh(it.placement, &mesh);
   else
     MUST(pnpbs_placement_set_spacing_points(it.placement, mesh.n, mesh.x, mesh.d));
-  MUST(pnpbs_placement_run(it.placement)); /* starts from the current nodes */
+  MUST(pnpbs_placement_run(it.placement)); /* from the current nodes */
   MUST(pnpbs_placement_check(it.placement));
   MUST(pnpbs_placement_count(it.placement, &nodes));
   ck_assert_double_eq_tol((double)nodes / (double)mesh.n, 1, 0.015); /* 0.008 with a callback */
@@ -497,7 +495,7 @@ START_TEST(as_many_nodes_by_their_own_spacing) {
     set_mesh(it.placement, &mesh);
   else
     MUST(pnpbs_placement_set_spacing_points(it.placement, mesh.n, mesh.x, mesh.d));
-  MUST(pnpbs_placement_run(it.placement)); /* starts without nodes */
+  MUST(pnpbs_placement_run(it.placement)); /* without start nodes */
   MUST(pnpbs_placement_count(it.placement, &nodes));
   ck_assert_double_eq_tol((double)nodes / (double)mesh.n, 1, 0.01);
   ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.985);
@@ -510,8 +508,8 @@ static double between(const double* a, const double* b) {
   return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
-/* Returns the distance to the nearest point of the border of the mesh, and the value there. It
- * searches points on all sides that belong to one triangle only. */
+/* Returns the distance from x to the border of the mesh, and the value at the nearest point there.
+ * The border consists of the sides that belong to one triangle; it is sampled. */
 static double nearest_on_border(const sphere_mesh* mesh, const double* x, double* value) {
   enum { PARTS = 60 };
   double least = 3 * R;
@@ -540,8 +538,7 @@ static double nearest_on_border(const sphere_mesh* mesh, const double* x, double
   return 2 * R * asin(least / (2 * R));
 }
 
-/* The mesh covers the northern half. In the other half d is the value at the nearest point of the
- * border. */
+/* The mesh covers the northern half. Beyond it d is that of the nearest point of the mesh. */
 START_TEST(a_mesh_of_a_part) {
   sphere_mesh mesh = globe_mesh(20, -30, 800, sideways);
   job it = globe_from(20, -30);
@@ -565,7 +562,7 @@ START_TEST(a_mesh_of_a_part) {
     if (t < mesh.triangles) continue;
     distance = nearest_on_border(&mesh, x + 3 * i, &expected);
     outside += distance > d[i];
-    /* Near the other pole all of the border is at nearly the same distance. */
+    /* Near the other pole the whole border is at about the same distance. */
     if (distance < 8000) ck_assert_double_eq_tol(d[i], expected, 2);
   }
   warning = warning_with(it.placement, "the background mesh of the spacing covers only a part");
@@ -583,8 +580,7 @@ START_TEST(a_mesh_of_a_part) {
 }
 END_TEST
 
-/* d equals the given values at the points. Between them the error for a smooth function is of
- * second order. */
+/* d equals the values at the points, and a smooth function between them to second order. */
 START_TEST(points_all_over_the_sphere) {
   static const double places[][2] = {{0, 90}, {180, 0}, {-160, 31}, {20, -90}, {19, 40}};
   const double spacing = 600, most = 100 * pow(spacing / R, 2) / 2;
@@ -628,8 +624,8 @@ START_TEST(points_all_over_the_sphere) {
 }
 END_TEST
 
-/* The points cover a part of the sphere. Then a single point defines d on all of it. The length of
- * the coordinates has no effect. */
+/* The points cover a part of the sphere and determine d on all of it. Their distances from the
+ * centre do not matter. */
 START_TEST(points_in_a_part) {
   double degrees[2 * 50], x[3 * 50], d[50];
   job it = globe_from(20, -30);
@@ -653,9 +649,8 @@ START_TEST(points_in_a_part) {
 }
 END_TEST
 
-/* d is small at one node only, so that sampling of d would miss it. The least d of the result must
- * be there, also if that node is among those around the point of projection, which are placed
- * first. */
+/* A single node of the mesh has a small d that samples of d would miss. The nodes must follow it,
+ * also within the closing patch about the centre of projection. */
 START_TEST(what_is_fine_at_one_node) {
   static const double places[2][2] = {{100, 50}, {20, -20}};
   sphere_mesh mesh = globe_mesh(70, 40, 250, NULL);
@@ -697,8 +692,8 @@ static int32_t constant_spacing(int64_t n, int32_t dim, const double* x, double*
   return 0;
 }
 
-/* A coast with more vertices than d needs is simplified equally with d from a file and from a
- * callback. */
+/* A coast with more vertices than d needs is simplified in the same way with d from a file as with
+ * a callback. */
 START_TEST(a_coast_is_simplified_by_a_file) {
   enum { VERTICES = 720 };
   const char* path = "sphere_fields_coast.csv";
@@ -748,7 +743,7 @@ START_TEST(wrong_meshes_and_points) {
   x[3] = 0, d[1] = -1;
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_set_spacing_points(p, 3, x, d), "argument d[1]",
             "-1");
-  x[3] = 5, x[4] = 0; /* coincides with the first one */
+  x[3] = 5, x[4] = 0; /* at the position of the first one */
   d[1] = 200;
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_set_spacing_points(p, 3, x, d), "argument d[",
             "a place has one spacing");

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of placements on surfaces without a volume: nodes and triangles, and no tetrahedra. */
+ * Tests placements on surfaces alone: nodes and triangles on them, and nothing inside.
+ */
 #include "volume_support.h"
 
 /* ---------------------------------------------------------------- the triangles --------- */
 
 typedef struct {
   int64_t low, high;
-  int turn; /* 1 from low to high, -1 reversed */
+  int turn; /* 1 from low to high, -1 in the other direction */
 } edge;
 
 static int by_ends(const void* a, const void* b) {
@@ -16,8 +17,8 @@ static int by_ends(const void* a, const void* b) {
   return s->high < t->high ? -1 : s->high > t->high;
 }
 
-/* Checks that every edge has two triangles, which use it in opposite directions, or lies on the
- * border. Returns nodes - edges + triangles. */
+/* Checks that every edge has two triangles with opposite orientation, or is on the border. Returns
+ * nodes - edges + triangles. */
 static int64_t euler_number(const volume* v, int64_t* border) {
   const int64_t n = 3 * v->triangles;
   edge* edges = malloc((size_t)n * sizeof *edges);
@@ -121,8 +122,8 @@ START_TEST(a_terrain) {
 }
 END_TEST
 
-/* The triangles of each tag cover their half of the sphere. Nodes lie on the equator between the
- * halves. */
+/* The triangles of each tag cover their half of the sphere, and nodes lie on the equator between
+ * them. */
 START_TEST(two_tags) {
   job it = surfaces_job(surface_halves, 0.06);
   volume v;
@@ -145,7 +146,7 @@ START_TEST(two_tags) {
 }
 END_TEST
 
-/* The input has coarse flat triangles with creases and corners. */
+/* The surface has creases and corners between coarse flat triangles. */
 START_TEST(a_skin_with_creases) {
   job it = surfaces_job(surface_l_block, 0.05);
   volume v;
@@ -161,8 +162,8 @@ START_TEST(a_skin_with_creases) {
 }
 END_TEST
 
-/* On a rough surface and far from rest nodes may disagree about their triangles. The triangles in
- * the result agree nevertheless. */
+/* On a rough surface and far from rest, not all nodes find the same triangles. The returned
+ * triangles must agree nevertheless. */
 START_TEST(triangles_agree) {
   const double spacings[] = {4, 12, 20};
   job it = surfaces_job(surface_kleopatra, spacings[_i]);
@@ -194,7 +195,8 @@ static void check_again(const job* it, double d) {
   volume_free(&v);
 }
 
-/* The spacing becomes finer and then coarser. At last d is given by values at the current nodes. */
+/* d becomes finer, then coarser, and then is given by values at nodes. Each run begins from the
+ * current nodes. */
 START_TEST(another_spacing) {
   job it = surfaces_job(surface_halves, 0.2);
   double* d;
@@ -217,7 +219,7 @@ START_TEST(another_spacing) {
 }
 END_TEST
 
-/* Given nodes move to the surface. One that is too far away is dropped. */
+/* Given nodes are projected to the surface. One that is too far away is dropped. */
 START_TEST(given_nodes) {
   job it = surfaces_job(surface_halves, 0.15);
   volume v;
@@ -286,8 +288,8 @@ START_TEST(bad_domains) {
 }
 END_TEST
 
-/* If d exceeds the surface, its corners are the nodes. If d is far too small, the call reports too
- * many nodes. */
+/* With a d larger than the surface, only its corners are nodes. A d that is far too small is an
+ * error. */
 START_TEST(odd_spacings) {
   job it = square_alone();
   volume v;
@@ -299,7 +301,7 @@ START_TEST(odd_spacings) {
   v = volume_of(it.placement);
   ck_assert_int_eq(v.n, 4);
   ck_assert_int_eq(euler_number(&v, &border), 1);
-  ck_assert_int_eq(v.triangles, 2); /* all nodes are corners, which do not define the tag */
+  ck_assert_int_eq(v.triangles, 2); /* between corners, so no node has the tag of the triangles */
   for (i = 0; i < v.triangles; ++i) ck_assert_int_eq(v.side_tags[i], SQUARE_TAG);
   volume_free(&v);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 1e-10));
@@ -309,7 +311,7 @@ START_TEST(odd_spacings) {
 }
 END_TEST
 
-/* Some vertices must be nodes, and edges follow a diagonal. */
+/* A given vertex must be a node, and edges must follow a given diagonal. */
 START_TEST(fixed_nodes_and_curves) {
   const double diagonal[] = {0, 0, 0, 1, 1, 0}, corner[] = {1, 1, 0};
   const int32_t tag = 7;
@@ -336,8 +338,8 @@ START_TEST(fixed_nodes_and_curves) {
 }
 END_TEST
 
-/* The domain is read when a placement is initialised. A later change of the domain leaves the
- * elements unchanged until then. */
+/* A placement reads the domain when it is initialised. Until then a change does not affect its
+ * elements. */
 START_TEST(filled_when_it_is_initialised) {
   job it = box_job(0.4);
   pnpbs_mesh mesh;

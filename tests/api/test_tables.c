@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of the tables of options and statistics, row by row: The library must behave as the row
- * says. */
+ * Tests the tables of options and statistics row by row: the behaviour is as they state.
+ */
 #include <locale.h>
 
 #include "api_support.h"
 
 typedef struct {
   const char *name, *type, *standard, *range, *help;
-  double least, most; /* range of numbers */
+  double least, most; /* range of a number */
 } option;
 
 static option option_at(int32_t index) {
@@ -22,7 +22,7 @@ static option option_at(int32_t index) {
 }
 
 static int32_t options(void) {
-  int32_t count = 0; /* no assertion, since main calls this too */
+  int32_t count = 0; /* no assertion, since main calls it as well */
   return pnpbs_option_count(&count) == PNPBS_OK ? count : -1;
 }
 
@@ -38,7 +38,7 @@ static void check_line(const char* name, const char* text) {
 
 /* ---------------------------------------------------------------- options --------------- */
 
-/* The context exists before the first run, so that `threads` can be set. */
+/* A context that exists before anything runs, so that `threads` can be set. */
 static pnpbs_context context;
 
 static void accept(const option* it, const char* value) {
@@ -149,7 +149,7 @@ START_TEST(misspelt_options) {
 }
 END_TEST
 
-/* A placement accepts the same options except `threads`. */
+/* Options of a placement are set in the same way. */
 START_TEST(options_of_a_placement) {
   job it = square_job(1);
   const option row = option_at(_i);
@@ -164,7 +164,7 @@ START_TEST(options_of_a_placement) {
 }
 END_TEST
 
-/* Setting each option to its default has no effect. */
+/* Setting every option to its default changes nothing. */
 START_TEST(defaults_change_nothing) {
   job it = square_job(1), plain = square_job(1);
   int32_t i;
@@ -183,8 +183,8 @@ START_TEST(defaults_change_nothing) {
 }
 END_TEST
 
-/* A placement copies the options of its context when it is created and is independent of the
- * context from then on. */
+/* A placement starts with the options that its context has at that moment. Later changes of the
+ * context do not affect it. */
 START_TEST(options_are_inherited) {
   job it = job_begin();
   pnpbs_placement later = NULL;
@@ -200,7 +200,7 @@ START_TEST(options_are_inherited) {
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(later));
   ck_assert_int_eq(integer_of(it.placement, "steps"), 7);
   ck_assert_int_eq(integer_of(later, "steps"), 9);
-  /* A placement with nodes accepts new values. */
+  /* Options can be set on a live placement. */
   MUST(pnpbs_placement_set(later, "steps", "2"));
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(later));
   ck_assert_int_eq(integer_of(later, "steps"), 11);
@@ -209,7 +209,7 @@ START_TEST(options_are_inherited) {
 }
 END_TEST
 
-/* A rejected value leaves the previous one unchanged. */
+/* A rejected value leaves the previous one in effect. */
 START_TEST(rejected_values_change_nothing) {
   job it = square_job(1);
   MUST(pnpbs_placement_set(it.placement, "tolerance_mean", "0"));
@@ -223,8 +223,8 @@ START_TEST(rejected_values_change_nothing) {
 }
 END_TEST
 
-/* Numbers are read and written with a point in locales with a decimal comma, where one is
- * installed. */
+/* Numbers are read and written with a decimal point, also if the locale has a comma. Without such a
+ * locale the test uses the default one. */
 START_TEST(numbers_in_another_locale) {
   static const char* const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8"};
   const char* range = NULL;
@@ -292,7 +292,7 @@ START_TEST(what_the_statistics_table_says) {
 }
 END_TEST
 
-/* Some statistics are compared with what the run does. */
+/* Checks the meaning of some statistics. */
 START_TEST(statistics_mean_what_they_say) {
   job it = square_job(1);
   const char* text = NULL;
@@ -331,8 +331,7 @@ START_TEST(statistics_mean_what_they_say) {
   result_free(&nodes);
   MUST(pnpbs_placement_set(it.placement, "tolerance_mean", "1"));
   MUST(pnpbs_placement_set(it.placement, "tolerance_max", "10"));
-  /* the nodes are at rest at the first event that checks */
-  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_run(it.placement)); /* the bubbles rest at the first event that tests it */
   ck_assert_int_gt(integer_of(it.placement, "steps"), steps);
   MUST(pnpbs_placement_get_string(it.placement, "stop_reason", &text));
   ck_assert_str_eq(text, "rest");
@@ -340,7 +339,7 @@ START_TEST(statistics_mean_what_they_say) {
 }
 END_TEST
 
-/* The nodes before plus the inserted minus the deleted ones equal the nodes after. */
+/* The numbers of inserted and deleted nodes add up. */
 START_TEST(the_population_adds_up) {
   job it = square_job(1);
   int64_t before, inserted, deleted, after;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests that the same job with one, two and more threads gives bitwise equal nodes. The number of
- * threads is fixed once per process, so this program runs itself: `test_api_threads <job> <file>`
- * does a job and writes all of its results; without arguments it compares such files. */
+ * Tests that the same job with one, two and more threads gives the same nodes, bit for bit. The
+ * number of threads is fixed once per process, so this program runs itself: `test_api_threads <job>
+ * <file>` runs a job and writes all of its results. Without arguments it compares such files.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <sys/types.h>
@@ -13,7 +14,7 @@
 
 /* ---------------------------------------------------------------- the jobs -------------- */
 
-/* Ends the process if the call has failed. It runs in a separate process without Check. */
+/* Ends the process if a call fails. Jobs run in processes of their own, without Check. */
 static void demand(pnpbs_status status, const char* what) {
   if (status >= 0) return;
   fprintf(stderr, "%s: %s\n", what, pnpbs_last_error(NULL));
@@ -26,7 +27,7 @@ typedef struct {
   const char* file; /* a domain under examples/data, or NULL for the unit square */
   cone slope;
   const char* options[10];
-  double second; /* factor of d in a second run, 0 for none */
+  double second; /* factor of d for a second run; 0 for none */
 } thread_job;
 
 static const thread_job jobs[] = {
@@ -50,7 +51,7 @@ static const thread_job jobs[] = {
      0},
 };
 
-/* Writes all results into a text file with all bits of the numbers. */
+/* Writes all results to a text file, with all bits. */
 static void write_results(pnpbs_placement p, FILE* file) {
   int64_t n = 0, entries = 0, near = 0, triangles = 0, edges = 0, i;
   double *xy, *d;
@@ -91,8 +92,7 @@ static void write_results(pnpbs_placement p, FILE* file) {
   ends = malloc(2 * (size_t)edges * sizeof *ends);
   edge_tags = malloc((size_t)edges * sizeof *edge_tags);
   DEMAND(pnpbs_placement_get_nodes(p, n, xy, ids, tags, d));
-  /* like Triangle's .node files, but with hexadecimal numbers */
-  fprintf(file, "%" PRId64 " 2 1 1\n", n);
+  fprintf(file, "%" PRId64 " 2 1 1\n", n); /* as in Triangle's .node files */
   for (i = 0; i < n; ++i) {
     fprintf(file, "%" PRId64 " %a %a %a %" PRId32 " id %" PRId64 "\n", i + 1, xy[2 * i],
             xy[2 * i + 1], d[i], tags[i], ids[i]);
@@ -160,8 +160,8 @@ static int do_job(int which, const char* path) {
 
 static const char* this_program;
 
-/* Runs job `which` with this many threads and output to a file. Returns the number of threads in
- * use. */
+/* Runs job `which` with this many threads into a file. Returns the number of threads that it had.
+ */
 static int run_with(int which, int threads, const char* path) {
   char number[20], count[20];
   int ends[2], status = -1;
@@ -230,7 +230,7 @@ START_TEST(any_number_of_threads) {
                   "%s: not the same with %d threads and with 1: see %s and %s", jobs[_i].name,
                   threads[k], path[0], path[k]);
   }
-  /* In this job nodes must be inserted and deleted. */
+  /* Nodes were inserted and deleted where the job is meant to cause that. */
   ck_assert_int_eq(
       sscanf(strstr(text[0], "inserted"), "inserted %lld deleted %lld", &inserted, &deleted), 2);
   if (strcmp(jobs[_i].name, "restless") == 0) ck_assert(inserted > 0 && deleted > 0);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of placements in space through the C interface: Results are consistent, and calls that
- * cannot succeed report an error. */
+ * Tests placements in space through the C interface: the results are consistent with each other,
+ * and requests that are impossible give errors.
+ */
 #include "volume_support.h"
 
 /* ---------------------------------------------------------------- what is handed out ---- */
@@ -35,7 +36,7 @@ START_TEST(a_box) {
 }
 END_TEST
 
-/* The lists contain all nodes within 1.7 d, and they are symmetric. */
+/* Lists contain exactly the pairs within 1.7 d, in both directions. */
 START_TEST(adjacency_by_distance) {
   job it = box_job(0.2);
   volume v;
@@ -113,7 +114,7 @@ START_TEST(functions_of_the_other_dimension) {
 }
 END_TEST
 
-/* Only the corners become nodes, and the tetrahedra between them still fill the body. */
+/* Only corners are nodes, and the tetrahedra between them still fill the body. */
 START_TEST(spacings_far_larger_than_the_body) {
   static const double huge[] = {3, 1e6, 1e150, 1e299};
   job it = box_job(huge[_i]);
@@ -167,8 +168,7 @@ START_TEST(too_many_nodes) {
 }
 END_TEST
 
-/* A region of small d: a ball or a layer. Samples of d at the density of the surrounding bubbles
- * may miss it. */
+/* d is fine within a ball or a layer that samples for the large bubbles around it may miss. */
 typedef struct {
   int layer;
   double at[3], half_width, fine;
@@ -176,7 +176,7 @@ typedef struct {
 
 static const fine_place fine_places[] = {
     {0, {0.5, 0.5, 0.5}, 0.06, 0.01},
-    {0, {1, 0.5, 0.5}, 0.06, 0.01}, /* on a side */
+    {0, {1, 0.5, 0.5}, 0.06, 0.01}, /* on a side of the box */
     {1, {0.37, 0, 0}, 0.02, 0.04},
     {1, {0.25, 0, 0}, 0.02, 0.04}, /* on faces of leaves of the tree */
 };
@@ -194,7 +194,7 @@ static int32_t fine_within(int64_t n, int32_t dim, const double* xyz, double* d,
   return 0;
 }
 
-/* Checks that d grows from the region with the exact growth limit. */
+/* Checks d at the nodes against the exact limit of its growth. */
 static void check_growth_from(const fine_place* place, const volume* v) {
   int64_t i, fine = 0;
   for (i = 0; i < v->n; ++i) {
@@ -214,7 +214,7 @@ START_TEST(fine_in_a_small_place) {
   pnpbs_status status;
   MUST(pnpbs_placement_set_spacing_callback(it.placement, fine_within, &place));
   status = pnpbs_placement_run(it.placement);
-  if (status != PNPBS_SPACING_MISSED) /* allowed if only some hundred edges are coarse */
+  if (status != PNPBS_SPACING_MISSED) /* it may be, since only some hundred edges are coarse */
     MUST_COMPUTE(status);
   ck_assert_int_eq(warnings_with(it.placement, "its growth is limited to 0.3"), 1);
   check_body(&it, 1e-12);
@@ -226,8 +226,8 @@ START_TEST(fine_in_a_small_place) {
 }
 END_TEST
 
-/* Returns a d with which tetrahedra and nodes on the surface use different diagonals. The sides
- * must be flat nevertheless. */
+/* A spacing for which the tetrahedra and the nodes on the surface may choose different diagonals of
+ * four nodes on a flat side. No boundary triangle counts as missing then. */
 static int32_t graded_from_a_layer(int64_t n, int32_t dim, const double* xyz, double* d,
                                    void* user) {
   int64_t i;
@@ -236,8 +236,8 @@ static int32_t graded_from_a_layer(int64_t n, int32_t dim, const double* xyz, do
   return 0;
 }
 
-/* In a ball of radius 0.3 the nodes are valid, but no tetrahedra exist between them. The run, the
- * warning and the check all report this. */
+/* A ball of radius 0.3: the nodes are valid, but no element lies between them. The run, the warning
+ * and the check must report the same. */
 START_TEST(bodies_that_the_spacing_does_not_resolve) {
   static const double centre[] = {0, 0, 0};
   static const struct {
@@ -274,7 +274,7 @@ START_TEST(bodies_that_the_spacing_does_not_resolve) {
 }
 END_TEST
 
-/* Boundary nodes lie on the surface within rounding, which is 2^-47 of the largest coordinate. */
+/* Boundary nodes lie on the surface up to rounding, which is 2^-47 of the largest coordinate. */
 START_TEST(bodies_far_from_the_origin) {
   static const double offsets[] = {0, 1e5, -1e8, 1e9};
   const double at = offsets[_i], centre[] = {at, 0.3 * at, -at};
@@ -333,9 +333,9 @@ static int32_t fine_at_a_line(int64_t n, int32_t dim, const double* xyz, double*
 }
 
 START_TEST(fine_at_a_line_in_a_low_box) {
-  const double g = 0.3, d0 = 0.02, r = (0.3 - d0) / g; /* r is where the growth of d ends */
-  /* The expected number is the integral of sqrt(2) / d^3 over the box: the integral of 2 pi r / (d0
-   * + g r)^3 around the line, plus the part beyond it. */
+  const double g = 0.3, d0 = 0.02, r = (0.3 - d0) / g; /* from this radius on d is 0.3 */
+  /* The expected number of nodes is the integral of sqrt(2) / d^3 over the box: of 2 pi r / (d0 + g
+   * r)^3 around the line, and of a constant beyond. */
   const double pi = acos(-1), around = pi * r * r / (d0 * pow(d0 + g * r, 2)),
                beyond = (4 - pi * r * r) / pow(0.3, 3), expected = sqrt(2) * (around + beyond);
   job it = body_job(low_box);
@@ -349,8 +349,9 @@ START_TEST(fine_at_a_line_in_a_low_box) {
 }
 END_TEST
 
-/* Adds a wall. All nodes lie on its sides, and many are opposite each other. Four of them may lie
- * in a plane across the wall. An element must fill the gap there, or the mesh has cracks. */
+/* Adds a wall whose nodes are all on its sides, and many opposite to each other. Four of them may
+ * lie in a plane across the wall. The region between them must be an element, otherwise the mesh
+ * has cracks. */
 static pnpbs_status wall(pnpbs_domain domain, const char* folder) {
   const double low[] = {0, 0, 0}, high[] = {40, 40, 1};
   (void)folder;
@@ -378,8 +379,8 @@ static pnpbs_status thicker_wall(pnpbs_domain domain, const char* folder) {
   return pnpbs_domain_add_box(domain, low, high, 1);
 }
 
-/* Edges through the wall are longer than d, as there is no room for another layer of nodes. If the
- * nodes follow d along the wall, d is not missed. If they are too few, it is. */
+/* Edges through the wall are longer than d, since a second layer of nodes has no room. Nodes that
+ * follow d along the wall do not miss d, whereas too few nodes do. */
 START_TEST(walls_of_two_d) {
   const double d[] = {1, 1.05};
   int k;
@@ -425,8 +426,8 @@ START_TEST(distances_of_repairs_are_statistics) {
   ck_assert_double_lt(real_of(it.placement, "repaired.distance"), 1e-3);
   ck_assert_double_eq(real_of(it.placement, "repaired.hole_distance"), 0);
   ck_assert_double_lt(real_of(it.placement, "repaired.mean_distance"), 1e-5);
-  /* The expected values come from the corner of each box that lies in the other one, and from the
-   * squares at it without a rim of 0.05. */
+  /* The removed parts are the corner of each box that lies in the other one, and the squares at it
+   * except a rim of 0.05. */
   ck_assert_double_eq_tol(real_of(it.placement, "repaired.given_distance"), 0.5, 0.01);
   ck_assert_double_eq_tol(real_of(it.placement, "repaired.lost_area"), 6 * 0.45 * 0.45 / 12, 0.01);
   MUST(pnpbs_placement_set_spacing_constant(whole.placement, 0.5));
@@ -438,8 +439,8 @@ START_TEST(distances_of_repairs_are_statistics) {
 }
 END_TEST
 
-/* Adds a plate with an upright wall that is thinner than half of d. Bubbles on one side of the wall
- * and on the plate come to rest with a node missing at some points. */
+/* Adds a plate with an upright wall that is thinner than half of d. Bubbles on one side of the
+ * wall, and on the plate, may come to rest with single nodes missing. */
 static pnpbs_status tee(pnpbs_domain domain, const char* folder) {
   static const double outline[8][2] = {{0, 0},    {12, 0}, {12, 4}, {9.4, 4},
                                        {9.4, 10}, {9, 10}, {9, 4},  {0, 4}};
@@ -458,8 +459,8 @@ static pnpbs_status tee(pnpbs_domain domain, const char* folder) {
   return volume_add_quads(domain, PNPBS_BOUNDARY, 16, vertices[0], 14, sides);
 }
 
-/* Returns the largest distance between a point of a rectangle perpendicular to an axis and the
- * nearest node in its plane. */
+/* Returns the largest distance from points of a rectangle, orthogonal to an axis, to the nodes in
+ * its plane. */
 static double farthest(const volume* v, int axis, double level, const double* low,
                        const double* high) {
   const double step = 0.05;
@@ -511,8 +512,8 @@ static int32_t watching(double fraction, int64_t step, int64_t nodes, double max
   return ++w->calls > w->stop_at;
 }
 
-/* The run stops on a coarser level, on the surfaces, or inside. The current nodes form a
- * triangulation of the body. */
+/* The monitor stops on a coarser level, on the surfaces or inside. The nodes must form a
+ * triangulation of the body in each case. */
 START_TEST(stopped_by_the_monitor) {
   static const int stops[] = {0, 1, 2, 4, 6};
   struct volume_spacing spacing = VOLUME_GRADED(0.05, 0.1, 0, 0, 0);
@@ -526,7 +527,7 @@ START_TEST(stopped_by_the_monitor) {
   if (integer_of(it.placement, "nodes") > 0) check_stopped_body(&it, 1e-12);
   w.stop_at = 1000000;
   w.last = 0;
-  /* The mean may be off for the few edges where d is largest. */
+  /* The mean may be off for the few edges where d is largest, so the status is not restricted. */
   ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
   check_body(&it, 1e-12);
   job_end(&it);
@@ -547,8 +548,8 @@ static int32_t telling_nodes(double fraction, int64_t step, int64_t nodes, doubl
   return 0;
 }
 
-/* Returns the nodes of a level that follows a coarse one with this number of changes. `ask` says
- * whether the nodes of the coarse level were queried. */
+/* Returns the numbers of nodes that the monitor receives while a level follows a coarse one. The
+ * coarse level has changed `changes` times before, and its nodes were requested if `ask` is set. */
 static told_nodes told_of_the_next_level(int changes, int ask) {
   struct volume_spacing spacing = VOLUME_GRADED(0.1, 0.1, 0, 0, 0);
   job it = body_job(volume_unit_box);
@@ -569,8 +570,8 @@ static told_nodes told_of_the_next_level(int changes, int ask) {
   return told;
 }
 
-/* Results cached for one level are not used for another level with the same number of changes,
- * while its surfaces settle. */
+/* Cached data of one level must not be used for another level that has changed as many times, while
+ * its surfaces settle. */
 START_TEST(levels_are_told_apart) {
   int changes, k;
   for (changes = 0; changes < 12; ++changes) {
@@ -587,10 +588,10 @@ START_TEST(by_steps) {
   job it = box_job(0.15);
   int64_t inserted = -1, deleted = -1, before;
   int k;
-  MUST(pnpbs_placement_set(it.placement, "tolerance_mean", "0")); /* prevents rest */
+  MUST(pnpbs_placement_set(it.placement, "tolerance_mean", "0")); /* so that it never rests */
   MUST(pnpbs_placement_initialise(it.placement));
   check_body(&it, 1e-12);
-  before = integer_of(it.placement, "steps"); /* steps on the surfaces */
+  before = integer_of(it.placement, "steps"); /* steps that settled the surfaces */
   for (k = 0; k < 3; ++k) {
     MUST_COMPUTE(pnpbs_placement_step(it.placement, 7));
     ck_assert_int_eq(integer_of(it.placement, "steps"), before + 7 * (k + 1));
@@ -605,8 +606,8 @@ START_TEST(by_steps) {
 }
 END_TEST
 
-/* Where d is reduced so far that nearly all inner nodes come from filling gaps, these nodes count
- * as inserted too. */
+/* If d becomes so much smaller that nearly all inner nodes are added by filling gaps, these count
+ * as inserted. */
 START_TEST(fills_count_as_inserted) {
   job it = box_job(0.5);
   int64_t before, after;
@@ -616,7 +617,7 @@ START_TEST(fills_count_as_inserted) {
   MUST_COMPUTE(pnpbs_placement_step(it.placement, 1));
   after = integer_of(it.placement, "nodes") - integer_of(it.placement, "boundary_nodes");
   ck_assert_int_gt(after, before + 150);
-  /* Some more nodes were inserted on the surfaces. */
+  /* Further nodes are inserted on the surfaces. */
   ck_assert_int_ge(integer_of(it.placement, "inserted"), after - before);
   ck_assert_int_eq(integer_of(it.placement, "deleted"), 0);
   check_body(&it, 1e-12);
@@ -624,8 +625,8 @@ START_TEST(fills_count_as_inserted) {
 }
 END_TEST
 
-/* The given nodes form a cubic lattice, more than half of which lies outside. The nodes keep their
- * ids. */
+/* Given nodes are the points of a cubic lattice, half of which lie outside. Nodes keep their ids.
+ */
 START_TEST(given_nodes) {
   enum { ROW = 12, ALL = ROW * ROW * ROW };
   double* xyz = malloc(3 * ALL * sizeof *xyz);
@@ -678,7 +679,7 @@ START_TEST(values_at_nodes) {
 }
 END_TEST
 
-/* Returns the number of nodes with the same id in both results. Each must have moved by at most
+/* Returns the number of nodes with the same id in both. Each of them must have moved by at most
  * `most`. */
 static int64_t kept_ids(const volume* before, const volume* after, double most) {
   int64_t i, j = 0, kept = 0;
@@ -699,7 +700,7 @@ static int64_t id_at(const volume* v, double x, double y, double z) {
   return -1;
 }
 
-/* d becomes smaller in a corner and larger elsewhere. */
+/* d becomes finer by two in a corner and coarser elsewhere. */
 START_TEST(another_spacing) {
   struct volume_spacing corner = VOLUME_GRADED(0.07, 0.08, 1, 1, 1);
   job it = box_job(0.1);
@@ -736,7 +737,7 @@ static void check_as_dense_as_if_new(job* adapted, double d) {
   job_end(&fresh);
 }
 
-/* d is reduced and enlarged by factors above and below two. The nodes follow on the surface and
+/* d becomes finer and coarser by more and by less than two. The nodes follow on the surface and
  * inside. */
 START_TEST(d_is_followed_up_and_down) {
   const double spacings[] = {0.065, 0.15, 0.1, 0.08};
@@ -753,7 +754,7 @@ START_TEST(d_is_followed_up_and_down) {
 }
 END_TEST
 
-/* Nodes stay where d is unchanged. */
+/* Nodes stay if d stays. */
 START_TEST(the_same_spacing_again) {
   job it = box_job(0.12);
   volume before, after;

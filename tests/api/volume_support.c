@@ -1,4 +1,6 @@
-/* SPDX-License-Identifier: BSD-3-Clause */
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Implements the helpers of volume_support.h. */
 #include "volume_support.h"
 
 job body_job(volume_body body) {

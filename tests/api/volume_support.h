@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Support code of the tests of placements in space: bodies, and copies of results with their sums.
+ * Helpers of the tests of placements in space: bodies, and results that are copied out and summed
+ * up.
  */
 #ifndef PNPBS_TESTS_VOLUME_SUPPORT_H
 #define PNPBS_TESTS_VOLUME_SUPPORT_H
@@ -11,17 +12,18 @@
 #define DATA PNPBS_SOURCE_DIR "/examples/data"
 
 job body_job(volume_body body); /* creates a placement in the body */
-job box_job(double d);          /* creates one in the unit box with this d */
+job box_job(double d);          /* creates a placement in the unit box */
 
-/* Creates a job in a globe with bumps and dents, whose depth and number grow with the first two
- * arguments. */
+/* Returns a placement in a globe with bumps and dents. These are deeper for a larger `depth` and
+ * narrower for larger `waves`. */
 job rough_job(double depth, double waves, double d);
 /* resolution 0 means no repair */
 job repaired_job(double depth, double waves, double d, double resolution);
 
-/* Creates a job in a body that d does not resolve: no choice of elements closes its boundary. */
+/* Returns a placement with a d that does not resolve the body. Its boundary is torn for any choice
+ * of the elements. */
 job unresolved_job(void);
-/* Creates a job on a small sphere without a volume, on which triangles do not join. */
+/* Returns a placement on a small sphere without filling, on which triangles do not join. */
 job unresolved_surface_job(void);
 
 int warnings_with(pnpbs_placement placement, const char* words);
@@ -38,20 +40,20 @@ void volume_free(volume* v);
 
 double distance(const double* a, const double* b);
 
-/* Returns the total volume of the tetrahedra. Each must have a positive volume. */
+/* Returns the sum of the volumes of the tetrahedra, each of which must be positive. */
 double volume_sum(const volume* v);
 
-/* Returns the area of the boundary triangles with a tag (0: any), and the volume that all of them
- * enclose. */
+/* Returns the area of the boundary triangles with a tag (0: with any tag), and the volume that all
+ * of them enclose. */
 double boundary_area(const volume* v, int32_t tag, double* enclosed);
 
-/* Returns the smallest distance between two nodes relative to the mean of their d. */
+/* Returns the distance of the nearest pair over the mean of its d. */
 double nearest_pair(const volume* v);
 
-/* Runs the library's own check, and compares the volume with a plain sum. */
+/* Checks the body by the library's own check, and its volume by plain sums. */
 void check_body(const job* it, double tolerance);
 
-/* Runs the same check during the movement of bubbles, when tetrahedra may have no volume. */
+/* Checks a body whose bubbles still move. Until they have moved, tetrahedra may have no volume. */
 void check_stopped_body(const job* it, double tolerance);
 
 #endif

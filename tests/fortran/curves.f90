@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Curves and level sets for the tests of domains.
+!> Curve and level-set callbacks for the tests of domains.
 module curves
   use, intrinsic :: iso_c_binding
   implicit none
 contains
-  !> An ellipse with the axes that user points to; fails without.
+  !> Returns points of an ellipse with the semi-axes that `user` points to. Fails without `user`.
   function ellipse(n, dim, t, coordinates, user) bind(C)
     integer(c_int64_t), value :: n
     integer(c_int32_t), value :: dim
@@ -22,7 +22,8 @@ contains
     ellipse = 0
   end function
 
-  !> Negative in a ball with the radius that user points to; fails without.
+  !> Returns a function that is negative in a ball with the radius that `user` points to. Fails
+  !> without `user`.
   function ball_level_set(n, dim, coordinates, values, user) bind(C)
     integer(c_int64_t), value :: n
     integer(c_int32_t), value :: dim

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the tests of the Fortran module share: expectations, which are counted, and a placement.
+!> Helpers of the tests of the Fortran modules: expectations, which are counted, and a placement.
 module expectations
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -21,7 +21,7 @@ contains
     write (error_unit, '(4a)') 'FAILED: ', what, '; last error: ', pnpbs_last_error()
   end subroutine
 
-  !> An error of a certain kind whose message holds a text.
+  !> Expects an error with this status, whose message contains this text.
   subroutine expect_failure(stat, wanted, errmsg, text)
     integer(c_int), intent(in) :: stat, wanted
     character(len=*), intent(in) :: errmsg, text
@@ -31,13 +31,13 @@ contains
     call expect(index(errmsg, text) > 0, 'no "' // text // '" in "' // trim(errmsg) // '"')
   end subroutine
 
-  !> Ends the program, with exit status 1 if anything failed.
+  !> Ends the program, with exit status 1 if an expectation failed.
   subroutine finish()
     write (*, '(i0, a, i0, a)') checks, ' checks, ', failures, ' failed'
     if (failures > 0 .or. checks == 0) stop 1
   end subroutine
 
-  !> A placement in the unit square with spacing d, not yet initialised.
+  !> Creates a placement in the unit square with spacing d. It is not initialised.
   subroutine square(context, domain, placement, d)
     type(pnpbs_context), intent(in) :: context
     type(pnpbs_domain), intent(inout) :: domain

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# How a program ends that asks for no stat. usage: stop.sh <test_stop>
+# Tests how a program without the argument stat ends after an error.
+# usage: stop.sh <test_stop>
 set -eu
 program=$1
 

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Callbacks with user data: spacings, monitors, and what they return.
+!> Tests callbacks with and without user data: spacings and monitors, and the values that they
+!> return.
 program test_callbacks
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -18,7 +19,7 @@ program test_callbacks
   call square(context, domain, placement, 0.1d0)
   call placement%set('steps', 45)
 
-  ! Without user data, and the same as the constant.
+  ! A callback without user data has the same nodes as the constant that it returns.
   call placement%set_spacing_callback(constant_spacing)
   call placement%run
   call placement%get('hash', hash)
@@ -32,7 +33,7 @@ program test_callbacks
   call placement%run(stat, errmsg)
   call expect_failure(stat, PNPBS_ERROR_CALLBACK, errmsg, '8')
 
-  ! With user data.
+  ! A callback with user data.
   call placement%set_spacing_callback(cone_spacing, c_loc(asked))
   call placement%run
   call expect(asked%calls > 0, 'the spacing was asked')
@@ -46,7 +47,7 @@ program test_callbacks
   call other%run(stat, errmsg)
   call expect_failure(stat, PNPBS_ERROR_SPACING, errmsg, 'nodes')
 
-  ! The monitor: told, asked from inside, stopping, removed.
+  ! The monitor is called, makes queries, stops a run, and is removed.
   watcher%placement = placement%handle()
   call placement%set_spacing_constant(0.1d0)
   call placement%set_monitor(watch, c_loc(watcher))
@@ -68,7 +69,7 @@ program test_callbacks
   call placement%destroy
   call domain%destroy
   call context%destroy
-  deallocate (hash, hash_again)  ! the main program's would count as leaks
+  deallocate (hash, hash_again)  ! variables of the main program would count as leaks
   call finish
 
 contains

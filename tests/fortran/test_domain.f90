@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Domains: every kind of curve, areas that are known, and arguments that are wrong.
+!> Tests domains: every kind of curve, known areas, and invalid arguments.
 program test_domain
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -44,7 +44,7 @@ contains
     integer(c_int32_t), allocatable :: tags(:)
     integer(c_int64_t) :: count
     call domain%create(context)
-    ! A section with gaps is packed on the way in.
+    ! A section with gaps is copied to a contiguous array before the call.
     wide = 9
     wide(1:2, :) = corners
     call domain%add_polyline(PNPBS_BOUNDARY, .true., wide(1:2, :), [3, 4, 5, 6], 0d0)
@@ -86,7 +86,7 @@ contains
     call domain%destroy
   end subroutine
 
-  !> The first segment with a tag.
+  !> Returns the index of the first segment with a tag.
   function first_with(tag, tags)
     integer, intent(in) :: tag
     integer(c_int32_t), intent(in) :: tags(:)
@@ -96,7 +96,8 @@ contains
     end do
   end function
 
-  !> Where a curve begins, which its shape alone does not tell.
+  !> Checks where open curves begin, as the order of their segments is not determined by their
+  !> shape.
   subroutine about_open_curves
     type(pnpbs_domain) :: domain
     real(c_double), target :: axes(2)
@@ -145,7 +146,7 @@ contains
     call domain%add_fixed_nodes(reshape([1.2d0, 0.75d0], [2, 1]))
     call domain%check
     call domain%destroy
-    ! The last vertex is number 8: Fortran counts from 1.
+    ! The last vertex has the index 8, as Fortran counts from 1.
     ends(2, 8) = 9
     call domain%create(context)
     call domain%add_pslg(xy, ends, stat=stat, errmsg=errmsg)
@@ -162,7 +163,8 @@ contains
     call domain%destroy
   end subroutine
 
-  !> More vertices than segments, and tags of each that the other has not.
+  !> Checks a graph with more vertices than segments, and with tags of each that the other does not
+  !> have.
   subroutine about_graphs_with_tags
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
@@ -198,7 +200,7 @@ contains
     type(cone), target :: even
     integer(c_int64_t) :: ends(2, 44), vertices, curves
     integer :: i
-    ! A square of 40 segments, and a small one of four within it.
+    ! The graph has a square of 40 segments, and a small square of four segments within it.
     do i = 1, 10
       xy(:, i) = [0.1d0 * (i - 1), 0d0]
       xy(:, i + 10) = [1d0, 0.1d0 * (i - 1)]
@@ -255,7 +257,7 @@ contains
     call inset%add_offset(square, ieee_value(deep, ieee_negative_inf), -0.042d0)
     call expect(abs(area(inset) - (1 - 2 * 0.042d0)**2) < 1d-9, 'area of an inset by lengths')
     call inset%destroy
-    ! Between four straight lines.
+    ! The inset lies between four straight lines.
     graded%finest = 0.1d0
     graded%growth = 0.05d0
     call inset%create(context)
@@ -263,7 +265,7 @@ contains
     call expect(abs(area(inset) - 0.916d0 * (right - left) + 0.021d0 * (right**2 - left**2)) &
                 < 1d-9, 'area of a graded inset')
     call inset%destroy
-    ! More points on the way round the outer corners.
+    ! A finer resolution has more points on the arcs around the outer corners.
     call inset%create(context)
     call inset%add_offset(square, 0d0, 0.042d0, resolution=0.05d0)
     call inset%segment_count(coarse)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A caller whose default integers have eight bytes (-fdefault-integer-8).
+!> Tests a caller whose default integers have eight bytes (-fdefault-integer-8).
 program test_eight_bytes
   use, intrinsic :: iso_c_binding
   use pnpbs

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The library, its tables, contexts, options and handles.
+!> Tests the library, its tables, contexts, options and handles.
 program test_library
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -47,7 +47,7 @@ contains
       call expect(len(name) > 0 .and. len(range) > 0 .and. len(help) > 0, 'option ' // name)
       call expect(type == 'integer' .or. type == 'real' .or. type == 'choice', 'type of ' // name)
       if (name == 'steps') found = type == 'integer'
-      ! Each column is what it should be, and no other one.
+      ! Each column must have the expected content.
       if (name == 'method') then
         call expect(type == 'choice' .and. default_value == 'default', 'type and default of method')
         call expect(range == 'default | paper' .and. index(help, 'scheme') > 0, &
@@ -116,7 +116,7 @@ contains
     call context%destroy(stat, errmsg)
     call expect(stat == PNPBS_ERROR_HANDLE, 'the copy of a destroyed context')
 
-    ! Without MPI_Init.
+    ! MPI is not initialised.
     call context%create_mpi(0, stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_MPI .or. stat == PNPBS_ERROR_UNSUPPORTED, 'no MPI')
     call expect(index(errmsg, 'use context%create_serial') > 0, 'a name as it is in Fortran')

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Distributed meshes of one process, in the plane, in space and on a surface: numbers, orientation
-!> through the local indices, facets, files, and wrong arguments. Over ranks: test_ranks.
+!> Tests distributed meshes of one process, in the plane, in space and on a surface: numbers,
+!> orientation of elements by local indices, facets, files, and invalid arguments. test_ranks tests
+!> meshes over ranks.
 program test_mesh
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -22,7 +23,7 @@ program test_mesh
 
 contains
 
-  !> The unit square and a curve inside, of which edges have triangles on both sides.
+  !> Checks a mesh of the unit square with an inner curve, whose edges have triangles on both sides.
   subroutine about_the_plane
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
@@ -44,7 +45,7 @@ contains
     call mesh%destroy
   end subroutine
 
-  !> The unit square, divided by a line into two regions with tags.
+  !> Checks a mesh of the unit square, which a line divides into two regions with tags.
   subroutine about_regions
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
@@ -90,7 +91,8 @@ contains
     call domain%destroy
   end subroutine
 
-  !> Triangles with the tag 3 fill the left half, those with the tag 7 the right one.
+  !> Checks that triangles with the tag 3 fill the left half and those with the tag 7 the right
+  !> half.
   subroutine look_at_regions(x, corners, tags)
     real(c_double), intent(in) :: x(:,:)
     integer(c_int64_t), intent(in) :: corners(:,:)
@@ -112,7 +114,7 @@ contains
     call expect(maxval(abs(areas - 0.5d0)) < 1d-12, 'areas of the regions')
   end subroutine
 
-  !> A box, and a wall inside.
+  !> Checks a mesh of a box with a wall inside.
   subroutine about_a_box
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
@@ -157,7 +159,8 @@ contains
     call mesh%destroy
   end subroutine
 
-  !> The surface of a box alone, which has no border, and half of it, which has one.
+  !> Checks meshes of the surface of a box, which has no border, and of half of this surface, which
+  !> has one.
   subroutine about_a_surface
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
@@ -201,7 +204,7 @@ contains
     call mesh%destroy
   end subroutine
 
-  !> The file of one rank has all elements and facets, numbered from 1.
+  !> Checks that the file of one rank has all elements and facets, numbered from 1.
   subroutine look_at_file(mesh, elements, facets)
     type(pnpbs_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(in) :: elements, facets
@@ -224,7 +227,7 @@ contains
     call expect(stat == PNPBS_ERROR_ARGUMENT, 'an empty prefix')
   end subroutine
 
-  !> Sizes, numbers and nodes, which are those of the placement.
+  !> Checks sizes and numbers, and that nodes are those of the placement.
   subroutine look_at(placement, mesh, dim, corners, elements, facets)
     type(pnpbs_placement), intent(in) :: placement
     type(pnpbs_mesh), intent(in) :: mesh
@@ -275,7 +278,8 @@ contains
     call expect(offsets(1) == 1, 'offsets of nothing')
   end subroutine
 
-  !> They turn rightly and fill a measure; numbers at their corners are those of the local indices.
+  !> Checks that elements are oriented and fill the measure, and that numbers at their corners are
+  !> those of the local indices.
   subroutine look_at_elements(mesh, measure, tag)
     type(pnpbs_mesh), intent(in) :: mesh
     real(c_double), intent(in) :: measure
@@ -314,8 +318,8 @@ contains
     call expect(abs(filled - measure) < 1d-12, 'elements fill the domain')
   end subroutine
 
-  !> Facets are at their elements, and those of the boundary enclose a measure. inner_tag: of what
-  !> is inside, if anything is.
+  !> Checks that facets belong to their elements and that those of the boundary enclose the measure.
+  !> inner_tag is the tag of inner facets, if there are any.
   subroutine look_at_facets(mesh, measure, inner_tag)
     type(pnpbs_mesh), intent(in) :: mesh
     real(c_double), intent(in) :: measure
@@ -345,7 +349,7 @@ contains
     enclosed = 0
     do f = 1, facets
       associate (first => of(:, sides(1, f)))
-        ! All corners of the element but one are the facet's.
+        ! The facet must have all corners of the element except the opposite one.
         agree(1) = agree(1) .and. lies_at(at(:, f), first)
         agree(2) = agree(2) .and. .not. any(at(:, f) == first(opposite(f)))
       end associate
@@ -364,7 +368,7 @@ contains
     call expect(abs(enclosed - measure) < 1d-12, 'facets turn rightly')
   end subroutine
 
-  !> Are all corners of a facet corners of an element?
+  !> Returns whether all corners of a facet are corners of an element.
   function lies_at(facet, element)
     integer(c_int32_t), intent(in) :: facet(:), element(:)
     logical :: lies_at
@@ -372,7 +376,7 @@ contains
     lies_at = all([(any(element == facet(k)), k = 1, size(facet))])
   end function
 
-  !> Of a triangle in the plane or in space, where it has no sign, or a tetrahedron.
+  !> Returns the measure of a simplex. It has a sign except for a triangle in space.
   function measure_of(x) result(measure)
     real(c_double), intent(in) :: x(:,:)
     real(c_double) :: measure
@@ -386,7 +390,7 @@ contains
     end if
   end function
 
-  !> What a facet spans with the origin.
+  !> Returns the measure of the simplex of a facet and the origin.
   function cone_of(x) result(measure)
     real(c_double), intent(in) :: x(:,:)
     real(c_double) :: measure

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A communicator of the module mpi_f08.
+!> Tests a communicator of the module mpi_f08.
 program test_mpi_f08
   use, intrinsic :: iso_c_binding
   use mpi_f08

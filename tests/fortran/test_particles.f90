@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Particles of one process, in the plane and in space: their volumes add up to that of the body,
-!> none are too close, files have them all, and wrong arguments. Over ranks: tests/parallel.
+!> Tests particles of one process, in the plane and in space: their volumes sum up to that of the
+!> body, no pair is too close, files contain all of them, and invalid arguments are rejected.
+!> tests/parallel tests particles over ranks.
 program test_particles
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -47,7 +48,7 @@ contains
     call body%destroy
   end subroutine
 
-  !> A placement for particles in the unit square that stand for 0.01 each.
+  !> Creates a placement for particles in the unit square, each with an area of about 0.01.
   subroutine square_inset(body, placement)
     type(pnpbs_domain), intent(inout) :: body
     type(pnpbs_placement), intent(inout) :: placement
@@ -65,7 +66,7 @@ contains
     call inset%destroy
   end subroutine
 
-  !> The measure of the body is 1.
+  !> Checks particles in a body with the measure 1.
   subroutine look_at(placement, body, dim)
     type(pnpbs_placement), intent(inout) :: placement
     type(pnpbs_domain), intent(in) :: body
@@ -102,7 +103,8 @@ contains
     call expect(stat == PNPBS_ERROR_HANDLE, 'no particles any more')
   end subroutine
 
-  !> By all pairs; infinity if none is closer than the mean of the spacing of the two.
+  !> Returns the smallest distance of pairs over the mean spacing of the two, by all pairs. Returns
+  !> infinity if no pair is closer than this mean.
   function closest_of(x, spacing) result(closest)
     real(c_double), intent(in) :: x(:,:), spacing(:)
     real(c_double) :: closest, distance
@@ -155,7 +157,7 @@ contains
     close (unit)
   end function
 
-  !> With the fields of about_files: masses and velocities.
+  !> Checks a table with the fields of about_files: masses and velocities.
   subroutine look_at_table(path, x, volumes, ids)
     character(len=*), intent(in) :: path
     real(c_double), intent(in) :: x(:,:), volumes(:)

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Placements of one process: nodes and lists as C has them, spacings, files, wrong arguments.
+!> Tests placements of one process: nodes and lists against the C interface, spacings, files, and
+!> invalid arguments.
 program test_placement
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -25,7 +26,7 @@ program test_placement
 
 contains
 
-  ! As examples/c/smallest: 80 nodes on the boundary, and Euler's formula.
+  ! Checks the placement of examples/c/smallest: 80 nodes on the boundary, and Euler's formula.
   subroutine about_a_square
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement, same
@@ -87,7 +88,7 @@ contains
     call domain%destroy
   end subroutine
 
-  ! Quality, edge length over d, and what a run was expected to come to.
+  ! Checks quality, edge length over d, and the estimate of a run.
   subroutine about_elements(placement)
     type(pnpbs_placement), intent(in) :: placement
     integer(c_int64_t) :: bands, edges(8), too_few(0), nodes, all_nodes, bytes
@@ -140,7 +141,7 @@ contains
     call placement%step(-1, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '-1')
     call compare_with_c(placement)
-    ! One node inside is far too few.
+    ! One inner node is far too few, so many must be inserted.
     call placement%set_nodes(reshape([0.5d0, 0.5d0], [2, 1]))
     call placement%initialise
     call placement%count(nodes)
@@ -172,7 +173,7 @@ contains
     call expect(fine > 3 * coarse, 'finer by values at nodes')
     call placement%set_spacing_at_nodes(d, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'nodes')
-    ! x fastest: fine on the left, coarse on the right.
+    ! x varies fastest: d is fine on the left and coarse on the right.
     call placement%set_spacing_grid([0d0, 0d0], [1d0, 1d0], reshape([0.05d0, 0.2d0], [2, 1]))
     call placement%run
     call expect(left_of_middle(placement) > 0.7, 'finer on the left')
@@ -195,7 +196,7 @@ contains
     share = real(count(xy(1, :) < 0.5d0), c_double) / real(nodes, c_double)
   end function
 
-  !> Linear ones, on two triangles, at their corners alone, and in a file.
+  !> Checks a linear spacing from two triangles, from their corners as points, and from a file.
   subroutine about_values_at_points
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement

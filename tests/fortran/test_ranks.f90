@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Over the ranks of a communicator, as codes with mpif.h have it: the same nodes as one process
-!> gets alone, ghosts and patterns as C has them, errors on one rank that are all ranks' errors.
+!> Tests the module over the ranks of a communicator, with mpif.h: the same nodes as one process,
+!> ghosts and exchange patterns against the C interface, and errors on one rank that are errors on
+!> all.
 program test_ranks
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -69,7 +70,7 @@ contains
     call alone%destroy
   end subroutine
 
-  !> A box, graded in its height, as one process has it.
+  !> Checks a box, graded in its height, against one process.
   subroutine about_space
     type(pnpbs_context) :: contexts(2)
     type(pnpbs_domain) :: domain
@@ -96,7 +97,7 @@ contains
     call expect(hash == hash_alone, 'the same nodes in space on any number of ranks')
   end subroutine
 
-  !> Fields of one and two components: ghosts, sums, and the way to other nodes.
+  !> Checks fields of one and two components: ghosts, sums, and transfer to other nodes.
   subroutine about_fields
     type(pnpbs_context) :: context, alone
     type(pnpbs_domain) :: domain, domain_alone
@@ -218,7 +219,8 @@ contains
     call context%create_mpi(MPI_COMM_WORLD, 'Another MPI 3.0', stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_MPI, errmsg, 'Another MPI 3.0')
 
-    ! Too small an array on one rank, found by the module itself, fails on all.
+    ! An array that is too small on one rank, which the module itself detects, is an error on all
+    ! ranks.
     call context%create_mpi(MPI_COMM_WORLD)
     call place(context, domain, placement)
     call placement%count(nodes)
@@ -228,7 +230,7 @@ contains
     call expect(stat < 0, 'an error on one rank is that of all')
     if (rank == size - 1) &
       call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'offsets has room for')
-    ! So does a wrong shape.
+    ! An array with a wrong shape on one rank is an error on all ranks as well.
     allocate (xy(merge(3, 2, rank == 0), 1))
     xy = 0.5d0
     call placement%set_nodes(xy, stat=stat, errmsg=errmsg)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The shape of a domain and spacing that follows it: distances, curvature, width, edges, growth and
-!> bounds, in the plane and in space.
+!> Tests the shape of a domain and spacings that follow it: distances, curvature, width, edges,
+!> growth and bounds, in the plane and in space.
 program test_shape
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -22,7 +22,8 @@ program test_shape
 
 contains
 
-  !> Circles of radius 2, tag 1, and 1, tag 2, around the origin.
+  !> Creates a ring around the origin. The circle of radius 2 has tag 1, and that of radius 1 has
+  !> tag 2.
   subroutine make_ring(domain)
     type(pnpbs_domain), intent(inout) :: domain
     call domain%create(context)
@@ -42,13 +43,13 @@ contains
     call domain%distance(x, found, 5, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'tag = 5')
 
-    ! By curvature: the circle of radius 1 asks for 2 pi / 20, growing from there.
+    ! By curvature, the circle of radius 1 requires 2 pi / 20, and d grows from there.
     call domain%shape_spacing(x, found, nodes_per_turn=20d0)
     call expect(all(abs(found - 2 * pi / 20 - [0d0, 0.15d0, 0.075d0]) < 1d-5), 'by curvature')
-    ! By width: 1 across.
+    ! By width, d is 1 / 8, since the ring is 1 wide.
     call domain%shape_spacing(x, found, nodes_across=8d0, growth=0.3d0)
     call expect(all(abs(found - 0.125d0 - [0d0, 0d0, 0.15d0]) < 1d-5), 'by width')
-    ! The least of what is asked for.
+    ! The smaller of the two values counts.
     call domain%shape_spacing(x, found, nodes_per_turn=20d0, nodes_across=8d0)
     call expect(all(abs(found - 0.125d0 - [0d0, 0d0, 0.075d0]) < 1d-5), 'by both')
     call domain%shape_spacing(x, found, nodes_per_turn=-1d0, stat=stat, errmsg=errmsg)
@@ -58,7 +59,7 @@ contains
     call domain%destroy
   end subroutine
 
-  !> They have the spacing that the domain tells, between the bounds.
+  !> Checks that d at the nodes equals the spacing of the domain within the bounds.
   subroutine about_nodes_of_a_ring
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
@@ -90,7 +91,7 @@ contains
     call domain%destroy
   end subroutine
 
-  !> By the input: one node for each segment of a square, of lengths 1.
+  !> Checks the spacing by edges: a quarter of the sides of a square, which are 1 long.
   subroutine about_edges_of_a_square
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
@@ -105,7 +106,7 @@ contains
     call domain%destroy
   end subroutine
 
-  !> 0.5 thick: 4 across ask for 0.125.
+  !> Checks a box that is 0.5 thick: four nodes across require 0.125.
   subroutine about_a_box
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Shapes that GDAL reads, by the module pnpbs_geo.
+!> Tests shapes that GDAL reads, by the module pnpbs_geo.
 program test_shapes
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -78,7 +78,7 @@ contains
       call expect(minval((x(1, :) - xy(1, k))**2 + (x(2, :) - xy(2, k))**2) < 1d-18, &
                   'a corner is a node')
     end do
-    ! Sides are straight in the projection: the northern one bows to 55.004 degrees.
+    ! Sides are straight in the projection, so the northern one bends to 55.004 degrees.
     call shapes%to_degrees(x)
     call expect(all(x(1, :) > 17.999d0 .and. x(1, :) < 20.001d0 .and. x(2, :) > 53.98d0 &
                     .and. x(2, :) < 55.01d0), 'longitudes and latitudes')
@@ -94,7 +94,8 @@ contains
     call expect(index(pnpbs_geo_build_info(), 'GDAL: ') == 1, 'versions')
   end subroutine
 
-  ! 3 longitude + latitude, in degrees by the file beside it.
+  ! Checks a grid with the values 3 longitude + latitude. The file beside it says that it is in
+  ! degrees.
   subroutine about_grids
     character(len=*), parameter :: name = 'fortran_depth.asc'
     type(pnpbs_geo_shapes) :: shapes

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Domains in space and placements in them: volumes that are known, tetrahedra that fill them and
+!> Tests domains in space and placements in them: known volumes, tetrahedra that fill the domains,
 !> boundary triangles that enclose them, and spacings of three coordinates.
 program test_space
   use, intrinsic :: iso_c_binding
@@ -67,7 +67,7 @@ contains
     call domain%create(context, 3)
     call domain%add_surface(PNPBS_BOUNDARY, vertices, faces, [1, 2, 3, 4], 30d0)
     call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'volume of a tetrahedron')
-    ! Inside it a smaller one, whose inside is taken out by a point.
+    ! An inner surface is a smaller tetrahedron. Its inside is removed by a hole point.
     call domain%add_surface(PNPBS_INNER, 0.25d0 * vertices + 0.1d0, faces)
     call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'an inner surface')
     call domain%set_filled(.false.)
@@ -104,7 +104,7 @@ contains
     call domain%destroy
   end subroutine
 
-  !> A tetrahedron of Gmsh's, one side of which has a name.
+  !> Checks a tetrahedron in a Gmsh file, one side of which has a name.
   subroutine about_groups
     type(pnpbs_domain) :: domain
     character(len=:), allocatable :: name
@@ -139,7 +139,7 @@ contains
     call domain%destroy
   end subroutine
 
-  !> Nodes on the surface lie where the function is 0.
+  !> Checks that nodes on the surface lie where the function is 0.
   subroutine about_level_sets
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
@@ -165,7 +165,8 @@ contains
     call domain%destroy
   end subroutine
 
-  !> The callback is called after the procedure, too, and without the domains.
+  !> Checks that the callback is still called after the procedure ended and the domains are
+  !> destroyed.
   subroutine about_offsets
     type(pnpbs_domain) :: box, inset
     type(pnpbs_placement) :: placement
@@ -198,7 +199,7 @@ contains
     call placement%destroy
   end subroutine
 
-  !> A placement in a domain, run, with everything as C has it.
+  !> Creates a placement in a domain, runs it, and compares all results with the C interface.
   subroutine place(domain, placement, d)
     type(pnpbs_domain), intent(in) :: domain
     type(pnpbs_placement), intent(inout) :: placement
@@ -220,8 +221,9 @@ contains
       + a(3) * (b(1) * c(2) - b(2) * c(1))
   end function
 
-  !> The tetrahedra turn rightly and fill as much as the boundary triangles enclose, which is told;
-  !> these fit together, side by side. Tells the tags of nodes and of boundary triangles.
+  !> Checks that tetrahedra are oriented and fill the volume that the boundary triangles enclose,
+  !> and that these triangles close. Returns this volume and the tags of nodes and of boundary
+  !> triangles.
   subroutine look_at_elements(placement, filled, node_tags, tags)
     type(pnpbs_placement), intent(in) :: placement
     real(c_double), intent(out) :: filled
@@ -262,7 +264,8 @@ contains
     end do
   end subroutine
 
-  !> Is every side of the triangles, from one node to another, once one from that to this?
+  !> Returns whether each directed side of the triangles occurs exactly once, and its reverse as
+  !> well.
   function all_closed(triangles, nodes)
     integer(c_int64_t), intent(in) :: triangles(:,:), nodes
     logical :: all_closed
@@ -297,7 +300,7 @@ contains
     call look_at_elements(placement, filled, node_tags, tags)
     call expect(abs(filled - 1) < 1d-12, 'tetrahedra fill the box')
     call expect(all(tags == 5) .and. all(node_tags == 0 .or. node_tags == 5), 'tags of the box')
-    ! Euler: b nodes on a surface without handles have 2 b - 4 triangles.
+    ! By Euler's formula, b nodes on a surface without handles have 2 b - 4 triangles.
     call placement%boundary_triangle_count(triangles)
     call expect(triangles == 2 * count(node_tags == 5) - 4, 'triangles by Euler''s formula')
     call placement%count(nodes)
@@ -319,7 +322,7 @@ contains
     call domain%add_ball(zero, 0.5d0, 4)
     call place(domain, placement, 0.25d0)
     call look_at_elements(placement, filled, node_tags, tags)
-    ! Chords cut the cavity short.
+    ! Chords cut off a part of the cavity.
     call expect(filled > volume(domain) .and. filled < 1.02d0 * volume(domain), 'around a ball')
     call expect(any(tags == 3) .and. any(tags == 4) .and. all(tags == 3 .or. tags == 4), &
                 'tags of both surfaces')
@@ -372,7 +375,7 @@ contains
     call domain%create(context, 3)
     call domain%add_box(zero, one)
     call placement%create(context, domain)
-    ! x fastest: fine on the left, coarse on the right.
+    ! x varies fastest: d is fine on the left and coarse on the right.
     call placement%set_spacing_grid(zero, one, reshape([0.12d0, 0.4d0], [2, 1, 1]))
     call placement%run
     call expect(left_of_middle(placement) > 0.7, 'finer on the left')
@@ -441,10 +444,11 @@ contains
     call placement%get_triangles(triangles)
     call expect(all([(from_centre(x(:, triangles(:, t))) > 0, t = 1, count)]), &
                 'triangles counter-clockwise from outside')
-    ! Sides inside belong to two triangles, those of the boundary to one: twice V - E + F.
+    ! Inner sides belong to two triangles and sides of the boundary to one. The sum is twice V - E +
+    ! F.
     call expect(2 * nodes - (3 * count + edges) + 2 * count == 2, &
                 'triangles of a sphere with one hole')
-    ! Longitudes and latitudes.
+    ! Grids on a sphere are in longitude and latitude.
     call placement%set_spacing_grid([-135d0, -90d0], [90d0, 90d0], &
                                     spread([0.1d0, 0.12d0, 0.14d0], 1, 4))
     call placement%run(stat)
@@ -455,7 +459,7 @@ contains
     call placement%get_nodes(x, spacing=d)
     call expect(maxval(abs(d - (0.12d0 + 0.02d0 * asin(x(3, :)) / (pi / 2)))) < 1d-12, &
                 'd by a grid on a sphere')
-    ! As many nodes by d at those before.
+    ! d at the previous nodes gives about the same number of nodes.
     call placement%triangle_count(count)
     deallocate (triangles)
     allocate (triangles(3, count))
@@ -486,8 +490,8 @@ contains
     norm = sqrt(sum(x**2, 1))
   end function
 
-  !> Six times the volume between a triangle and the origin: > 0 if it turns counter-clockwise, seen
-  !> from outside.
+  !> Returns six times the volume between a triangle and the origin. It is positive if the triangle
+  !> is counter-clockwise as seen from outside.
   function from_centre(corners)
     real(c_double), intent(in) :: corners(3, 3)
     real(c_double) :: from_centre

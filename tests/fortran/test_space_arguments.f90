@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Domains and placements in space: arguments that are wrong, and procedures of the plane.
+!> Tests domains and placements in space: invalid arguments, and procedures of the plane.
 program test_space_arguments
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -36,7 +36,7 @@ contains
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'corners has an extent of 2 where 3')
     call domain%add_surface(PNPBS_BOUNDARY, vertices, faces, [1, 2], stat=stat, errmsg=errmsg)
     call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'tags has room for 2; 4')
-    ! The last vertex is number 4: Fortran counts from 1.
+    ! The last vertex has the index 4, as Fortran counts from 1.
     call domain%add_surface(PNPBS_BOUNDARY, vertices, faces + 1, stat=stat, errmsg=errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'corners')
     call domain%add_surface(PNPBS_BOUNDARY, vertices, faces, feature_angle=999d0, stat=stat, &
@@ -101,7 +101,7 @@ contains
     call expect(stat == PNPBS_ERROR_HANDLE, 'a dead domain, whatever the point')
   end subroutine
 
-  !> What is for the plane refuses space, and the other way round.
+  !> Checks that procedures for the plane reject domains in space, and the other way round.
   subroutine about_the_plane
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement

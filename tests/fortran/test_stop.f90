@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Without stat an error stops the program; stop.sh looks at how.
+!> Causes an error in a call without stat, which stops the program. stop.sh checks how it ends.
 program test_stop
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -27,7 +27,7 @@ program test_stop
 
 contains
 
-  ! An outcome above zero is no error.
+  ! A status above zero is not an error, so the program continues.
   subroutine run_out_of_steps
     type(pnpbs_placement) :: placement
     call domain%create(context)

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Voronoi cells of one process, in the plane and in space: their volumes fill the domain, each cell
-!> is closed, faces are found by the offsets, and wrong arguments. Over ranks: tests/parallel.
+!> Tests Voronoi cells of one process, in the plane and in space: their volumes fill the domain,
+!> each cell is closed, faces are found by the offsets, and invalid arguments are rejected.
+!> tests/parallel tests cells over ranks.
 program test_voronoi
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -43,7 +44,7 @@ contains
     call domain%destroy
   end subroutine
 
-  !> The measure of the domain is 1.
+  !> Checks the cells of a domain with the measure 1.
   subroutine look_at(placement, dim)
     type(pnpbs_placement), intent(inout) :: placement
     integer, intent(in) :: dim
@@ -88,7 +89,7 @@ contains
     call expect(voronoi%handle() == 0, 'destroyed')
   end subroutine
 
-  !> From 1; 0 if there is none.
+  !> Returns the index of an id, from 1, or 0 if it is not found.
   function place_of(id, ids) result(place)
     integer(c_int64_t), intent(in) :: id, ids(:)
     integer(c_int64_t) :: place

@@ -3,7 +3,7 @@
 module tetrahedra
   use, intrinsic :: iso_c_binding
   implicit none
-  !> A tetrahedron with a volume of 1/6.
+  !> The vertices and faces of a tetrahedron with a volume of 1/6.
   real(c_double), parameter :: vertices(3, 4) = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, &
                                                          0d0, 1d0, 0d0, 0d0, 0d0, 1d0], [3, 4])
   integer(c_int64_t), parameter :: faces(3, 4) = reshape(int( &

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The C side of the tests of the Fortran module: asks the C interface for the same things on the
- * same handles, and counts what differs. Indices come as Fortran has them, from 1.
+ * The C side of the tests of the Fortran modules: makes the same queries by the C interface on the
+ * same handles, and counts differences. Indices are passed as in Fortran, from 1.
  */
 #include <pnpbs/pnpbs.h>
 #include <stdlib.h>
@@ -45,7 +45,7 @@ static int32_t dimension_of(pnpbs_placement p) {
 
 static void* room(int64_t n, size_t size) { return calloc((size_t)n + 1, size); }
 
-/* How many of n indices are not one more than C's. */
+/* Returns the number of indices that are not by 1 larger than those of C. */
 static int64_t shifted(int64_t n, const int64_t* ours, const int64_t* fortran) {
   int64_t i, wrong = 0;
   for (i = 0; i < n; ++i) wrong += ours[i] + 1 != fortran[i];

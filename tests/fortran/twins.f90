@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the C interface says to the same questions (twin.c).
+!> Compares results of the Fortran module with those of the C interface (twin.c).
 module twins
   use, intrinsic :: iso_c_binding
   use pnpbs
@@ -143,7 +143,7 @@ module twins
 
 contains
 
-  !> Copies everything out that there is, and compares it with what C gets. Collective.
+  !> Extracts all results and compares them with those of the C interface. Collective.
   subroutine compare_with_c(placement)
     type(pnpbs_placement), intent(in) :: placement
     integer(c_int32_t) :: dim
@@ -170,7 +170,7 @@ contains
     allocate (xyz(dim, n), ids(n), tags(n), d(n))
     call placement%get_nodes(xyz, ids, tags, d)
     call expect(twin_nodes(placement%handle(), n, xyz, ids, tags, d) == 0, 'nodes as in C')
-    ! One at a time, with more room than is needed, and left alone beyond.
+    ! Each array is extracted alone. Arrays may be larger than needed, and the rest must not change.
     deallocate (ids)
     allocate (ids(n + 2))
     ids = -7
@@ -258,8 +258,8 @@ contains
                 'boundary triangles as in C')
   end subroutine
 
-  !> Each rank counts the elements that belong to it at their corners; what arrives from ghosts makes
-  !> these counts those of all elements around a node.
+  !> Checks sums at nodes: each rank counts its own elements at their corners. The sums with the
+  !> counts at ghosts must be the numbers of all elements around the nodes.
   subroutine compare_assembly(placement)
     type(pnpbs_placement), intent(in) :: placement
     integer(c_int64_t), allocatable :: elements(:,:)

@@ -1,11 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Spacings and monitors for the tests.
+!> Spacing callbacks and monitors for the tests.
 module watchers
   use, intrinsic :: iso_c_binding
   use pnpbs
   implicit none
 
-  !> d = finest + growth |x - centre|; answer is what the callback returns.
+  !> Parameters of a spacing, d = finest + growth |x - centre|. `answer` is the value that the
+  !> callback returns.
   type, bind(C) :: cone
     real(c_double) :: finest = 0.02d0, growth = 0.1d0, centre(2) = [0.3d0, 0.4d0]
     integer(c_int32_t) :: answer = 0
@@ -32,7 +33,7 @@ contains
     cone_spacing = c%answer
   end function
 
-  !> d = finest + growth z, in space.
+  !> Returns d = finest + growth z, in space.
   function height_spacing(n, dim, xyz, d, user) bind(C)
     integer(c_int64_t), value :: n
     integer(c_int32_t), value :: dim
@@ -49,7 +50,7 @@ contains
     c%calls = c%calls + 1
   end function
 
-  !> d = finest + growth x, in the plane and in space.
+  !> Returns d = finest + growth x, in the plane and in space.
   function sideways_spacing(n, dim, xyz, d, user) bind(C)
     integer(c_int64_t), value :: n
     integer(c_int32_t), value :: dim
@@ -76,7 +77,7 @@ contains
     if (c_associated(user) .or. any(xyz < 0)) constant_spacing = 8
   end function
 
-  !> Counts; stops if the answer says so; asks the placement from inside.
+  !> Counts its calls, makes queries, and stops the run if `answer` is not 0.
   function watch(fraction, step, nodes, max_speed, user) bind(C)
     real(c_double), value :: fraction
     integer(c_int64_t), value :: step, nodes

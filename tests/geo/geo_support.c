@@ -1,4 +1,6 @@
-/* SPDX-License-Identifier: BSD-3-Clause */
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Implements the helpers of geo_support.h. */
 #include "geo_support.h"
 
 const char* write_file(const char* name, const char* text, size_t length) {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Support code of the tests of shapes: GeoJSON files, and domains made of shapes. */
+ * Helpers of the tests of shapes: GeoJSON files, and a domain with the shapes that are read from
+ * them.
+ */
 #ifndef PNPBS_TESTS_GEO_GEO_SUPPORT_H
 #define PNPBS_TESTS_GEO_GEO_SUPPORT_H
 
@@ -17,7 +19,7 @@
     ck_assert_msg(status_ == PNPBS_OK, "%s: %s", #call, pnpbs_geo_last_error()); \
   } while (0)
 
-/* Checks that the call fails and that the message contains both parts. */
+/* Requires that a call fails with this status, and that its message contains both parts. */
 #define GEO_MUST_FAIL(expected, call, part, other_part)                                   \
   do {                                                                                    \
     const pnpbs_status status_ = (call);                                                  \
@@ -28,14 +30,14 @@
                   message_);                                                              \
   } while (0)
 
-/* Writes a file into the tests' folder. Returns its path, which is valid until the next call. */
+/* Writes a file into the folder of the tests. Returns its path, which is valid until the next call.
+ */
 const char* write_file(const char* name, const char* text, size_t length);
-/* Writes a GeoJSON file of a FeatureCollection with these features. Returns its path as write_file
- * does. */
+/* Writes a FeatureCollection with these features. Returns the path like write_file. */
 const char* write_geojson(const char* name, const char* features);
 
-/* A feature of this type with these coordinates and two properties, as an argument of
- * write_geojson. */
+/* The text of a feature of this type with these coordinates, for write_geojson. The type is also
+ * the value of its field "land". */
 #define FEATURE(type, coordinates)                         \
   "{\"type\":\"Feature\",\"properties\":{\"land\":\"" type \
   "\",\"code\":7},\"geometry\":{\"type\":\"" type "\",\"coordinates\":" coordinates "}}"
@@ -46,16 +48,16 @@ typedef struct geo_case {
   pnpbs_domain domain;
 } geo_case;
 
-/* Reads the file, adds its shapes to a domain and checks the domain. */
+/* Reads a file and adds the shapes to a domain, which is checked. */
 geo_case geo_begin(const char* path, const char* projection, const char* unit, const char* field);
 void geo_end(geo_case* it);
 
 double geo_area(const geo_case* it);
 void expect_counts(pnpbs_geo_shapes shapes, int64_t vertices, int64_t boundary, int64_t inner,
                    int64_t points);
-/* Returns whether one of the notes contains the text. */
+/* Returns whether a note contains this text. */
 int has_note(pnpbs_geo_shapes shapes, const char* part);
-/* Returns the count of the note with this code, or -1 if there is none. */
+/* Returns the count of the note with this code, or -1 if there is no such note. */
 int64_t noted(pnpbs_geo_shapes shapes, int32_t code);
 
 #endif

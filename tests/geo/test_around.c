@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of outlines that go around the Earth or over a pole. A square island lies on the equator.
- * The domains are on a sphere of radius 1 and in the plane about a pole. Segments are parts of
- * great circles. */
+ * Tests outlines that go around the Earth or over a pole, together with a square island on the
+ * equator. They lie on a sphere of radius 1, whose segments are parts of great circles, or in a
+ * plane about a pole.
+ */
 #include "geo_support.h"
 
 #define POLYGON(coordinates) FEATURE("Polygon", "[[" coordinates "]]")
@@ -10,15 +11,14 @@
 
 static const double degree = 3.14159265358979323846 / 180;
 
-/* Returns the area of the spherical triangle of a pole and two points at the latitude, whose
- * longitudes differ by `apart` degrees. */
+/* Returns the area of the spherical triangle of a pole and two points at this latitude, `apart`
+ * degrees of longitude from each other. */
 static double triangle(double latitude, double apart) {
   const double side = tan((90 - fabs(latitude)) / 2 * degree), square = side * side;
   return 2 * atan2(square * sin(apart * degree), 1 + square * cos(apart * degree));
 }
 
-/* Returns the area of the island: four right-angled triangles around its centre, which is not a
- * pole. */
+/* Returns the area of the island. It consists of right-angled triangles about its centre. */
 static double island_area(void) {
   const double corner[3] = {cos(5 * degree) * cos(5 * degree), cos(5 * degree) * sin(5 * degree),
                             sin(5 * degree)};
@@ -45,8 +45,9 @@ static geo_case on_sphere(const char* features, const double outside[2]) {
   return it;
 }
 
-/* Checks the area of the domain seen from the island, for a domain inside the outlines and for one
- * outside of them. */
+/* Checks the area of the domain with outside points on the island and in the sea. The domain is
+ * then everything except the island and the insides of the outlines, or these insides and the
+ * island. */
 static void expect_areas(const char* outlines, double area) {
   const double on_island[2] = {0, 0}, in_sea[2] = {40, 10};
   const double sphere = 720 * degree;
@@ -61,8 +62,8 @@ static void expect_areas(const char* outlines, double area) {
   geo_end(&it);
 }
 
-/* Returns points of the latitude from a longitude on, in this number of steps, followed by `more`.
- */
+/* Returns the text of points at a latitude, beginning at a longitude, in this number of steps,
+ * followed by further points of the outline. */
 static const char* ring(double latitude, double from, double step, int steps, const char* more) {
   static char text[4096];
   int length = snprintf(text, sizeof text, "%s", "");
@@ -97,7 +98,7 @@ START_TEST(along_parallels) {
 }
 END_TEST
 
-/* The cut along a meridian may have the same vertices in both directions or different ones. */
+/* The cut along a meridian may have different vertices on both sides, or the same. */
 START_TEST(cut_to_a_pole) {
   const double area = 72 * triangle(-74, 5);
   expect_areas(polygon(ring(-74, -180, 5, 72, ",[180,-90],[-180,-90]")), area);
@@ -110,7 +111,7 @@ START_TEST(cut_to_a_pole) {
 }
 END_TEST
 
-/* A single outline touches itself in the same way. */
+/* A single outline may touch itself as well. */
 START_TEST(alone) {
   const double outside[2] = {0, -80};
   geo_case it =
@@ -126,7 +127,7 @@ START_TEST(corner_at_a_pole) {
 }
 END_TEST
 
-/* The outline returns along a great circle, over the pole or beside it. */
+/* The outline returns along a great circle, which passes over the pole or not. */
 START_TEST(part_of_a_parallel) {
   expect_areas(polygon(ring(70, 0, 90, 2, "")), 2 * triangle(70, 90));
   expect_areas(polygon(ring(-70, -90, 20, 9, "")), 9 * triangle(-70, 20));
@@ -135,7 +136,7 @@ START_TEST(part_of_a_parallel) {
 }
 END_TEST
 
-/* A spike of nearly no width is not an island. */
+/* An outline of nearly no width is not an island. */
 START_TEST(spikes) {
   geo_case it;
   const double outside[2] = {0, 0};
@@ -145,7 +146,8 @@ START_TEST(spikes) {
 }
 END_TEST
 
-/* Neighbours lie on both sides of 180 degrees. Only one of them has vertices on the common edge. */
+/* Two neighbours lie on both sides of 180 degrees. Only one of them has vertices on their common
+ * edge. */
 START_TEST(neighbours_across_180_degrees) {
   const char* const north = POLYGON("[170,50],[-170,50],[-170,60],[170,60]");
   const char* const south = POLYGON(
@@ -189,7 +191,7 @@ START_TEST(part_in_a_plane_about_a_pole) {
 }
 END_TEST
 
-/* Lambert's projection about the pole has no cut at 180 degrees either; Mercator's has one. */
+/* Lambert's projection about the pole is continuous at 180 degrees, whereas Mercator's is not. */
 START_TEST(in_a_plane) {
   char features[16384];
   geo_case it;
@@ -205,7 +207,7 @@ START_TEST(in_a_plane) {
   expect_counts(it.shapes, 75, 2, 0, 0);
   ck_assert_double_eq_tol(beside / alone, 1, 0.01);
   geo_end(&it);
-  /* A strip over all longitudes has a neighbour with one more vertex on the common edge. */
+  /* A strip over all longitudes has a neighbour with one more vertex on their common side. */
   it = geo_begin(
       write_geojson("around.geojson", POLYGON("[-170,0],[170,0],[170,10],[-170,10]") "," POLYGON(
                                           "[-170,0],[20,0],[170,0],[170,-10],[-170,-10]")),

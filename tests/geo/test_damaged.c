@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of GeoJSON files in which some bytes are changed or missing. Reading succeeds or fails with
- * a message. If it succeeds, adding the shapes to a domain must also succeed or fail with a
- * message. */
+ * Tests damaged GeoJSON files, in which some bytes are changed or missing. Each is either read or
+ * an error with a message. If it is read, a domain accepts it or rejects it with a message.
+ */
 #include "geo_support.h"
 
 static uint64_t state = 20260715;
@@ -29,7 +29,7 @@ static size_t damage(char* text, size_t length) {
       case 0:
         text[at] = some[draw(sizeof some - 1)];
         break;
-      case 1: /* a piece is removed */
+      case 1: /* removes a piece */
       {
         const size_t gone = 1 + draw((unsigned)(length - at));
         const size_t most = gone < 12 ? gone : 12;
@@ -37,7 +37,7 @@ static size_t damage(char* text, size_t length) {
         length -= most;
         break;
       }
-      case 2: /* a digit is replaced */
+      case 2: /* changes a digit */
         if (text[at] >= '0' && text[at] <= '9') text[at] = (char)('0' + draw(10));
         break;
       default:

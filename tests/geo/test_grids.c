@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of values on grids in files, evaluated in another projection, and of files without a usable
- * grid. A value is 3 longitude + 2 latitude, so that interpolation in degrees is exact. */
+ * Tests values on grids in files, which are evaluated in another projection, and errors for files
+ * without such values. A value is 3 longitude + 2 latitude, which interpolation in degrees
+ * reproduces exactly.
+ */
 #include <cpl_string.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
@@ -16,8 +18,8 @@ static const double everywhere_low[2] = {18, 54}, everywhere_high[2] = {20, 56};
 
 static double plane_at(double longitude, double latitude) { return 3 * longitude + 2 * latitude; }
 
-/* Writes a grid with the same values in all bands, except that those of the second band are
- * doubled. From the row `empty` on it has no data. */
+/* Writes a grid. The second band has twice the values of the first. From the row `empty` on there
+ * are no data. */
 static const char* write_grid(const char* name, int bands, int with_system, int empty) {
   static char path[1024];
   static float values[rows][columns];
@@ -58,8 +60,8 @@ static const double degree = 360.0 / across;
 
 static int number_at(int column, int row) { return (7 * column + 13 * row) % 30011; }
 
-/* Writes a tiled grid of the whole Earth in which some columns have no data. The stored numbers are
- * scaled by 1/2 and offset by 100. */
+/* Writes a grid of the Earth in tiles, without data in some columns. A stored number n stands for
+ * the value n / 2 + 100. */
 static const char* write_earth(const char* name) {
   static char path[1024];
   static short numbers[down][across];
@@ -109,8 +111,8 @@ START_TEST(in_its_own_system) {
                                everywhere_high, &grid));
   ck_assert_double_eq_tol(value_of(grid, 19.03, 55.12, &inside), plane_at(19.03, 55.12), 1e-4);
   ck_assert_int_eq(inside, 1);
-  /* Beyond the edge the value is constant. Cells reach half a cell beyond their centres. The point
-   * counts as outside from another half cell on, and a full turn of longitude changes nothing. */
+  /* Values are constant beyond the edge. The cells reach half a cell beyond their centres, and
+   * points up to another half cell away count as inside. Longitudes may differ by 360 degrees. */
   ck_assert_double_eq_tol(value_of(grid, 17, 55.12, &inside), plane_at(18.05, 55.12), 1e-4);
   ck_assert_int_eq(inside, 0);
   ck_assert_double_eq_tol(value_of(grid, 17.96, 55.12, &inside), plane_at(18.05, 55.12), 1e-4);
@@ -126,7 +128,7 @@ START_TEST(in_its_own_system) {
 }
 END_TEST
 
-/* The grid is evaluated in Poland's coordinates through the projection of the shapes. */
+/* The points are in Poland's coordinates, by the projection of the shapes. */
 START_TEST(projected) {
   pnpbs_geo_grid grid = NULL;
   const char* wkt = NULL;
@@ -161,7 +163,7 @@ START_TEST(bands_and_gaps) {
   /* The last row with data is the eighth, whose centre is at 55.25. */
   ck_assert_double_eq_tol(value_of(grid, 19.03, 54.6, &inside), 2 * plane_at(19.03, 55.25), 1e-4);
   ck_assert_int_eq(inside, 2);
-  value_of(grid, 19.03, 55.17, &inside); /* between this row and the next */
+  value_of(grid, 19.03, 55.17, &inside); /* between that row and the next */
   ck_assert_int_eq(inside, 1);
   value_of(grid, 19.03, 55.5, &inside);
   ck_assert_int_eq(inside, 1);
@@ -171,7 +173,7 @@ START_TEST(bands_and_gaps) {
 }
 END_TEST
 
-/* The last column is beside the first one. Neither values nor slopes jump there. */
+/* The last column is adjacent to the first one, so neither values nor slopes jump there. */
 START_TEST(around_the_earth) {
   const double low[2] = {-180, -90}, high[2] = {180, 90};
   pnpbs_geo_grid grid = NULL;
@@ -189,8 +191,8 @@ START_TEST(around_the_earth) {
 }
 END_TEST
 
-/* One call evaluates points all over the file in a mixed order. The longitudes differ by full
- * turns. */
+/* One call evaluates points all over the file in irregular order. Their longitudes differ by turns
+ * around the Earth. */
 START_TEST(of_many_blocks) {
   enum { n = 5000 };
   static double places[2 * n], values[n];
@@ -216,7 +218,7 @@ START_TEST(of_many_blocks) {
 }
 END_TEST
 
-/* Reads of a child process do not disturb those of its parent. */
+/* Reads of a child process do not affect those of its parent. */
 START_TEST(in_a_forked_process) {
   const double low[2] = {-180, -90}, high[2] = {180, 90};
   pnpbs_geo_grid grid = NULL;
@@ -240,7 +242,7 @@ START_TEST(in_a_forked_process) {
 }
 END_TEST
 
-/* The slope of 3 longitude + 2 latitude is computed in the plane of degrees and along a sphere. */
+/* Checks slopes of 3 longitude + 2 latitude, in the plane of degrees and along a sphere. */
 START_TEST(slopes) {
   const double places[4] = {18.731, 55.117, 19.413, 54.822}, radius = 6371.22, pi = acos(-1);
   const double length = pi / 180 * radius; /* length of a degree */
@@ -275,7 +277,7 @@ START_TEST(spacing_by_depth) {
   GEO_MUST(pnpbs_geo_depth_spacing(5, depths, steep, 0, 44712, 20, 10, 1000, d));
   ck_assert(isinf(d[0]));
   ck_assert_double_eq_tol(d[1], 2 * pi * 200 / (20 * 50), 1e-12);
-  for (i = 2; i < 5; ++i) ck_assert(isinf(d[i])); /* flat ground */
+  for (i = 2; i < 5; ++i) ck_assert(isinf(d[i])); /* the bottom is flat */
   GEO_MUST(pnpbs_geo_depth_spacing(2, depths, steep, 30, 44712, 20, 10, 1000, d));
   ck_assert_double_eq_tol(d[0], sqrt(9.81 * 4000) * 44.712 / 30, 1e-9);
   ck_assert_double_eq_tol(d[1], 2 * pi * 200 / (20 * 50), 1e-12);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of lines along the boundary, which retag it and are not inner curves, and of lines around
- * polygons. The sea is a square of side 10 with tag 1. */
+ * Tests lines that run along the boundary, which change its tag and are not curves of their own.
+ * Also tests lines around polygons. The sea is a square of side 10 with tag 1.
+ */
 #include "geo_support.h"
 
 #define LINE(tag, coordinates)                           \
@@ -50,8 +51,8 @@ START_TEST(same_vertices) {
 }
 END_TEST
 
-/* The line begins and ends between vertices of the boundary. It runs in either direction, around a
- * corner and over the first vertex of the outline. */
+/* The line begins and ends between vertices of the boundary, in either direction, around a corner
+ * and over the first vertex of the outline. */
 START_TEST(parts_of_segments) {
   expect_lengths(LINE(5, "[[10,2],[10,7]]"), 35, 5, 0);
   expect_lengths(LINE(5, "[[10,7],[10,2]]"), 35, 5, 0);
@@ -60,12 +61,12 @@ START_TEST(parts_of_segments) {
 }
 END_TEST
 
-/* Hand-drawn lines may be off by a thousandth of the extent. The area does not change. */
+/* Lines drawn by hand deviate by at most a thousandth of the extent. The area does not change. */
 START_TEST(near_the_boundary) {
   expect_lengths(LINE(5, "[[10.005,2],[9.994,4],[10.003,7]]"), 35, 5, 0);
   expect_lengths(LINE(5, "[[8,-0.006],[9.995,0.004],[10.007,3]]"), 35, 5, 0);
   expect_lengths(LINE(5, "[[10.004,0.006],[9.995,10.003]]"), 30, 10, 0);
-  /* Rounding errors do not create segments of their own. */
+  /* Differences by rounding do not cause separate segments. */
   expect_lengths(LINE(5, "[[10,1e-13],[10,9.9999999999999]]"), 30, 10, 0);
   expect_lengths(
       LINE(5, "[[0.002,-0.005],[10.004,0.003],[9.996,10.005],[0.003,9.998],[0.002,-0.005]]"), 0, 40,
@@ -73,7 +74,7 @@ START_TEST(near_the_boundary) {
 }
 END_TEST
 
-/* The shore has a vertex that the line lacks. The vertex is near the line or farther away. */
+/* The shore has a vertex that the line leaves out, either near to the line or far from it. */
 START_TEST(boundary_with_more_vertices) {
   geo_case it = begin(POLYGON("[[[0,0],[10,0],[10.004,4],[10.005,6],[10,10],[0,10]]]")
                           LINE(5, "[[10,0],[10,10]]"));
@@ -82,7 +83,7 @@ START_TEST(boundary_with_more_vertices) {
   geo_end(&it);
   it = begin(POLYGON("[[[0,0],[10,0],[11,5],[10,10],[0,10]]]") LINE(5, "[[10,0],[10,10]]"));
   ck_assert_double_eq_tol(length_of(&it, 1), 30 + 2 * sqrt(26), 1e-9);
-  ck_assert_double_eq_tol(length_of(&it, 5), 10, 1e-9); /* it is an inner curve */
+  ck_assert_double_eq_tol(length_of(&it, 5), 10, 1e-9); /* as an inner curve */
   ck_assert(!has_note(it.shapes, "along the boundary"));
   ck_assert_int_eq(noted(it.shapes, PNPBS_GEO_NOTE_LINES_ALONG_BOUNDARY), -1);
   geo_end(&it);
@@ -92,14 +93,15 @@ END_TEST
 START_TEST(inner_curves_stay) {
   expect_lengths(LINE(5, "[[2,2],[8,2]]"), 40, 6, 1);
   expect_lengths(LINE(5, "[[0,5],[10,5]]"), 40, 10, 1);
-  /* The line lies beside the boundary, farther away than the tolerance. */
+  /* The line is beside the boundary, at a distance larger than the tolerance. */
   expect_lengths(LINE(5, "[[9.95,2],[9.95,8]]"), 40, 6, 1);
-  /* One part of the line follows the boundary with common vertices, another part leaves it. */
+  /* One part of the line follows the boundary, with common vertices, and the other one leads away
+   * from it. */
   expect_lengths(LINE(5, "[[10,0],[10,10],[5,5]]"), 30, 10 + sqrt(50), 1);
 }
 END_TEST
 
-/* Two lines meet, and others have a common part. */
+/* Two lines meet, or coincide. */
 START_TEST(several_lines) {
   geo_case it = begin(SEA LINE(5, "[[10,0],[10,4.5]]") LINE(6, "[[10,4.5],[10,10]]")
                           LINE(7, "[[10.001,9.997],[6,10]]"));
@@ -116,7 +118,8 @@ START_TEST(several_lines) {
 }
 END_TEST
 
-/* Only one line crosses the border of two polygons. Another one follows their common edge. */
+/* One line follows the boundary of two polygons across their border, and another one follows their
+ * common edge. */
 START_TEST(along_neighbours) {
   geo_case it =
       begin(POLYGON("[[[0,0],[5,0],[5,10],[0,10]]]") "," POLYGON("[[[5,0],[10,0],[10,10],[5,10]]]")
@@ -128,7 +131,7 @@ START_TEST(along_neighbours) {
 }
 END_TEST
 
-/* A coast and an open boundary together enclose an island. */
+/* A coast and an open boundary close around an island. */
 START_TEST(lines_around_an_island) {
   geo_case it = begin(POLYGON("[[[4,4],[6,4],[6,6],[4,6]]]") LINE(2, "[[0,0],[10,0],[10,10]]")
                           LINE(5, "[[10,10],[0,10],[0,0]]"));

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of projected coordinates against formulas from the literature, and of the names, the choice
- * and the output of projections. */
+ * Tests projected coordinates against formulas from the literature, and the ways in which a
+ * projection is named, selected and reported.
+ */
 #include "geo_support.h"
 
 static const double pi = 3.14159265358979323846;
 
-/* An ellipsoid of revolution. GRS 80 and WGS 84 differ by 0.1 mm in their shorter axis. */
+/* An ellipsoid. The shorter axes of GRS 80 and WGS 84 differ by 0.1 mm. */
 typedef struct ellipsoid {
   double a, f;
 } ellipsoid;
 static const ellipsoid grs80 = {6378137, 1 / 298.257222101}, wgs84 = {6378137, 1 / 298.257223563};
 
-/* Computes the transverse Mercator projection by Krueger's series to the fourth order of n, which
- * is good to a micrometre within 10 degrees: C. F. F. Karney, "Transverse Mercator with an accuracy
- * of a few nanometers", J. Geod. 85 (2011) 475-485, equations (7) to (14), (35). */
+/* Computes the transverse Mercator projection by Krueger's series to the fourth order of n, with an
+ * error below a micrometre within 10 degrees: C. F. F. Karney, "Transverse Mercator with an
+ * accuracy of a few nanometers", J. Geod. 85 (2011) 475-485, equations (7) to (14), (35). */
 static void transverse_mercator(ellipsoid e, double lon0, double k0, double lon, double lat,
                                 double* xy) {
   const double n = e.f / (2 - e.f), n2 = n * n, n3 = n2 * n, n4 = n2 * n2;
@@ -58,7 +59,7 @@ static void azimuthal(ellipsoid e, double lon0, double lat0, double lon, double 
   xy[1] = b / d * (cos(beta1) * sin(beta) - sin(beta1) * cos(beta) * cos(lambda));
 }
 
-/* Checks that each of these points is an end of a segment of the domain within 0.1 mm. */
+/* Expects that each of these points is an end of a segment of the domain, to 0.1 mm. */
 static void expect_points(pnpbs_domain domain, int n, double (*points)[2], double unit) {
   static double segments[256][2][2];
   int64_t count = 0;
@@ -82,7 +83,7 @@ static void expect_name(pnpbs_geo_shapes shapes, const char* expected, const cha
   ck_assert_str_eq(unit, expected_unit);
 }
 
-/* Four points near the bay of Gdansk. */
+/* A polygon around the bay of Gdansk. */
 static double bay[4][2] = {{18.5, 54.4}, {19.75, 54.375}, {19.6, 54.8}, {18.4, 54.85}};
 #define BAY \
   FEATURE("Polygon", "[[[18.5,54.4],[19.75,54.375],[19.6,54.8],[18.4,54.85],[18.5,54.4]]]")
@@ -90,7 +91,7 @@ static double bay[4][2] = {{18.5, 54.4}, {19.75, 54.375}, {19.6, 54.8}, {18.4, 5
 START_TEST(named) {
   double expected[4][2];
   int i, k;
-  for (i = 0; i < 4; ++i) { /* parameters of EPSG:2180 from the EPSG register */
+  for (i = 0; i < 4; ++i) { /* EPSG:2180 */
     transverse_mercator(grs80, 19, 0.9993, bay[i][0], bay[i][1], expected[i]);
     expected[i][0] += 500000;
     expected[i][1] -= 5300000;
@@ -158,8 +159,8 @@ START_TEST(too_wide_for_a_zone) {
 }
 END_TEST
 
-/* A feature that was cut at 180 degrees is joined again, and longitudes that differ by 360 degrees
- * are equal. */
+/* Parts of a feature that was cut at 180 degrees are joined. Longitudes above 180 degrees are
+ * equivalent to negative ones. */
 START_TEST(across_180_degrees) {
   double corners[4][2] = {{176, -18}, {184, -18}, {184, -15}, {176, -15}}, expected[4][2];
   int i;
@@ -178,7 +179,7 @@ START_TEST(across_180_degrees) {
 }
 END_TEST
 
-/* Files in longitude and latitude extend Antarctica to the pole and back. */
+/* Antarctica in longitude and latitude has a cut to the pole and back. */
 START_TEST(around_a_pole) {
   geo_case it = geo_begin(
       write_geojson(
@@ -190,13 +191,13 @@ START_TEST(around_a_pole) {
   expect_name(it.shapes, "WGS 84 / Lambert azimuthal equal-area at 90 S, 0 in kilometre",
               "kilometre");
   expect_counts(it.shapes, 5, 1, 0, 0);
-  /* The domain is a square between meridians, whose corners are about 20 degrees from the pole. */
+  /* The domain is a square with its corners on meridians, about 20 degrees from the pole. */
   ck_assert_double_eq_tol(geo_area(&it), 2 * 2220. * 2220., 0.02 * 2 * 2220. * 2220.);
   geo_end(&it);
 }
 END_TEST
 
-/* From some of these points PROJ cannot compute the inverse at the pole. */
+/* PROJ cannot compute the inverse projection of the pole from some of these points. */
 START_TEST(corner_at_a_pole) {
   static const char* const seen_from[] = {"sphere(0,0)", "sphere(0,-15)", "sphere(-135,-7.5)",
                                           "sphere(-180,-22.5)"};
@@ -224,11 +225,11 @@ START_TEST(to_degrees_and_back) {
   double x[2][2] = {{18.5, 54.4}, {19.75, 54.375}};
   geo_case it = geo_begin(write_geojson("bay.geojson", BAY), "EPSG:3035", NULL, NULL);
   GEO_MUST(pnpbs_geo_from_degrees(it.shapes, 2, x[0]));
-  /* east comes before north, although the register reverses them */
-  ck_assert_double_gt(x[0][0], 4e6);
+  ck_assert_double_gt(x[0][0],
+                      4e6); /* east before north, although the register has the other order */
   ck_assert_double_lt(x[0][1], 4e6);
   GEO_MUST(pnpbs_geo_to_degrees(it.shapes, 2, x[0]));
-  ck_assert_double_eq_tol(x[0][0], 18.5, 1e-8); /* this is a millimetre */
+  ck_assert_double_eq_tol(x[0][0], 18.5, 1e-8); /* which is a millimetre */
   ck_assert_double_eq_tol(x[1][1], 54.375, 1e-8);
   GEO_MUST(pnpbs_geo_to_degrees(it.shapes, 0, NULL));
   GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_geo_to_degrees(it.shapes, -1, x[0]), "n = -1",
@@ -239,7 +240,7 @@ START_TEST(to_degrees_and_back) {
 }
 END_TEST
 
-/* The projection that is written beside the results can be read again. */
+/* The projection written beside results can be read again and is the same. */
 START_TEST(written_beside_results) {
   char prj[1024], path[1024];
   double x[2] = {18.5, 54.4}, y[2] = {18.5, 54.4};
@@ -273,14 +274,14 @@ START_TEST(lengths_that_are_off) {
   double least = 0, greatest = 0;
   geo_case it = geo_begin(write_geojson("bay.geojson", BAY), NULL, NULL, NULL);
   GEO_MUST(pnpbs_geo_scale(it.shapes, &least, &greatest));
-  ck_assert(least > 0.9996 && greatest < 1.0006); /* scales of a UTM zone */
+  ck_assert(least > 0.9996 && greatest < 1.0006); /* as in a UTM zone */
   ck_assert(!has_note(it.shapes, "lengths"));
   geo_end(&it);
   it = geo_begin(write_geojson("far.geojson", FEATURE("Polygon", "[[[0,0],[1,0],[1,60],[0,60]]]")),
                  "EPSG:3857", NULL, NULL);
   GEO_MUST(pnpbs_geo_scale(it.shapes, &least, &greatest));
-  /* The expected scales are a / (N cos(latitude)), and at the equator a / N = 1 along it and a / M
-   * = 1 / (1 - e^2) across it. */
+  /* The scale is a / (N cos(latitude)). At the equator it is a / N = 1 along it, and a / M = 1 / (1
+   * - e^2) across. */
   ck_assert_double_eq_tol(least, 1, 1e-6);
   ck_assert_double_eq_tol(greatest, 2 * pow(1 - e2 * sine * sine, 1.5) / (1 - e2), 1e-6);
   ck_assert(has_note(it.shapes, "lengths are 1 to 1.99"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests of values between the cells of a raster of which only some blocks are in memory. They must
-// equal the values computed from the whole raster in memory to the bit, for any size of the memory.
+// Tests values between the cells of a raster that keeps only some blocks in memory, against a
+// raster that is completely in memory. They are equal to the bit for any size of the memory.
 #include <cmath>
 #include <cstring>
 #include <deque>
@@ -26,7 +26,7 @@ struct Whole {
   }
 };
 
-// Spreads values from cells with data to cells without, step by step.
+// Fills cells without data: spreads values from the cells that have one, step by step.
 void fill_all(Whole& whole) {
   std::deque<std::int64_t> front;
   const std::int64_t columns = whole.cells.columns, count = whole.cells.count();
@@ -69,10 +69,10 @@ struct Case {
   RasterValues::Memory memory;
 };
 
-// A raster in which the value -1 means no data.
+// A raster in which the number -1 means no data.
 struct Raster {
   Whole whole;
-  std::map<std::int64_t, int> reads;  // by the first cell of a block
+  std::map<std::int64_t, int> reads;  // number of reads by the first cell of a block
 
   RasterBlock read(const CellBox& cells) {
     ++reads[cells.row * 100000 + cells.column];
@@ -163,7 +163,7 @@ START_TEST(with_gaps) {
 }
 END_TEST
 
-// The nearest data are several tiles away, also at the same distance on several sides.
+// The nearest data are several tiles away, also at the same distance in several directions.
 START_TEST(far_from_data) {
   Raster raster = some_raster(1100, 900, 0);
   const auto put = [&](std::int64_t column, std::int64_t row, double value) {
@@ -185,8 +185,7 @@ START_TEST(without_data) {
 }
 END_TEST
 
-// Within a batch each block is read once, whatever the order of points and however small the memory
-// is.
+// A batch reads each block once, for any order of the points and for any size of the memory.
 START_TEST(a_block_is_read_once) {
   Raster raster = some_raster(400, 300, 2);
   RasterValues values([&](const CellBox& cells) { return raster.read(cells); }, {0, 0, 400, 300},

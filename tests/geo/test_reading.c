@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests of polygons, lines and points, of tags and layers, and of rejected files. There is no
- * projection, so that areas are easy to compute. */
+ * Tests the conversion of polygons, lines and points, tags and layers, and errors of files that are
+ * rejected. Coordinates are not projected here, so areas are simple.
+ */
 #include <gdal.h>
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
@@ -32,8 +33,7 @@ START_TEST(hole_and_repeated_vertices) {
 }
 END_TEST
 
-/* Land contains a lake, which contains an island. They are parts of one feature, or separate
- * features. */
+/* Land with a lake with an island are parts of one feature, or separate features. */
 START_TEST(islands_in_lakes) {
   geo_case it = begin(FEATURE("MultiPolygon",
                               "[[[[0,0],[9,0],[9,9],[0,9],[0,0]],[[1,1],[8,1],[8,8],[1,8],[1,1]]],"
@@ -50,7 +50,8 @@ START_TEST(islands_in_lakes) {
 }
 END_TEST
 
-/* Two squares lie side by side, a third one touches a corner only, and one fills a hole. */
+/* The domain has two adjacent squares, a third one that only touches a corner, and one that fills a
+ * hole. */
 START_TEST(neighbours) {
   int64_t count = 0, s;
   double segments[32][2][2];
@@ -61,7 +62,8 @@ START_TEST(neighbours) {
       "Polygon", "[[[4,0],[8,0],[8,4],[4,4]]]") "," FEATURE("Polygon",
                                                             "[[[1,1],[2,1],[2,2],[1,2]]]") "," FEATURE("Polygon",
                                                                                                        "[[[8,4],[9,4],[9,5],[8,5]]]"));
-  /* Boundary segments end at the ends of the common edge and at the corner that is touched. */
+  /* Boundary curves begin and end at the ends of the common edge and at the corner that is touched.
+   */
   expect_counts(it.shapes, 13, 4, 2, 0);
   ck_assert_double_eq_tol(geo_area(&it), 33, 1e-12);
   ck_assert_int_eq(pnpbs_domain_get_segments(it.domain, 32, &count, segments[0][0], tags),
@@ -74,8 +76,8 @@ START_TEST(neighbours) {
 }
 END_TEST
 
-/* A vertex of one polygon lies on a straight side of the other: exactly, or a metre away from it.
- */
+/* A vertex of one polygon lies on a straight side of its neighbour, to the last digit or a metre
+ * off. */
 START_TEST(vertices_that_only_one_neighbour_has) {
   const char* const projections[] = {"none", "EPSG:2180"};
   int k;
@@ -89,7 +91,7 @@ START_TEST(vertices_that_only_one_neighbour_has) {
                                                                                   "[[18.5,54],[18."
                                                                                   "5,54.5]]")),
         projections[k], NULL, NULL);
-    /* The end of the line lies on a side too. */
+    /* The end of the line lies on a side as well. */
     expect_counts(it.shapes, 9, 3, 2, 0);
     ck_assert(!has_note(it.shapes, "all but touch"));
     geo_end(&it);
@@ -124,7 +126,7 @@ START_TEST(overlaps) {
 }
 END_TEST
 
-/* The library finds the intersection in projected coordinates. The message also gives it in
+/* The library finds the crossing in projected coordinates. The message is also available in
  * degrees. */
 START_TEST(crosses_itself) {
   pnpbs_geo_shapes shapes = NULL;
@@ -153,7 +155,7 @@ START_TEST(crosses_itself) {
   ck_assert_msg(strncmp(message, "coast: ", 7) == 0 && strstr(message, "[longitude ") != NULL &&
                     strcmp(message + strlen(message) - 7, " (1, 2)") == 0,
                 "%s", message);
-  /* Points are not parsed from the text. */
+  /* Only points that belong to a message are converted, not those in any text. */
   ck_assert_str_eq(pnpbs_geo_explain(shapes, "(500000, 650000)"), "(500000, 650000)");
   ck_assert_str_eq(pnpbs_geo_explain(NULL, "as it is (1, 2)"), "as it is (1, 2)");
   GEO_MUST(pnpbs_geo_destroy(&shapes));
@@ -176,7 +178,7 @@ START_TEST(lines_and_points_in_polygons) {
 }
 END_TEST
 
-/* A map cuts the coast into pieces, one of which appears twice. A pier is attached to it. */
+/* Maps may cut a coast into pieces. Here a pier is added, and one piece occurs twice. */
 START_TEST(coast_of_lines) {
   geo_case it = begin(FEATURE("LineString", "[[0,0],[9,0],[9,9]]") "," FEATURE(
       "LineString",
@@ -257,8 +259,8 @@ static const char* in_folder(const char* name) {
   return path;
 }
 
-/* Writes layers with one square each, of side 1000, 2000, ..., in Poland's coordinates or without a
- * coordinate system. */
+/* Writes layers with a square each, with sides of 1, 2, ... thousand, in Poland's coordinates or
+ * without a system. */
 static void write_layers(const char* driver_name, const char* path, int layers, int with_system) {
   GDALDriverH driver;
   GDALDatasetH dataset;
@@ -304,7 +306,7 @@ START_TEST(layers) {
 }
 END_TEST
 
-/* Projected coordinates stay unchanged, unless the user sets another projection. */
+/* Projected coordinates are kept unless another projection is requested. */
 START_TEST(shapefile) {
   const char *name = NULL, *path = in_folder("square.shp");
   geo_case it;
@@ -314,7 +316,7 @@ START_TEST(shapefile) {
   GEO_MUST(pnpbs_geo_projection(it.shapes, &name, NULL, NULL, NULL, NULL));
   ck_assert_msg(strstr(name, "CS92") != NULL, "%s", name);
   geo_end(&it);
-  it = geo_begin(path, "auto", "km", NULL); /* scales are 0.9993 and 0.9996 near one meridian */
+  it = geo_begin(path, "auto", "km", NULL); /* scales of 0.9993 and 0.9996 */
   ck_assert_double_eq_tol(geo_area(&it), 1, 2e-3);
   GEO_MUST(pnpbs_geo_projection(it.shapes, &name, NULL, NULL, NULL, NULL));
   ck_assert_msg(strstr(name, "UTM zone 3") != NULL, "%s", name);

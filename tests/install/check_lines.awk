@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Judges what an example printed by the example's own words, and fails if one does not hold:
+# Checks the output of an example by the lines in which the example states what it expects:
 #
 #   <what>: <number>, expected <number>             the same number
 #   <what>: <number>, expected about <number>       within 4 %
 #   <what>: <number>, expected at least <number>
 #   <what>: <number>, expected at most <number>
 #
-# Other lines are free, but one that says ", expected" and is none of these (nan, a missing number)
-# fails, and so does an output without any check.
+# Fails if an expectation does not hold, if a line contains ", expected" but has none of these forms
+# (nan, a missing number), or if there is no such line. Other lines are ignored.
 # usage: awk -f check_lines.awk OUTPUT
 
 BEGIN {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests what find_package(pnpbs) provides, and its messages when it fails.
+# Tests the targets and variables that find_package(pnpbs) defines, and its messages on errors.
 # usage: cmake_package.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -8,7 +8,7 @@ set -eu
 . "$scripts/common.sh"
 cases=0
 
-# Configures a project with these languages (C, CXX, Fortran; separated by blanks) and these lines.
+# Configures a project with these languages (C, CXX, Fortran, separated by blanks) and these lines.
 project() {
   cases=$((cases + 1))
   folder=$work/project_$cases
@@ -28,8 +28,8 @@ works() {
   project "$1" "$2" || { cat "$work/log"; fail "should work"; }
 }
 
-# Checks that a project fails: languages, lines, and the expected message, whose line breaks do not
-# count.
+# Requires that a project fails. Arguments: languages, lines, and a part of the message. CMake's
+# line breaks do not matter.
 is_refused() {
   say "is refused: $1: $2"
   if project "$1" "$2"; then
@@ -39,7 +39,7 @@ is_refused() {
   grep -qF -e "$3" "$work/message" || { cat "$work/log"; fail "should say: $3"; }
 }
 
-# Prints CMake code that stops unless the condition holds.
+# Prints CMake code that requires a condition.
 require() { echo "if(NOT ($1))"; echo "message(FATAL_ERROR \"$2\")"; echo "endif()"; }
 
 minor=${version%.*}
@@ -83,7 +83,7 @@ else
   is_refused C "find_package(pnpbs REQUIRED COMPONENTS MPI)" "was built without MPI"
 fi
 
-# Builds and runs the program of the last project, without comparing its lines with other projects.
+# Builds and runs the program of the last project, whose output is not compared with others.
 build_and_run_alone() {
   quietly "$cmake" --build "$folder/build"
   rm -f "$work/check_lines_before"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests that the installed command finds its library after the tree was moved, and has a manual
-# page.
+# Tests that the installed command finds its library after the tree was moved, and that it has a
+# manual page.
 # usage: command.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -12,7 +12,7 @@ export OMP_NUM_THREADS=2
 
 command=$prefix/$bindir/pnpbs
 "$command" --version | grep -F "$version" || fail "not version $version"
-# Status 3 means that the step limit was reached; the nodes are written nevertheless.
+# The exit status 3 means that the step limit was reached and nodes were written.
 "$command" --quiet --domain "$prefix/$datadir/pnpbs/examples/data/lake_victoria.poly" --spacing 5 \
   --output "$work/lake.node" || [ $? = 3 ]
 [ -s "$work/lake.node" ] || fail "no nodes were written"

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=sh disable=SC2154  # variables of settings.sh
-# Common parts of the install tests: a working folder, and how programs are built and checked.
+# Common parts of the scripts: a working folder, and functions that build and check programs.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 unset DESTDIR CFLAGS CXXFLAGS FFLAGS LDFLAGS CPPFLAGS
 export PKG_CONFIG_PATH="$prefix/$libdir/pkgconfig"
-# The compiler wrappers of MPI call the compilers under test.
+# These variables make MPI's compiler commands call the compilers under test.
 export OMPI_CC="$cc" OMPI_FC="$fc" MPICH_CC="$cc" MPICH_FC="$fc"
 
 say() { printf '== %s\n' "$*"; }
@@ -20,7 +20,7 @@ nothing_to_test() {
   exit 77
 }
 
-# Runs a command and shows its output only if it fails.
+# Runs a command and prints its output only if it fails.
 quietly() {
   "$@" > "$work/log" 2>&1 || {
     cat "$work/log"
@@ -28,7 +28,7 @@ quietly() {
   }
 }
 
-# Arguments: source folder, build folder, options of CMake.
+# Builds a project. Arguments: source folder, build folder, options of CMake.
 build_with_cmake() {
   from=$1 to=$2
   shift 2
@@ -36,14 +36,14 @@ build_with_cmake() {
   quietly "$cmake" --build "$to"
 }
 
-# Arguments: number of ranks, command.
+# Runs a command on ranks. Arguments: number of ranks, command.
 on_ranks() {
   ranks=$1
   shift
   "$mpirun" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" "$@"
 }
 
-# Runs a command, checks its output, and compares its check lines with those of earlier runs.
+# Runs a command, checks its output, and compares its check lines with those of the previous run.
 run_and_compare() {
   "$@" > "$work/output" < /dev/null || fail "exit status $? of $*"
   sed 's/^/   /' "$work/output"

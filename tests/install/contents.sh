@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests the installed tree file by file: It has all files that it should have and no others, and no
-# file names the folders of the build machine.
+# Tests the installed tree file by file: it has all files that belong to it, no others, and no text
+# that contains folders of the machine on which it was built.
 # usage: contents.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -10,9 +10,9 @@ set -eu
 cd "$prefix"
 configuration=$(echo "${build_type:-noconfig}" | tr '[:upper:]' '[:lower:]')
 
-# ------------------------------------------------------------------ what there should be --------
-# Lists the files of a folder of the source tree with their paths in the prefix. Arguments: folder,
-# its path in the prefix.
+# ------------------------------------------------------------------ expected files --------------
+# Prints the files of a folder of the source tree as installed files. Arguments: the folder, its
+# path in the prefix.
 same_files() {
   (cd "$source/$1" && find . -type f ! -name .clang-format ! -path '*/__pycache__/*') |
     sed "s,^\.,$2,"
@@ -124,7 +124,7 @@ if [ "$kokkos_is_shared" = FALSE ]; then
 fi
 
 # ------------------------------------------------------------------ folders of this machine -----
-# Prints the strings in a file, compressed or not, that contain the source or build folder.
+# Prints the texts in a file, also in a compressed one, that contain the source or the build folder.
 named_folders() {
   case $1 in
     *.mod) gzip -dc "$1" ;;
@@ -132,10 +132,10 @@ named_folders() {
   esac | strings -a | grep -F -e "$source/" -e "$build/"
 }
 
-# Filters the paths that are allowed. A Kokkos in the source tree's own .deps is linked in place, so
-# it appears in the rpath to a shared Kokkos, and in the output of pkg-config --static and
-# pnpbs::static. gfortran stores the names of source files for its messages, and has no option
-# against this.
+# Filters texts that are allowed. A Kokkos in .deps of the source tree is linked at its location:
+# this is the rpath to a shared one, and appears in the output of pkg-config --static and in
+# pnpbs::static. gfortran stores the names of source files for its messages and has no option
+# against it.
 allowed() {
   case $1 in
     *.so.* | *.pc | */pnpbsStatic.cmake) grep -vF "$kokkos_folder" ;;
@@ -153,13 +153,13 @@ if [ "$build_type" = Release ]; then
   if [ -s "$work/leaks" ]; then
     fail "$(cat "$work/leaks")"
   fi
-  # The search must find the paths that a build tree contains.
+  # The search must find the folders in a file of the build tree.
   named_folders "$build/CMakeCache.txt" > "$work/leaks"
   [ -s "$work/leaks" ] || fail "the search finds nothing where there is something"
 fi
 
 # ------------------------------------------------------------------ links in the documents ------
-# Links that leave the folder of the documents count too. Each target must be installed.
+# Links that lead out of the folder of the documents must lead to installed files.
 say "links between installed documents"
 for link in "$datadir/doc/pnpbs/examples" "$datadir/pnpbs/docs"; do
   case $(readlink "$link") in

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds an installed example as its readers do: with its Makefile, which uses pkg-config alone, and
-# with its CMakeLists.txt, which uses find_package alone. Examples in C++ have only the latter.
-# Every number that the example checks must be right. It must be the same from both builds and, with
-# MPI, on any number of ranks.
+# Tests an installed example by building it in the documented ways: with its Makefile, which uses
+# only pkg-config, and with its CMakeLists.txt, which uses only find_package. Examples in C++ have
+# only the latter. Every number that an example checks must be right, and the same from both builds
+# and, for an example with MPI, on any number of ranks.
 # usage: example.sh <settings> <c, cpp or fortran> <name> [numbers of ranks]
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -22,8 +22,8 @@ if grep -q '<petsc' "$folder"/*.c 2> /dev/null && ! pkg-config --exists petsc; t
   nothing_to_test "$name needs PETSc, and pkg-config knows none"
 fi
 
-# Tests whether CMake finds a C++ package as an example needs it. Arguments: the lines that find it,
-# its name.
+# Skips the test unless CMake finds a C++ package as the example needs it. Arguments: CMake lines
+# that find it, its name.
 require_package() {
   mkdir "$work/probe"
   printf '%s\n' "cmake_minimum_required(VERSION 3.22)" "project(probe LANGUAGES C CXX)" "$1" \
@@ -47,8 +47,8 @@ if(NOT MFEM_USE_MPI)
 endif()' "MFEM 4.5 with MPI"
 fi
 
-# Fortran programs trap invalid numbers. Free-form code is checked strictly, older code has other
-# flags.
+# Prints flags for Fortran. Invalid operations trap. Free-form source is checked strictly, whereas
+# older code has its own flags.
 fortran_flags() {
   [ "$fc_id" = GNU ] || return 0
   echo "-ffpe-trap=invalid,zero,overflow"
@@ -58,12 +58,12 @@ fortran_flags() {
   echo "-std=f2003 -fimplicit-none -Wall -Werror"
 }
 c_flags="-std=c99 -O2 -Wall -Wextra -pedantic -Werror"
-# deal.II adds options of GCC that other compilers may reject.
+# deal.II adds options of GCC, which other compilers may not have.
 cxx_flags="-Wall -Wextra -Werror -Wno-unknown-warning-option"
 
 make_it() {
   if [ "$language" = c ]; then
-    # CC comes from the environment, as an example with MPI sets its compiler itself.
+    # CC is set in the environment, since an example with MPI names its compiler itself.
     CC=$cc quietly make -C "$work/make" CFLAGS="$c_flags" PKG_CONFIG_PATH="$PKG_CONFIG_PATH"
   else
     compiler=$fc
@@ -97,7 +97,7 @@ say "$name with CMake"
 
 if [ $on_mpi = yes ]; then
   export OMP_NUM_THREADS=1
-  # The last number of ranks uses the build by CMake, the others the build by make.
+  # The last number of ranks runs CMake's build, and the others run make's.
   for ranks in $rank_counts; do
     build=$first
     [ "$ranks" != "${rank_counts##* }" ] || build=cmake

@@ -1,14 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests that the CMake package compiles the installed source if another compiler than the one of the
-# build uses the Fortran module.
+# Tests that the CMake package compiles the installed Fortran source if the project's compiler is
+# not the one that built the module.
 # usage: fortran_source.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
 . "$1"
 . "$scripts/common.sh"
 
-# This copy of the package says that another compiler has built it.
+# This copy of the package states that another compiler has built its module.
 cp -r "$prefix" "$work/copy"
 config=$work/copy/$libdir/cmake/pnpbs/pnpbsConfig.cmake
 sed -i 's/set(pnpbs_fortran_built_by .*/set(pnpbs_fortran_built_by "Another 1")/' "$config"

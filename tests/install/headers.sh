@@ -1,14 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests that each installed header compiles by itself in C99 and C++11. pnpbs.h, which needs no MPI,
-# must also compile in C89 and C++98.
+# Tests that each installed header compiles alone, in C99 and in C++11. pnpbs.h, which does not need
+# MPI, must also compile in C89 and C++98.
 # usage: headers.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
 . "$1"
 . "$scripts/common.sh"
 
-# Excludes the old C++ classes of MPI, whose headers cause warnings.
+# These definitions exclude MPI's old C++ classes, whose headers cause warnings.
 no_mpi_classes="-DOMPI_SKIP_MPICXX -DMPICH_SKIP_MPICXX"
 for header in "$prefix/$includedir"/pnpbs/*.h; do
   module=pnpbs

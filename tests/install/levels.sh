@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests the libraries for levels of processors: The loader, Python and Julia choose the best one
-# that this machine can run, and all of them place the same nodes.
+# Tests the libraries for levels of processors. The loader selects the best one that this machine
+# supports, and so do Python and Julia. All of them place the same nodes.
 # usage: levels.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -25,7 +25,7 @@ for library in "$common" "$best"; do
 done
 cmp "$work/$(basename "$libdir")" "$work/x86-64-v3" || fail "the libraries export different names"
 
-# Makes the loader treat the processor as one without AVX2.
+# Runs a command as on a processor without AVX2, as far as the loader can detect.
 older() { GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 "$@"; }
 
 say "the one that the loader takes"
@@ -36,7 +36,7 @@ say "the same nodes"
 data=$prefix/$datadir/pnpbs/examples/data
 for job in "$data/lake_victoria.poly 3+0.02*hypot(x,y)" "$data/bracket.stl 3"; do
   for run in "" older; do
-    # Status 3 means that the step limit was reached; the nodes are written nevertheless.
+    # The exit status 3 means that the step limit was reached and nodes were written.
     $run "$command" --quiet --domain "${job% *}" --spacing "${job##* }" \
       --output "$work/nodes$run.csv" || [ $? = 3 ]
   done

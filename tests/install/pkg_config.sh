@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests the output of pkg-config, which must contain nothing unnecessary.
+# Tests the flags that pkg-config prints. They contain nothing that users do not need.
 # usage: pkg_config.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -17,7 +17,7 @@ for module in $modules; do
   say "$module"
   pkg-config --validate "$module"
   [ "$(pkg-config --modversion "$module")" = "$version" ] || fail "version"
-  # The folders must be those of the moved tree.
+  # The folders must be in the tree at its new location.
   words=$(pkg-config --cflags-only-I --libs-only-L "$module")
   [ -n "$words" ] || fail "no folders"
   for word in $words; do

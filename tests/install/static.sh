@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds a program with the static library and the flags of pkg-config --static: fully static if all
-# libraries that PNPBS needs exist as static ones, and with PNPBS alone static.
+# Tests programs that link the static library with the flags of pkg-config --static: one with all
+# libraries static, if static versions of all required libraries exist, and one with only PNPBS
+# static.
 # usage: static.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -17,7 +18,7 @@ program=$prefix/$datadir/pnpbs/examples/c/smallest/smallest.c
 flags=$(pkg-config --static --cflags pnpbs)
 
 say "PNPBS static"
-# The copy lies in a folder of its own, as the compiler prefers a shared library in the same folder.
+# The static library is copied, because the compiler prefers a shared library in the same folder.
 mkdir "$work/lib"
 cp "$prefix/$libdir/libpnpbs.a" "$work/lib"
 # shellcheck disable=SC2046,SC2086  # words on purpose
@@ -26,7 +27,7 @@ cp "$prefix/$libdir/libpnpbs.a" "$work/lib"
 if readelf -d "$work/smallest" | grep libpnpbs; then
   fail "the shared library was taken"
 fi
-if [ "$kokkos_is_shared" = TRUE ]; then # pkg-config does not pass its folder to the loader
+if [ "$kokkos_is_shared" = TRUE ]; then # pkg-config does not provide its folder to the loader
   export LD_LIBRARY_PATH="$kokkos_folder${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 fi
 run_and_compare "$work/smallest"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests that check_lines.awk accepts lines that hold and rejects all others.
+# Tests that check_lines.awk accepts expectations that hold, and nothing else.
 # usage: test_check_lines.sh
 set -u
 rules=$(dirname "$0")/check_lines.awk

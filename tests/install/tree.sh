@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs into an empty prefix and moves the prefix. The other tests use the moved copy.
+# Installs into an empty prefix and moves the prefix. The other tests use this copy.
 # usage: tree.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu

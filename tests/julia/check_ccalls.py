@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares the C header with the Julia package's ccalls, argument by argument: count, type, by
-value or by reference; also the callbacks' signatures, status codes and constants. Prints each
-difference and fails on any.
+"""Compares the C header with the Julia package's ccalls, argument by argument: count, type, and
+passing by value or by reference. Also compares the signatures of callbacks, status codes and
+constants. Prints each difference and fails if there is any.
 
 usage: check_ccalls.py <pnpbs.h> <folder of PNPBS.jl> [--self-test]
-pnpbs_geo.h, beside that header, is compared likewise.
+pnpbs_geo.h, beside that header, is compared in the same way.
 
---self-test changes the header in many ways, one at a time, and fails unless each is noticed.
-"""
+--self-test changes the header in many ways, one at a time, and fails unless each change is
+detected."""
 import re
 import sys
 from pathlib import Path
@@ -16,7 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "linkage"))
 import c_header
 
-# What a C type must be called in a ccall. Other names are the header's own, the same in both.
+# The names of C types in a ccall. Other names are those of the header, which are the same in Julia.
 JULIA_NAMES = {
     "int8_t": {"Int8"},
     "int32_t": {"Int32"},
@@ -36,7 +36,8 @@ def read_header(text):
 
 
 def c_type(text):
-    """(name of the type pointed to, number of pointers); const makes no difference to a call."""
+    """Returns (name of the type pointed to, number of pointers). const is removed, as it does not
+    affect a call."""
     text = re.sub(r"\bconst\b", " ", text)
     return text.replace("*", " ").strip(), text.count("*")
 
@@ -49,7 +50,7 @@ def read_package(folder):
 
 
 def read_shapes(folder):
-    """The same of the library of shapes, which has no callbacks."""
+    """Returns the same data for the library of shapes, which has no callbacks."""
     raw = (folder / "src/LibPNPBSGeo.jl").read_text()
     return read_functions(raw), {}, read_constants(raw), read_aliases(raw)
 
@@ -98,7 +99,7 @@ def julia_type(text):
 # ---------------------------------------------------------------- comparing ----------------------
 def same(c, julia):
     (c_name, c_pointers), (name, pointers) = c, julia
-    if c_name == "char":  # text: Cstring, or bytes with a length of their own
+    if c_name == "char":  # a Cstring, or bytes with a separate length
         return (name, pointers) in (("Cstring", c_pointers - 1), ("UInt8", c_pointers))
     if c_name == "void":
         return (name, pointers) == ("Cvoid", c_pointers)
@@ -149,14 +150,14 @@ def differences(header, package):
     for name in sorted(set(constants) & set(numbers)):
         if constants[name] != numbers[name]:
             yield f"{name}: {constants[name]} in C, {numbers[name]} in Julia"
-    # The header's own types: an enum is an int, handles and functions are pointers.
+    # Types of the header: an enum is an Int32, handles and functions are pointers.
     for name, julia in sorted(aliases.items()):
         if julia != ("Int32" if name == "pnpbs_status" else "Ptr{Cvoid}"):
             yield f"{name}: stands for {julia}"
 
 
 # ---------------------------------------------------------------- can it fail? -------------------
-# What is done, the text of the header that is changed, and what it becomes.
+# Changes of the header: description, text, replacement.
 MUTATIONS = [
     ("an argument less", "pnpbs_context context, int32_t dim,", "pnpbs_context context,"),
     ("an argument more", "_run(pnpbs_placement placement)",
@@ -180,7 +181,7 @@ MUTATIONS = [
 ]
 
 
-# The same of the header of shapes.
+# Changes of the header of shapes.
 MUTATIONS_OF_SHAPES = [
     ("an argument less", "const char *tag_field,\n", "\n"),
     ("a text by reference", "const char **note);", "const char *note);"),
@@ -207,11 +208,12 @@ def self_test(text, package, mutations):
 
 
 def check(path, package, mutations):
-    """Whether a header and what Julia has of it agree, and whether the mutations are noticed."""
+    """Returns whether a header and the Julia declarations agree, and whether all changes are
+    detected."""
     text = path.read_text()
     header = read_header(text)
     found = list(differences(header, package))
-    # What the patterns above overlook would agree with anything.
+    # The patterns above must match every declaration, as unmatched ones would never differ.
     declared = len(re.findall(r"^PNPBS_API ", text, re.M))
     if not declared or len(header[0]) != declared:
         found.append("not every declaration of the header was understood")

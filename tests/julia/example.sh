@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# An example from the installed copy, in one process and on several ranks: it judges itself by the
-# lines that it prints, prints the same on any number of ranks, and all ranks together write every
-# triangle or tetrahedron once.
+# Tests an example from the installed copy, in one process and on several ranks. The example checks
+# itself by the lines that it prints. It prints the same on any number of ranks, and all ranks
+# together write every triangle or tetrahedron once.
 # usage: example.sh <build folder> <cmake> <rules> <example> '<numbers of ranks, 0 for no MPI>'
 #                   <mpiexec, or ''> <julia> [its options]
 set -eu
@@ -16,7 +16,8 @@ packages=$work/copy/share/pnpbs/julia
 script=$work/copy/share/pnpbs/examples/julia/$example/$example.jl
 export JULIA_DEPOT_PATH="$work/depot" OMP_NUM_THREADS=1
 
-# start <ranks> <julia and its options>; MPI.jl is the stand-in.
+# start <ranks> <julia and its options>
+# Runs the example. The stand-in replaces MPI.jl.
 start() {
   ranks=$1
   shift

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The installed package, in a prefix that was moved: it finds the library beside it.
+# Tests the installed package in a prefix that was moved: it must find the library beside it.
 # usage: installed.sh <build folder> <cmake> <julia>
 set -eu
 work=$(mktemp -d)
@@ -14,7 +14,7 @@ export JULIA_LOAD_PATH="@stdlib:$work/moved/share/pnpbs/julia" JULIA_DEPOT_PATH=
   using PNPBS
   path = PNPBS.LibPNPBS.library_path()
   startswith(path, ARGS[1]) || error("the library found is $path")' "$work/moved"
-# Precompiled, as users have it: nothing of the library's may be kept in the image.
+# The package is precompiled, as usual. The image must not contain any state of the library.
 for turn in first second; do
   "$3" --startup-file=no -e '
     using PNPBS
@@ -25,8 +25,8 @@ for turn in first second; do
     println(ARGS[1], ": ", n, " nodes"); n > 90 || exit(1)' "$turn"
 done
 
-# Pkg adds the package to an environment and runs its tests there. It wants a registry; this one
-# offers nothing, for nothing is needed.
+# Pkg adds the package to an environment and runs its tests there. It requires a registry, which may
+# be empty since the package has no dependencies.
 registry=$work/depot/registries/Empty
 mkdir -p "$registry"
 cat > "$registry/Registry.toml" << 'REGISTRY'

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares what programs linked with the library rely on with the recorded interface.
+"""Lists what programs linked with the library rely on, one line each: functions with their types
+and symbol versions, callbacks, constants, handles, and the keys of the tables. The guaranteed lines
+are in abi/pnpbs-<SOVERSION>.abi, and the current library must have all of them. libpnpbs_geo has
+such a file as well, without tables.
 
-The interface is listed line by line: functions with their types and symbol versions, callbacks,
-constants, handles, and the keys of the tables. The record is in abi/pnpbs-<SOVERSION>.abi; the
-current library must still have all of its lines. The same applies to libpnpbs_geo, which has no
-tables.
-
-usage: abi.py --check <file> <header> <library>     fails if the file differs from the current one
+usage: abi.py --check <file> <header> <library>     fails if the file differs from the library
        abi.py --record <file> <header> <library>    adds new lines to the file
-       abi.py --show <header> <library>             prints the current interface"""
+       abi.py --show <header> <library>             prints the lines of the library"""
 
 import ctypes
 import pathlib
@@ -36,7 +34,7 @@ def of_header(text):
     signature}."""
     lines = [f"callback {signature(name, callback)}"
              for name, callback in c_header.callbacks(text).items()]
-    # The version may change.
+    # The version may change, so it is left out.
     lines += [f"constant {name} {value}" for name, value in c_header.constants(text).items()
               if not name.startswith("PNPBS_VERSION_")]
     lines += [f"handle {name}" for name in re.findall(
@@ -57,13 +55,13 @@ def soname(library):
 
 
 def symbol_versions(library):
-    """Returns {function: version} of the exported symbols."""
+    """Returns {function: version}."""
     symbols = tool("nm", "-D", "--defined-only", "--with-symbol-versions", library)
     return dict(re.findall(r" T (pnpbs_\w+)@@?(\w+)", symbols))
 
 
 def rows(library, table, columns):
-    """Reads a table of the library row by row. `columns` are ctypes types."""
+    """Yields the rows of a table of the library. `columns` are types of ctypes."""
     count = ctypes.c_int32()
     if getattr(library, f"pnpbs_{table}_count")(ctypes.byref(count)) != 0:
         raise RuntimeError(f"no count of {table}s")
@@ -96,7 +94,7 @@ def of_tables(path):
 # ---------------------------------------------------------------- all of it, and comparing ------
 
 def describe(header, name, versions, tables):
-    """Returns all lines, given the header's text, a SONAME, {function: version} and the lines of
+    """Returns all lines from the text of the header, a SONAME, {function: version} and the lines of
     tables."""
     lines, functions = of_header(header)
     lines += [f"function {text} {versions.get(function, 'not exported')}"
@@ -124,7 +122,7 @@ def key(line):
 
 
 def compare(before, now):
-    """Returns two lists of sentences: the changes that break programs, and the additions."""
+    """Returns (changes that break programs, new items), as sentences."""
     of_now = {key(line): line for line in now}
     breaks = []
     for line in before:
@@ -137,8 +135,8 @@ def compare(before, now):
 
 
 def as_c(lines):
-    """Returns C code that compiles with the header only if the compiler reads it as the lines say.
-    """
+    """Returns C code that compiles with the header only if the compiler reads the declarations in
+    the same way."""
     code = ["#include <pnpbs/pnpbs.h>"]
     for number, line in enumerate(lines):
         kind, rest = line.split(" ", 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads functions, callback types and constants from pnpbs.h as plain data."""
+"""Parser of the declarations of pnpbs.h: functions, callback types and constants, as plain data."""
 
 import functools
 import re
@@ -39,7 +39,7 @@ def without_comments(text):
 
 @functools.lru_cache(maxsize=2)
 def functions(text):
-    """Returns {name: Function} of the declarations marked PNPBS_API."""
+    """Returns {name: Function} of all declarations marked PNPBS_API."""
     found = {}
     declarations = re.findall(r"^PNPBS_API\b(.*?);", without_comments(text), re.S | re.M)
     for declaration in declarations:
@@ -52,7 +52,7 @@ def functions(text):
 
 @functools.lru_cache(maxsize=2)
 def callbacks(text):
-    """Returns {name: Function} of the callback types."""
+    """Returns {name: Function} of the types of callbacks."""
     found = {}
     for match in re.finditer(r"typedef\s+(\w+)\s*\(\*(pnpbs_\w+)\)\s*\((.*?)\)\s*;",
                              without_comments(text), re.S):

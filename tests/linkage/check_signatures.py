@@ -23,7 +23,7 @@ HANDLES = {"pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer",
 
 
 def difference(c, fortran):
-    """Returns what is wrong with a Fortran argument for a C argument, or None."""
+    """Returns a description of how a Fortran argument differs from a C one, or None."""
     if fortran.name != c.name:
         return f"is named {fortran.name}"
     if fortran.type in ("type(c_ptr)", "type(c_funptr)") and fortran.note:
@@ -98,7 +98,7 @@ def differences_of_sets(what, c, fortran):
 
 
 def differences(header, interfaces):
-    """Returns all differences between two texts, one per line."""
+    """Returns all differences between the two texts, one line each."""
     bodies = fortran_interfaces.functions(interfaces)
     pairs = [
         ("function", c_header.functions(header),

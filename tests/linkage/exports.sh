@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests that a library exports exactly the functions that its headers declare, with their versions.
+# Tests that a library exports the functions that its headers declare, with their version, and
+# nothing else.
 # usage: exports.sh <library> <compiler> <include folder> [<prefix>]
-# With a prefix the test covers a library whose functions begin with it. Functions with the prefix
-# pnpbs_geo_ never belong to libpnpbs.
+# With a prefix, the library is the one of the functions that begin with it. Without one it is
+# libpnpbs, which does not have the functions pnpbs_geo_*.
 set -eu
 prefix=${4:-}
 work=$(mktemp -d)
@@ -17,7 +18,8 @@ of_this_library() {
   fi
 }
 
-# The preprocessor replaces PNPBS_API by the attribute below, directly before each function's type.
+# The preprocessor replaces PNPBS_API by the attribute below, which precedes the type of each
+# function.
 for header in "$3"/pnpbs/pnpbs*.h; do
   echo "#include <pnpbs/$(basename "$header")>"
 done > "$work/headers.c"
@@ -31,5 +33,5 @@ if ! [ -s "$work/declared" ]; then
   echo "no declarations found in $3" >&2
   exit 1
 fi
-# Lines with "<" are declared but not exported. Lines with ">" are exported but not declared.
+# Lines with "<" are declared but not exported, and lines with ">" are exported but not declared.
 diff "$work/declared" "$work/exported"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads interface bodies and constants from pnpbs_c.f90 as plain data."""
+"""Parser of pnpbs_c.f90: interface bodies and constants, as plain data."""
 
 import functools
 import re
@@ -8,23 +8,22 @@ from typing import NamedTuple
 
 class Argument(NamedTuple):
     name: str
-    type: str  # "integer(c_int64_t)"
+    type: str  # such as "integer(c_int64_t)"
     by_value: bool
     intent: str  # "in", "out", "inout" or ""
     array: str  # "(*)", "(2, n)" or ""
-    note: str  # the C type in the trailing comment, or ""
+    note: str  # the C type in the comment after it, or ""
 
 
 class Function(NamedTuple):
-    label: str  # the C name, or "" in abstract interfaces
+    label: str  # the name in C, or "" in abstract interfaces
     result: str
     arguments: tuple
-    imports: bool  # has "import" and "implicit none"
+    imports: bool  # whether it has "import" and "implicit none"
 
 
 def joined_lines(text):
-    """Returns the lines with their continuations joined. Only comments after declarations remain.
-    """
+    """Returns the lines with continuations joined. Only comments after declarations are kept."""
     text = re.sub(r"&[ \t]*\n[ \t]*&?", " ", text)
     return [line.strip() for line in text.splitlines() if not line.lstrip().startswith("!")]
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A host program with a METIS of its own, like one that links a static 64-bit build. Its METIS
- * functions are exported, and a call to them instead of PNPBS's own ends the program. If compiled
- * with HOST_HAS_METIS=0 it has none. It prints the hash of the nodes placed on all ranks, or with
- * the argument `serial` of those placed in a context without MPI. */
+ * A host program with a METIS of its own, like one that links a static 64-bit build. Its names are
+ * exported, and a call to them instead of PNPBS's METIS ends the program. Compiled with
+ * HOST_HAS_METIS=0, it has none. Prints the hash of the nodes placed over all ranks, or, with the
+ * argument `serial`, in a context without MPI. */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 #include "placement_cases.h"
 
 #if HOST_HAS_METIS
-/* METIS functions of the interface that partition, and some that they call. */
+/* Defines the partitioning functions of METIS, and some functions that they call. */
 #define OWN(name)                                           \
   int name(void);                                           \
   int name(void) {                                          \

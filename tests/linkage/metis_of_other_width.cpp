@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A METIS whose integers are twice or half as wide as those of the METIS that PNPBS is built with.
-// It has only the functions that the library calls before it accepts a METIS.
+// A stand-in for a METIS whose integers are twice or half as wide as those that PNPBS is built
+// with. It has only the functions by which the library checks the width.
 #include <metis.h>
 
 #include <cstdint>

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The job that the linkage tests repeat: a context, a square, some steps, the nodes, and the
- * destruction of all objects. Functions come through a table, so that the same job runs on a linked
- * library and on one that was opened by name. */
+ * A job that the linkage tests repeat: create a context and a placement in a square, make some
+ * steps, read the nodes, and destroy everything. It calls functions by a table, so that the same
+ * job runs on a linked library and on one opened by name.
+ */
 #ifndef PNPBS_TESTS_LINKAGE_SMALL_JOB_H
 #define PNPBS_TESTS_LINKAGE_SMALL_JOB_H
 
@@ -11,7 +12,7 @@
 
 #include "pnpbs/pnpbs.h"
 
-/* X(name) of every function that the job calls, without the prefix. */
+/* X(name) for every function that the job calls, without the prefix. */
 #define SMALL_JOB_FUNCTIONS(X)      \
   X(last_error)                     \
   X(context_create_serial)          \
@@ -34,13 +35,13 @@ typedef struct {
 } small_job_functions;
 
 typedef struct {
-  pnpbs_status status; /* of the first failing call, or of the run */
-  char message[1000];  /* the error message */
+  pnpbs_status status; /* of the first call that failed, or else of the run */
+  char message[1000];  /* of the error */
   int64_t nodes;
   int64_t threads;
 } small_job_result;
 
-/* Runs the job. If `threads` is NULL, the library chooses the number of threads. */
+/* Runs the job. With `threads` NULL the library chooses the number of threads. */
 static inline small_job_result small_job(const small_job_functions* f, const char* threads) {
   const double corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   small_job_result result = {PNPBS_OK, "", 0, 0};
@@ -67,7 +68,7 @@ static inline small_job_result small_job(const small_job_functions* f, const cha
     result.status = status;
     snprintf(result.message, sizeof result.message, "%s", f->last_error(context));
   }
-  /* Parents are destroyed first on purpose, as children keep them alive. */
+  /* Parents are destroyed first, which is allowed since children keep them alive. */
   ended = f->context_destroy(&context);
   if (ended == PNPBS_OK) ended = f->domain_destroy(&domain);
   if (ended == PNPBS_OK) ended = f->placement_destroy(&placement);

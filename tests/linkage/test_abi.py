@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests that the library has all of the recorded interface, and that the comparison detects every
-single change that would break a program.
+"""Tests that the library keeps the interface that it guarantees to linked programs, and that the
+comparison detects every single change that would break one.
 usage: test_abi.py <record> <header> <library> <C compiler>"""
 
 import pathlib
@@ -21,7 +21,7 @@ BEFORE = abi.recorded(RECORD) if pathlib.Path(RECORD).exists() else []
 
 
 def breaks(header=TEXT, name=NAME, versions=VERSIONS, tables=TABLES):
-    """Returns what a change breaks compared with the unchanged interface."""
+    """Returns what a change breaks, compared with the unchanged library."""
     return abi.compare(NOW, abi.describe(header, name, versions, tables))[0]
 
 

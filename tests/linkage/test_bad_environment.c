@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Kokkos ends the process if it cannot read a KOKKOS_ variable. The library must check first and
- * return an error that names the variable. */
+ * Tests KOKKOS_ variables with invalid values, at which Kokkos would end the process. The library
+ * must check them first and return an error that names the variable.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include <string.h>
 
@@ -30,7 +31,8 @@ START_TEST(an_error_that_names_it) {
 }
 END_TEST
 
-/* Kokkos has not started yet, so a valid environment still works, and its settings apply. */
+/* Kokkos has not started yet, so a valid environment works afterwards. The valid variable must be
+ * obeyed. */
 START_TEST(then_it_works) {
   small_job_result result;
   ck_assert_int_eq(setenv("KOKKOS_NUM_THREADS", "2", 1), 0);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests that the library can be opened by name and closed again, as interpreters do, while threads
- * of OpenMP still exist. */
+ * Tests a library that is opened by name and closed again, as interpreters do it, while the threads
+ * of OpenMP still exist.
+ */
 #define SMALL_JOB_BY_NAME
 #include <dlfcn.h>
 #include <string.h>
@@ -11,7 +12,7 @@
 
 static small_job_functions look_up(void* library) {
   small_job_functions f;
-  /* memcpy is needed, as C has no cast from an object's address to a function's. */
+  /* Uses memcpy, as C has no cast from the address of an object to that of a function. */
 #define SMALL_JOB_LOOK_UP(name)                        \
   {                                                    \
     void* address = dlsym(library, "pnpbs_" #name);    \
@@ -31,7 +32,8 @@ START_TEST(open_run_close_again) {
     void* library = dlopen(PNPBS_LIBRARY, RTLD_NOW | RTLD_LOCAL);
     ck_assert_msg(library != NULL, "%s", dlerror());
     functions = look_up(library);
-    /* The library stays loaded, and so does the number of threads of the first round. */
+    /* The library stays loaded after it is closed, and so does the number of threads of the first
+     * round. */
     result = small_job(&functions, i == 0 ? "2" : NULL);
     ck_assert_msg(result.status >= 0, "round %d: %s", i, result.message);
     ck_assert_int_eq(result.threads, 2);

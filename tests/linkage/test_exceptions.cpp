@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests of exceptions that leave the callbacks of a C++ host with a C++ library of its own. The
-// call must fail with the exception's message, and later calls must work.
+// Tests exceptions that callbacks of a C++ host throw, which has a C++ library of its own. They are
+// caught: the call fails with their text, and the placement can be used afterwards.
 #include <pnpbs/pnpbs.h>
 
 #include <cstring>
@@ -43,7 +43,7 @@ void expect_failure(pnpbs_context context, pnpbs_status status, const char* part
 
 }  // namespace
 
-// The first exception in the process is thrown by the host.
+// The host throws the first exception in the process.
 START_TEST(exceptions_of_callbacks) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   pnpbs_context context;

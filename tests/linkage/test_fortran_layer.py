@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests that the Fortran interface bodies equal the output of the generator for the C header.
-
-For a changed header the generator creates changed bodies, which the independent comparison accepts.
+"""Tests that the interface bodies of the Fortran layer are the output of the generator for the
+header. For a changed header, the generator must produce changed bodies that the independent
+comparison accepts.
 usage: test_fortran_layer.py <header> <its interfaces, pnpbs_c.f90 or pnpbs_geo_c.f90>"""
 
 import itertools
@@ -22,7 +22,7 @@ PATHS = [pathlib.Path(path) for path in sys.argv[1:3]]
 HEADER, INTERFACES = (path.read_text() for path in PATHS)
 [MODULE] = [one for one in make_fortran_layer.MODULES if one.name == PATHS[1].stem]
 INCLUDED = (ROOT / "include" / MODULE.included).read_text() if MODULE.included else ""
-IS_WHOLE = MODULE.name == "pnpbs_c"  # it has callbacks and constants
+IS_WHOLE = MODULE.name == "pnpbs_c"  # whether the module has callbacks and constants
 DECLARATION = re.compile(r"^PNPBS_API [^;]*?(\w+)\(([^;]*)\);", re.S | re.M)
 CALLBACK = re.compile(r"^typedef int32_t \(\*(\w+)\)\(([^;]*)\);", re.S | re.M)
 
@@ -32,7 +32,7 @@ def made(header):
 
 
 def with_arguments(header, declaration, arguments):
-    """Returns a header in which one declaration has other arguments."""
+    """Returns the header with other arguments in one declaration."""
     return header[:declaration.start(2)] + arguments + header[declaration.end(2):]
 
 
@@ -66,7 +66,8 @@ class FortranLayer(unittest.TestCase):
 
 class Follows(unittest.TestCase):
     def assert_follows(self, header, what):
-        """Checks that the bodies change and agree with the changed header."""
+        """Checks that the layer of a changed header differs and agrees with this header. Returns
+        the layer."""
         layer = made(header)
         self.assertTrue(make_fortran_layer.differences("", INTERFACES, layer), what)
         self.assertEqual(check_signatures.differences(header, layer), [], what)
@@ -74,7 +75,7 @@ class Follows(unittest.TestCase):
 
 
 class Changes(Follows):
-    """Changes one argument at a time in copies of the header."""
+    """Tests single changes of copies of the header."""
 
     def test_argument_added(self):
         found = list(DECLARATION.finditer(HEADER))
@@ -121,7 +122,7 @@ class Changes(Follows):
 
 @unittest.skipUnless(IS_WHOLE, "the header has no callbacks and no constants")
 class ChangesOfTheWhole(Follows):
-    """Changes callbacks and constants."""
+    """Tests changes of callbacks and constants."""
 
     def test_constant_changed(self):
         for name, value in c_header.constants(HEADER).items():

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests a host program that runs Kokkos itself and ends it while the library is still in use. With
-// a shared Kokkos the library uses the host's, so later computations must fail with an error. With
-// a static one the library has its own copy, which the host's end does not affect.
+// Tests a host program that runs Kokkos itself, and ends it while the library is in use. The
+// library has adopted a shared Kokkos of the host, so computing must then fail with an error. With
+// a static Kokkos the library has its own and is not affected.
 #include <Kokkos_Core.hpp>
 #include <cstdint>
 
@@ -39,12 +39,12 @@ START_TEST(beside_a_running_host) {
   ck_assert_msg(status >= 0, "%s", pnpbs_last_error(context));
   std::int64_t threads = 0;
   ck_assert_int_eq(pnpbs_placement_get_int64(placement, "threads", &threads), PNPBS_OK);
-  ck_assert_int_eq(threads, 2);  // with a shared Kokkos, the number that the host set
+  ck_assert_int_eq(threads, 2);  // with a shared Kokkos, the number that the host has set
   ck_assert_int_eq(host_sum(), 499500);
 }
 END_TEST
 
-// pnpbs_finalize must not end a Kokkos that the host has started.
+// pnpbs_finalize must not end the Kokkos that the host has started.
 START_TEST(finalize_leaves_the_host_alone) {
   if (kShared) {
     ck_assert_int_eq(pnpbs_finalize(), PNPBS_OK);
@@ -68,7 +68,7 @@ START_TEST(the_host_ends_first) {
     ck_assert_msg(status >= 0, "%s", pnpbs_last_error(context));
     ck_assert_msg(result.status >= 0, "%s", result.message);
   }
-  // Freeing memory must not need Kokkos.
+  // Destroying objects must not require Kokkos.
   ck_assert_int_eq(pnpbs_placement_destroy(&placement), PNPBS_OK);
   ck_assert_int_eq(pnpbs_domain_destroy(&domain), PNPBS_OK);
   ck_assert_int_eq(pnpbs_context_destroy(&context), PNPBS_OK);

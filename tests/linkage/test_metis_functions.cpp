@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads METIS where no suitable one exists, and expects an error that contains a text.
+// usage: test_metis_functions <text>
 #include <cstdio>
 #include <cstring>
 
@@ -8,7 +9,7 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  for (int turn = 0; turn < 2; ++turn) {  // the second turn stands for the next run on this rank
+  for (int turn = 0; turn < 2; ++turn) {  // the second time, as in the next run on this rank
     try {
       pnpbs::metis();
       std::puts("no error");

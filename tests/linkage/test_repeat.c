@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests a process that uses the library repeatedly and ends it before the process ends. */
+ * Tests a process that uses the library repeatedly and ends it before its own end.
+ */
 #include "check_runner.h"
 #include "small_job.h"
 
@@ -8,7 +9,7 @@ START_TEST(three_times) {
   small_job_result first = {PNPBS_OK, "", 0, 0};
   int i;
   for (i = 0; i < 3; ++i) {
-    /* The number of threads is fixed by the first context. */
+    /* The number of threads is set once, and later contexts have the same number. */
     small_job_result result = small_job(&linked_library, i == 0 ? "2" : NULL);
     ck_assert_msg(result.status >= 0, "job %d: %s", i, result.message);
     ck_assert_int_gt(result.nodes, 2500);
@@ -19,8 +20,8 @@ START_TEST(three_times) {
 }
 END_TEST
 
-/* Kokkos ends while a placement exists. The placement can still be queried and destroyed, but not
- * run. */
+/* Kokkos is ended while a placement exists. The placement can then be queried and destroyed, but
+ * not run. */
 START_TEST(nothing_after_finalize) {
   const double corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   pnpbs_context context = NULL;
@@ -41,7 +42,7 @@ START_TEST(nothing_after_finalize) {
 
   ck_assert_int_eq(pnpbs_placement_run(placement), PNPBS_ERROR_KOKKOS);
   ck_assert_str_ne(pnpbs_last_error(context), "");
-  pnpbs_placement_count(placement, &nodes); /* any result is allowed, except a crash */
+  pnpbs_placement_count(placement, &nodes); /* may succeed or fail, but not crash */
   ck_assert_int_eq(pnpbs_placement_destroy(&placement), PNPBS_OK);
   ck_assert_int_eq(pnpbs_domain_destroy(&domain), PNPBS_OK);
   ck_assert_int_eq(pnpbs_context_destroy(&context), PNPBS_OK);

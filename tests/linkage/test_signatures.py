@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests that the Fortran interface bodies agree with the C header (Agreement), and that the
-comparison
-detects every single change to an argument on either side (Changes).
+comparison detects every single change of an argument on either side (Changes).
 usage: test_signatures.py <header> <its interfaces, pnpbs_c.f90 or pnpbs_geo_c.f90> Agreement |
 Changes"""
 
@@ -15,8 +14,8 @@ import check_signatures
 import fortran_interfaces
 
 HEADER, INTERFACES = (pathlib.Path(path).read_text() for path in sys.argv[1:3])
-# Minimum numbers of items, so that the tests cannot miss any: functions, constants, changes of
-# arguments in C and of lines in Fortran. The last number is the exact number of callbacks.
+# Lower bounds, which show that nothing is overlooked: functions, constants, changes of arguments in
+# C and of lines in Fortran; and the number of callbacks.
 FUNCTIONS, CONSTANTS, IN_C, IN_FORTRAN, CALLBACKS = {
     "pnpbs.h": (60, 20, 1000, 500, 4), "pnpbs_geo.h": (13, -1, 150, 60, 0)
 }[pathlib.Path(sys.argv[1]).name]
@@ -25,12 +24,12 @@ FUNCTIONS, CONSTANTS, IN_C, IN_FORTRAN, CALLBACKS = {
 def is_caught(header, interfaces):
     try:
         return bool(check_signatures.differences(header, interfaces))
-    except ValueError:  # it cannot be parsed any more
+    except ValueError:  # it cannot be read
         return True
 
 
 def changed_arguments(argument):
-    """Yields every relevant change of an argument of the header."""
+    """Yields an argument of the header with every kind of change that matters."""
     if "*" in argument:
         yield argument.replace("*", "", 1)
     else:
@@ -43,12 +42,12 @@ def changed_arguments(argument):
         if re.search(rf"\b{re.escape(one)}", argument):
             yield argument.replace(one, other, 1)
     yield argument + "2"
-    yield ""  # removed
+    yield ""  # argument left out
     yield argument + ", int32_t more"
 
 
 def is_harmless(argument, changed):
-    """Returns whether the change only adds const to a value, which has no effect on callers."""
+    """Returns whether a change is irrelevant: const before a value does not matter to callers."""
     return "*" not in argument and changed == "const " + argument
 
 

@@ -8,7 +8,7 @@ source=$1 cxx=$(command -v "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# This compiler does not find the hidden header.
+# This compiler fails if the code includes the header $HIDDEN.
 cat > "$work/compiler" << COMPILER
 #!/bin/sh
 case "\$*" in *" -") ;; *) exec "$cxx" "\$@" ;; esac

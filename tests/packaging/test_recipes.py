@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests the recipes of packaging/ as far as possible without the package managers.
-
-They run against stand-ins, use existing CMake options, and have the project's version. All other
-files that contain a version are checked too.
+"""Tests the recipes in packaging/ as far as possible without the package managers. They run with
+stand-ins, use CMake options that exist, and have the version of the project, like all files that
+contain a version.
 usage: test_recipes.py <source folder> <version> <julia, or ''>"""
 
 import itertools
@@ -25,7 +24,7 @@ ZEROS = "0" * 64
 
 
 def options():
-    """Returns the CMake options of the project."""
+    """Returns the names of the CMake options."""
     text = "\n".join(path.read_text() for path in (SOURCE / "cmake").glob("*.cmake"))
     found = set(re.findall(r"^option\(\s*(PNPBS_\w+)", text, re.M))
     return found | set(re.findall(r"^set\(\s*(PNPBS_\w+)\s+\S+\s+CACHE\b", text, re.M))
@@ -65,8 +64,7 @@ class Spack(unittest.TestCase):
         self.assertIn(f"pnpbs-{VERSION}.", self.recipe.package.url)
 
     def test_says_honestly_that_there_is_no_release(self):
-        # An address with a placeholder checksum, or a placeholder address with a checksum, is an
-        # error.
+        # A real address requires a real checksum, and a placeholder requires a placeholder.
         released = ".invalid" not in self.recipe.package.url
         self.assertEqual(self.recipe.versions[VERSION] != ZEROS, released)
 

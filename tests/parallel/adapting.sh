@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests that the adapting sequence has the same nodes after every stage on any number of ranks, with
-# any partition and exchange interval.
+# Tests that the adaptive sequence of adapt_on_ranks has the same nodes after every stage, for any
+# number of ranks, any partition and any exchange interval.
 # usage: adapting.sh PROGRAM MPIEXEC
 set -euo pipefail
 program=$1 mpiexec=$2

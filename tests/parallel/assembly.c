@@ -190,8 +190,8 @@ static void check_rows(const struct mesh* m, int where) {
 
 /* ---------------------------------------------------------------- sums ------------------- */
 
-/* Each rank counts its own elements at nodes and ghosts. The sums must count all elements around
- * each node. */
+/* Checks sums of counts: each rank counts its own elements at nodes and ghosts, and the sum at a
+ * node must be the number of all elements around it. */
 static void check_counts(pnpbs_placement placement, const struct mesh* m, int components) {
   const int64_t n = m->all * components;
   double *sums = array(n, sizeof(double)), *before = array(n, sizeof(double));
@@ -216,7 +216,8 @@ static void check_counts(pnpbs_placement placement, const struct mesh* m, int co
   free(sums), free(before), free(around);
 }
 
-/* Large terms that cancel, and a small one: a sum that rounds intermediate results is wrong. */
+/* Returns one of five terms, of which large ones cancel. A sum that rounds intermediate results
+ * loses the small one. */
 static double term(int of) {
   static const double terms[] = {0x1p100, 1, -0x1p100, 0x1p60, -0x1p60};
   return terms[of % 5];

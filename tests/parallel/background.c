@@ -103,7 +103,7 @@ static void find_warning(pnpbs_placement placement, char warning[600]) {
   }
 }
 
-/* Finds this warning for a field scaled by `factor`. */
+/* Finds the warning for a field whose points are scaled by `factor`. */
 static void warning_of(int dim, int as_mesh, double factor, char warning[600]) {
   static struct field f;
   pnpbs_placement placement = placement_in_cube(dim);
@@ -116,7 +116,8 @@ static void warning_of(int dim, int as_mesh, double factor, char warning[600]) {
   pnpbs_placement_destroy(&placement);
 }
 
-/* Half a cube gives the same warning on any number of ranks; a slightly smaller cube gives none. */
+/* Checks that a mesh of half a cube gives the same warning on any number of ranks, and that a mesh
+ * of a slightly smaller cube gives none. */
 static void check_meshes_of_a_part(int dim) {
   char together[600], alone[600], none[600];
   long all = 0, beyond = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The nodes of a rank in a box that is partitioned over the ranks, with their ghosts and adjacency
-// lists. A reduced version of what a level does to maintain them.
+// lists. This is a reduced version of the code by which a level maintains them.
 #pragma once
 
 #include <algorithm>
@@ -97,7 +97,7 @@ class BoxNodes {
     pnpbs::reserve_field<3>(next_, "BoxNodes::next", nodes_.capacity());
     for (int k = 0; k < 3; ++k) {
       for (std::int64_t i = 0; i < nodes_.count; ++i) listed_[k](i) = nodes_.x[k](i);
-      // The far-away node that pads lists is behind the last one.
+      // Lists are padded with the index behind the last node, which is a node far away.
       nodes_.x[k](nodes_.count) = pnpbs::kFarAway;
       next_[k](nodes_.count) = pnpbs::kFarAway;
     }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Interrupts placements at several stages, writes checkpoints on some ranks and reads them on
- * others. The continuation has the bits of a run without interruption. Run on groups of five ranks
- * or of one. */
+ * others. The continued run must have the same bits as a run without interruption. The program runs
+ * on groups of five ranks and of one rank. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <dirent.h>
 #include <math.h>
@@ -94,8 +94,8 @@ struct watch {
   int turns, written;
 };
 
-/* Writes at the second event and stops the run. Events that do not allow a checkpoint are skipped.
- */
+/* Writes a checkpoint at the second event and stops the run. Events that do not allow a checkpoint
+ * are skipped. */
 static int32_t write_and_stop(double fraction, int64_t step, int64_t nodes, double speed,
                               void* user) {
   struct watch* it = user;
@@ -170,8 +170,8 @@ static void note(pnpbs_placement placement, char* text) {
           (long long)nodes, (long long)steps, (long long)inserted, (long long)deleted);
 }
 
-/* The communicator of the first ranks of the group, and the context of the group, which end()
- * restores. */
+/* The communicator of the first ranks of the group, and the context of the group. end() restores
+ * the context. */
 struct first_ranks {
   MPI_Comm communicator;
   pnpbs_context of_group;

@@ -230,7 +230,8 @@ class Job {
     require(pnpbs_placement_set(p_, key, value), key);
   }
 
-  // Every rank gives some of the nodes, independent of their future owners.
+  // Passes the nodes to the placement. Every rank passes some of them, independent of their later
+  // owners.
   void set_nodes(const std::vector<std::array<double, 2>>& nodes) {
     std::vector<double> xy;
     std::vector<std::int64_t> ids;
@@ -316,7 +317,8 @@ void slit_and_holes() {
   fill_and_run("slit and holes, graded", add_square_with_slit_and_holes, graded(0.01));
 }
 
-// All circles hold four or more nodes, and ids do not follow the rows.
+// Tests a square grid, in which every circumcircle passes through four or more nodes. The order of
+// the ids differs from that of the rows.
 void exact_grid() {
   Job job("exact grid", add_square, constant(1.0 / 32));
   std::vector<std::array<double, 2>> grid;
@@ -338,13 +340,14 @@ void adapting() {
   }
 }
 
-// There are more ranks than leaves, so some own nothing.
+// Tests more ranks than leaves, so that some ranks own nothing.
 void empty_ranks() {
   fill_and_run("few leaves", add_square, constant(0.5));
   fill_and_run("some leaves", add_square, constant(0.2));
 }
 
-// Triangles of the coarse nodes next to the jump reach far into the fine part of another rank.
+// Tests jumps of the spacing. Triangles of the coarse nodes next to a jump reach far into the fine
+// part, which another rank owns.
 void jumps() {
   for (const double factor : {6.0, 12.0})
     fill_and_run("jump by " + std::to_string(factor), add_square, jump(0.012, factor));
@@ -352,7 +355,7 @@ void jumps() {
   job.judge_filled();
 }
 
-// Far too few or too many nodes for d, at random points.
+// Tests nodes at random points, far too few or too many for d.
 void scattered_nodes() {
   for (const std::size_t n : {0, 1, 3, 20, 200}) {
     Job job(std::to_string(n) + " scattered nodes", add_square, constant(0.02));

@@ -127,7 +127,8 @@ Reference reference_of(const Case& it) {
   } else {
     for_rows(p, ids, 3, pnpbs_placement_get_boundary_triangles, add_element);
   }
-  // The placement does not return the facets of the wall and the edges of open surfaces.
+  // The placement returns neither the facets of the wall nor the edges of open surfaces, so the
+  // reference finds them from the elements.
   const auto in_wall = [&](std::int64_t id) {
     const std::vector<double>& x = all.nodes[id].first;
     return x[0] == 1 && std::min(x[1], x[2]) > 0.199 && std::max(x[1], x[2]) < 0.801;
@@ -311,8 +312,8 @@ void check_facets(const Part& p, const Reference& all, const Owners& owners) {
   expect(owned == static_cast<std::int64_t>(all.facets.size()), "each facet has one owner");
 }
 
-// Triangles of the boundary are counter-clockwise as seen from outside, away from the fourth
-// corner.
+// Checks that triangles of the boundary are counter-clockwise as seen from outside, that is, from
+// the side opposite to the fourth corner of the element.
 void check_orientation_of_facets(const Part& p, const Reference& all) {
   for (std::int64_t f = 0; f < p.facets && p.corners == 4; ++f) {
     const auto k = static_cast<std::size_t>(f);
@@ -365,7 +366,7 @@ void check_case(const Case& it) {
                 all.elements.size(), all.facets.size(), failures > before ? ": WRONG" : "");
 }
 
-// An error on one rank is an error on all.
+// Checks that an error on one rank is an error on all.
 void check_errors() {
   pnpbs_placement placement;
   pnpbs_domain domain = unit_domain(2);

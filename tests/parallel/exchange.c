@@ -69,7 +69,8 @@ static void exchange(const struct pattern* p, double* values, int width) {
   free(out), free(in), free(requests);
 }
 
-/* Neighbours must name each other; otherwise the solver's messages would wait forever. */
+/* Expects that the neighbour relation is symmetric. Otherwise the messages of the solver would wait
+ * forever. */
 static void expect_symmetric(const struct pattern* p) {
   int *named = array(size, sizeof(int)), *names_us = array(size, sizeof(int)), r;
   for (r = 0; r < p->neighbours; ++r) named[p->ranks[r]] = 1;
@@ -90,7 +91,7 @@ static void check(pnpbs_placement placement) {
   expect(pnpbs_placement_get_nodes(placement, nodes, NULL, ids, NULL, NULL) == PNPBS_OK, "nodes");
   expect(pnpbs_placement_ghost_count(placement, &ghosts) == PNPBS_OK, "ghost count");
 
-  /* Local indices have not changed. */
+  /* A request for ghosts must not change local indices. */
   pnpbs_placement_count(placement, &again);
   expect(again == nodes, "asking for ghosts moved nodes to other ranks");
   if (again != nodes) return;
@@ -116,7 +117,7 @@ static void check(pnpbs_placement placement) {
   expect_symmetric(&p);
   expect(p.receives == ghosts, "every ghost is received once");
 
-  /* Each ghost receives the position, id, number and rank of its node. */
+  /* Each ghost must receive the position, id, number and rank of its owned node. */
   values = array(5 * (nodes + ghosts), sizeof(double));
   for (i = 0; i < nodes; ++i) {
     values[5 * i] = xy[2 * i];

@@ -1,5 +1,7 @@
-/* SPDX-License-Identifier: BSD-3-Clause */
-#define _GNU_SOURCE /* RTLD_NEXT, and the calls for large files */
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Implements the faults of fault_calls.h by wrappers of the system's file calls. */
+#define _GNU_SOURCE /* for RTLD_NEXT and the calls for large files */
 #include "fault_calls.h"
 
 #include <dlfcn.h>
@@ -14,7 +16,7 @@
 
 #define FILES 4096
 
-static long until = -1; /* files are accessed by one thread */
+static long until = -1; /* not atomic, as one thread accesses files */
 static const char* failed;
 static char aside[FILES]; /* whether the file of this descriptor is a temporary one */
 
@@ -51,7 +53,7 @@ __attribute__((constructor)) static void arm_by_environment(void) {
   fault_arm(atol(at));
 }
 
-/* The function of the system. */
+/* Defines `real`, a pointer to the function of the system. */
 #define REAL(result, name, ...)       \
   static result (*real)(__VA_ARGS__); \
   if (!real) *(void**)&real = dlsym(RTLD_NEXT, name)

@@ -12,7 +12,7 @@
 static int bad_rank;
 static char right_hash[40]; /* of the square with spacing() and no fault */
 
-/* Expects the same status on all ranks, and this part in the message. */
+/* Expects the same status on all ranks, and that the message contains `part`. */
 static void expect_error(pnpbs_status status, pnpbs_status wanted, const char* part) {
   int least, most, mine = (int)status;
   MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
@@ -22,7 +22,7 @@ static void expect_error(pnpbs_status status, pnpbs_status wanted, const char* p
   expect(strstr(pnpbs_last_error(context), part) != NULL, part);
 }
 
-/* Expects in addition that the message names the rank. */
+/* Expects in addition that the message names the bad rank. */
 static void expect_bad_rank(pnpbs_status status, pnpbs_status wanted, const char* part) {
   char begin[20] = "";
   if (size > 1) snprintf(begin, sizeof begin, "rank %d: ", bad_rank);
@@ -100,7 +100,7 @@ static void find_right_hash(void) {
   context = all;
 }
 
-/* Lets a callback fail in its n-th call, for increasing n until all calls succeed. */
+/* Makes a callback fail in its n-th call, for increasing n until all calls succeed. */
 static void failing_callbacks(double value, pnpbs_status wanted, const char* part) {
   int after, ended = 0;
   for (after = 0; !ended && after < 200; after += 1 + after / 4) {
@@ -183,7 +183,7 @@ static void different_input(void) {
   const int is_bad = rank == bad_rank;
   pnpbs_placement placement = square_placement(1);
 
-  /* An invalid spacing on one rank sets no spacing on any. */
+  /* An invalid spacing on one rank leaves the spacing unset on all ranks. */
   expect_bad_rank(pnpbs_placement_set_spacing_constant(placement, is_bad ? -1 : 0.05),
                   PNPBS_ERROR_SPACING, "-1");
   expect_bad_rank(
@@ -252,7 +252,7 @@ static pnpbs_placement marked_placement(int32_t role, int32_t vertex_tag, int32_
   return placement;
 }
 
-/* Different input on ranks is an error, and no rank hangs. */
+/* Checks that input that differs between ranks is an error, and that no rank hangs. */
 static void different_marks_and_keys(void) {
   const int is_bad = rank == bad_rank;
   int64_t value;
@@ -334,8 +334,8 @@ struct traffic {
   MPI_Request requests[2 * MOST_MESSAGES];
 };
 
-/* Sends a message to the next rank in the middle of a run and receives from any source, with tags
- * that the library uses, too. */
+/* Sends a message to the next rank in the middle of a run and receives from any source. The tags
+ * include some that the library uses. */
 static int32_t send_something(double fraction, int64_t step, int64_t nodes, double speed,
                               void* user) {
   struct traffic* t = user;
@@ -419,7 +419,7 @@ int main(int argc, char** argv) {
   }
   traffic_beside_ours();
 
-  /* The context still works, and can be destroyed after an error. */
+  /* The context can still be used after an error, and can be destroyed. */
   bad_rank = size / 2;
   placement = square_placement(1);
   pnpbs_placement_set_spacing_callback(placement, spacing, &no_fault);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests fields of a solver over ranks, in the plane and in space. Ghosts receive their owners'
- * values, in one call or while the solver computes. Sums and dot products are exact and have the
- * bits of one process. An error on one rank is an error on all, and no rank hangs. */
+ * Tests fields of a solver over ranks, in the plane and in space. Ghosts receive the values of
+ * their owners, in one call or while the solver computes. Sums and dot products are exact and have
+ * the bits of one process. An error on one rank is an error on all, and no rank hangs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,7 +74,8 @@ static void check_update(pnpbs_placement placement, const struct nodes* v, int c
   expect(memcmp(values, right, bytes) == 0, "a ghost has another value than its node");
   free(values);
 
-  /* The values at the beginning are sent; other calls may come in between. */
+  /* The values at the time of the begin call are sent, and other calls may follow before the end
+   * call. */
   values = marked(v, components, v->owned);
   expect(pnpbs_placement_begin_update_ghosts(placement, v->all, components, values) == PNPBS_OK,
          "begin");
@@ -127,7 +128,7 @@ static void check_wrong_updates(pnpbs_placement placement, const struct nodes* v
   free(values);
 }
 
-/* Nodes change owners or move while an update is in progress. */
+/* Checks that an update in progress becomes invalid if nodes move or change owners. */
 static void check_moving(pnpbs_placement placement) {
   struct nodes v = get_nodes(placement);
   double* values = marked(&v, 1, v.owned);
@@ -138,7 +139,7 @@ static void check_moving(pnpbs_placement placement) {
   free(values), free_nodes(&v);
   v = get_nodes(placement);
   check_update(placement, &v, 1);
-  /* An update that is never ended does no harm. */
+  /* An update that is never ended causes no error in later calls. */
   values = marked(&v, 1, v.owned);
   expect(pnpbs_placement_begin_update_ghosts(placement, v.all, 1, values) == PNPBS_OK, "begin");
   free(values), free_nodes(&v);
@@ -151,7 +152,7 @@ static void check_moving(pnpbs_placement placement) {
 static double ill_conditioned(int64_t number, int64_t all) {
   const int64_t pair = (number - 1) / 2;
   if (number == 0) return 1;
-  if (number == all - 1 && all % 2 == 0) return 0; /* without a partner */
+  if (number == all - 1 && all % 2 == 0) return 0; /* has no partner */
   return (number % 2 == 0 ? -1 : 1) * ldexp((double)(1 + pair % 7), (int)(100 + pair * 37 % 800));
 }
 

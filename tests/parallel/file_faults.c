@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Lets every file call fail once, on one rank, while several files of a placement and a partitioned
- * mesh are written. All ranks get the same status, and either all files exist or those from before,
- * nothing else. With an argument n, only every n-th call for the placement fails. */
-#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+ * Makes every file call fail once, on one rank, while several files of a placement and a
+ * partitioned mesh are written. All ranks must get the same status, and afterwards the folder must
+ * contain either all new files or all previous ones, and nothing else. With an argument n, only
+ * every n-th call for the placement fails. */
+#define _POSIX_C_SOURCE 200809L /* for mkdtemp */
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,8 +107,8 @@ static void make_placement_and_mesh(void) {
   expect(pnpbs_mesh_create(placement, 1, &mesh) == PNPBS_OK, "mesh");
 }
 
-/* Lets the n-th call on one rank fail. Returns whether there was such a call, and counts those that
- * ended in an error. */
+/* Makes the n-th call on one rank fail. Returns whether there was such a call, and counts the calls
+ * whose failure was an error. */
 static int one_fault(pnpbs_status (*write)(void), int bad, long n, int old_there, long* errors) {
   char call[20] = "", what[100];
   pnpbs_status status;
@@ -130,7 +131,7 @@ static int one_fault(pnpbs_status (*write)(void), int bad, long n, int old_there
   return call[0] != 0;
 }
 
-/* Expects that more than `few` of all faults are errors. */
+/* Makes each `stride`-th call fail. Expects more than `few` errors, extrapolated to all calls. */
 static void faults_on(pnpbs_status (*write)(void), int bad, int old_there, long stride, long few) {
   long n = (bad + old_there) % stride, errors = 0;
   while (one_fault(write, bad, n, old_there, &errors)) n += stride;

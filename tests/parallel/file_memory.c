@@ -2,7 +2,7 @@
  *
  * Tests that writing files takes little memory beyond that of the run: compares the peak of each
  * rank while it writes each format with its peak before. */
-#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+#define _POSIX_C_SOURCE 200809L /* for mkdtemp */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +11,14 @@
 
 #include "rank_program.h"
 
-/* Limit in KiB: a share of the run's peak, and a constant for windows and MPI-IO. */
+/* Returns the limit of the peak in KiB: a share above the peak of the run, and a constant for
+ * windows and MPI-IO. */
 static double most_after(long before) { return 1.15 * (double)before + 12 * 1024; }
-/* Memory in KiB of HDF5 itself, on the rank that calls it. */
+/* Memory that HDF5 uses itself on the rank that calls it. [KiB] */
 static const double hdf5_itself = 10 * 1024;
 
-/* Returns the largest resident size of this process so far in KiB, or 0 if the system does not
- * report it. It never decreases, so a format raises it only if it takes more than the run and all
+/* Returns the peak resident size of this process in KiB, or 0 if the system does not report it. The
+ * peak never decreases, so a format raises it only if it takes more memory than the run and all
  * formats before. */
 static long peak(void) {
   FILE* status = fopen("/proc/self/status", "r");

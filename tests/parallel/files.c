@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Tests files over ranks through the C interface: ids with large gaps, errors on one rank, and
- * differences between ranks. Run on at least three ranks. */
-#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+ * differences between ranks. The program must run on at least three ranks. */
+#define _POSIX_C_SOURCE 200809L /* for mkdtemp */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 #include "rank_program.h"
 
-/* Expects this status on all ranks, and this part in the message. */
+/* Expects this status on all ranks, and that the message contains `part`. */
 static void expect_on_all(pnpbs_status status, pnpbs_status wanted, const char* part) {
   int least, most, mine = (int)status;
   MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, group);
@@ -33,7 +33,7 @@ static pnpbs_placement square_placement(void) {
   return placement;
 }
 
-/* Gives nodes on rank 1 only. Most ids are small, a few as large as allowed. */
+/* Passes nodes on rank 1 only. Most ids are small, and a few are as large as allowed. */
 #define GIVEN 36
 static int64_t given_id(int64_t k) { return k % 9 == 8 ? (INT64_C(1) << 62) - k : k; }
 
@@ -49,8 +49,8 @@ static void place_given(pnpbs_placement placement) {
   expect(pnpbs_placement_initialise(placement) == PNPBS_OK, "initialise");
 }
 
-/* Reads id,x,y,tag,spacing. Checks that ids increase and that all given ones exist. Returns the
- * number of nodes. */
+/* Reads a file with the columns id, x, y, tag and spacing. Checks that ids increase and that it has
+ * all given ids. Returns the number of nodes, or -1 for a malformed file. */
 static int64_t check_ids(const char* path) {
   FILE* file = fopen(path, "r");
   char line[200];
@@ -118,7 +118,7 @@ static void test_faults(void) {
     expect_on_all(pnpbs_placement_write(placement, "nowhere/a.xdmf", 1), PNPBS_ERROR_FILE,
                   "nowhere/a.xdmf");
   expect_on_all(pnpbs_placement_write(placement, "/dev/full", 1), PNPBS_ERROR_ARGUMENT, "format");
-  /* Arguments that differ between ranks or are wrong on one. */
+  /* These arguments differ between ranks or are wrong on one rank. */
   expect_on_all(pnpbs_placement_write(placement, rank == 2 ? "b.vtu" : "a.vtu", 1),
                 PNPBS_ERROR_ARGUMENT, "rank 2");
   expect_on_all(pnpbs_placement_write(placement, "a.vtu", rank == 1), PNPBS_ERROR_ARGUMENT,
@@ -128,7 +128,7 @@ static void test_faults(void) {
   expect_on_all(pnpbs_placement_write(placement, rank == 1 ? NULL : "a.vtu", 1),
                 PNPBS_ERROR_ARGUMENT, "rank 1");
   test_fields_that_differ(placement);
-  /* A stop requested on one rank stops all. */
+  /* A stop requested on one rank stops all ranks. */
   expect(pnpbs_placement_set_monitor(placement, stop_on_rank_1, NULL) == PNPBS_OK, "monitor");
   expect_on_all(pnpbs_placement_write(placement, "a.vtu", 1), PNPBS_STOPPED, "");
   expect_on_all(pnpbs_placement_write(placement, "a.pvtu", 1), PNPBS_STOPPED, "");

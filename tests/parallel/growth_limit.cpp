@@ -124,7 +124,7 @@ void check_case(const Case& c) {
                    std::string(c.name) + ": the same where each asks its own");
   expect_same_bits(alone, together, points_in(domain, seed, comm->rank() == 0 ? 3000 : 0),
                    std::string(c.name) + ": the same where one rank asks");
-  // Copies of leaves are a band along the border, and some large leaves beside it.
+  // A rank holds copies of leaves in a band along its border, and of some large leaves beside it.
   const auto whole = static_cast<double>(alone.growth_limit()->leaves_held());
   const double share = whole / comm->size(),
                max =

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Tests that the hash of the nodes and the statistics of the elements are the same for any number of
-# ranks and threads, exchange interval and partition. Sizes are small, and every pair of values of
-# two parameters occurs at least once. invariance_grid.py of the benchmarks runs the whole grid at
-# any size.
+# ranks and threads, any exchange interval and any partition. The sizes are small, and every pair of
+# values of two parameters occurs at least once. tests/bench/invariance_grid.py runs the whole grid
+# at any size.
 # usage: invariance.sh PROGRAM MPIEXEC DATA THIN_HALO
-# THIN_HALO is the folder of the library whose ghost layers are too thin.
+#   THIN_HALO  folder of the library whose ghost layers are too thin
 set -euo pipefail
 program=$1 mpiexec=$2 data=$3 thin_halo=$4${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 failed=0
@@ -16,14 +16,14 @@ place() { # arguments: ranks, threads, arguments of the program
   OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 900 \
     "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" "$program" "$@" < /dev/null
 }
-# Prints the value of a key in a line. If the result is assigned to a variable, a missing key ends
-# the test.
+# Prints the value of a key in a line. Fails if the line has no such key: assigned to a variable,
+# the failure ends the test.
 field() {
   awk -v key="$2" '{ for (k = 1; k < NF; ++k) if ($k == key) { print $(k + 1); found = 1 } }
                    END { exit !found }' <<< "$1"
 }
 
-begin() { # arguments: case, scale of d, other options
+begin() { # case, factor of d, other options
   subject=("$@")
   expected=$(place 1 1 "$@")
   expected_hash=$(field "$expected" hash)
@@ -41,7 +41,7 @@ compare() { # arguments: ranks, threads, exchange interval, seed
   fi
 }
 
-require_at_least() { # arguments: count, key of the case's reference, text of the error
+require_at_least() { # least value, key in the line of the reference, message if it is smaller
   local count
   count=$(field "$expected" "$2")
   if ! [ "$count" -ge "$1" ]; then
@@ -50,8 +50,8 @@ require_at_least() { # arguments: count, key of the case's reference, text of th
   fi
 }
 
-# There are four cases and eight numbers of ranks. Intervals and seeds are two orthogonal Latin
-# squares of order four over cases and ranks (sums and products of the field with four elements).
+# Four cases run on eight numbers of ranks. Intervals and seeds are two orthogonal Latin squares of
+# order four over cases and ranks: sums and products of the field with four elements.
 cases=("graded-square 8" "$data/great_lakes.poly 8" "uniform-square 8"
        "$data/lake_victoria.poly 10")
 ranks=(1 2 3 4 5 7 8 16)
@@ -69,42 +69,41 @@ done
 begin graded-square 8 method=paper
 compare 2 2 4 1
 compare 5 1 1 2
-begin uniform-square 40 # nearly as many ranks as inner nodes
+begin uniform-square 40 # about as many ranks as inner nodes
 compare 16 1 4 1
-# The vertices are far closer than d. Leaves are small compared with the bubbles, and all nodes are
-# near the boundary.
+# The vertices of these boundaries are far closer than d. Leaves are small compared with the
+# bubbles, and nearly all nodes are boundary nodes.
 begin "$data/lake_victoria.poly" 60
 compare 3 1 8 1
 compare 8 1 4 1
 compare 16 1 2 2
 begin "$data/great_lakes_islands.poly" 4
 compare 8 1 4 1
-# Many events insert and delete many nodes.
+# These options cause many events with many insertions and deletions.
 begin graded-square 8 event_interval=3 population_tolerance=0 delete_above=6.3 insert_below=5.7 first_row=0
 compare 4 1 2 1
 compare 7 1 8 2
 require_at_least 50 inserted "population control had little to do"
 require_at_least 50 deleted "population control had little to do"
-# Where d jumps, nodes are pressed together after the last population event. They are deleted at the
-# end.
+# Nodes are compressed at a jump of d after the last population event. The finish must delete some.
 begin jump-square 1 steps=40 sweeps=0 growth_limit=0
 compare 2 1 4 1
 compare 3 2 1 2
 compare 8 1 5 1
 require_at_least 20 deleted "no crowd had to go at the end"
-# The same case with the default growth limit.
+# The same jump has the default limit of the growth of d.
 begin jump-square 1
 compare 2 1 4 1
 compare 3 2 1 2
 compare 8 1 5 1
-# The nodes fill cells where d grows by a fifth of the distance, and the population is controlled by
-# octaves.
+# Since d grows by a fifth of the distance, the first nodes are filled in cell by cell, and the
+# population is calibrated by octaves of d.
 begin steep-square 1
 compare 2 1 4 1
 compare 3 2 1 2
 compare 8 1 5 1
 compare 16 1 2 1
-# Nodes have hardly moved, and many with four neighbours or fewer are deleted. Many triangles are
+# The nodes hardly move. Many have four neighbours or fewer and are removed, and many triangles are
 # bad.
 begin graded-square 8 steps=0 levels=0 first_row=0
 compare 2 1 4 1
@@ -112,7 +111,8 @@ compare 5 2 1 2
 compare 8 1 5 1
 compare 16 1 2 1
 require_at_least 20 deleted "no surplus node had to go"
-# Centroidal sweeps run in blocks. Nodes far from rest have many obtuse triangles.
+# These cases sweep nodes to the centroids of their cells, in more than one block of sweeps on the
+# same stars. In the second one the nodes are far from rest and have many obtuse triangles.
 begin graded-square 8 centroidal_sweeps=12
 compare 2 1 4 1
 compare 3 2 1 2
@@ -122,8 +122,8 @@ begin "$data/great_lakes.poly" 8 steps=0 levels=0 centroidal_sweeps=7 obtuse_rou
 compare 2 1 4 1
 compare 5 2 1 2
 compare 8 1 5 1
-# There are many defects far from rest, so that repairs have many candidates and often exclude each
-# other.
+# The nodes are far from rest and have many defects, so many repairs are tried, and they often
+# exclude each other.
 begin graded-square 8 steps=0 levels=0 topology_repairs=6 sweeps=0 smoothing_rounds=0
 compare 2 1 4 1
 compare 3 2 1 2
@@ -131,8 +131,8 @@ compare 5 1 5 1
 compare 16 1 2 1
 require_at_least 10 inserted "no defect asked for one more node"
 require_at_least 20 deleted "no defect asked for one node less"
-# A new first row is placed at curved boundaries, on both sides of inner curves. No other nodes are
-# inserted.
+# The finish replaces the first row of nodes at curved boundaries, and on both sides of inner
+# curves. Nothing else inserts or deletes nodes.
 begin ring 0.5 steps=0 levels=0
 compare 2 1 4 1
 compare 3 2 1 2
@@ -147,8 +147,8 @@ begin "$data/great_lakes.poly" 8 effort=best
 compare 3 1 4 1
 compare 8 2 2 2
 
-# The comparison must be able to fail: No rank has half of the nodes, and too thin ghost layers give
-# another set.
+# This test can fail: no rank has half of the nodes, and ghost layers that are too thin give other
+# nodes.
 line=$(place 8 1 graded-square 2 exchange_interval=2 sweeps=0)
 held=$(field "$line" held)
 nodes=$(field "$line" nodes)

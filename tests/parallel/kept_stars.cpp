@@ -42,7 +42,8 @@ void add_rough_globe(pnpbs::VolumeDomain& domain) {
                      triangles.data(), nullptr, 40);
 }
 
-// A box with a wall inside, and a body at whose boundary labels of tetrahedra are ambiguous.
+// Returns two bodies: a box with another box inside, and a body at whose boundary the labels of
+// tetrahedra are ambiguous.
 const std::vector<Body>& bodies() {
   static const std::vector<Body> all{{"a box",
                                       [](pnpbs::VolumeDomain& domain) {
@@ -87,7 +88,7 @@ void expect_found_anew(const Level& level, const std::string& when) {
   expect(stars_by_id(level, level.stars) == stars_by_id(level, anew), when + ": the same stars");
 }
 
-// Builds the stars again. Returns whether the previous ones were restored.
+// Builds the stars a second time. Returns whether the previous ones were restored.
 bool made_again(Level& level) {
   prepare_finish(level);
   const bool hold = stars_hold(level);
@@ -95,7 +96,8 @@ bool made_again(Level& level) {
   return hold;
 }
 
-// Applies a change to an owned free node in the middle of the order, on the last rank that has any.
+// Applies a change to one owned free node near the middle of the local order, on the last rank that
+// has such a node.
 void change_one(Level& level, const std::function<void(std::int64_t)>& change) {
   std::int64_t some = -1;
   for (std::int64_t i = 0; i < level.nodes.count && some < level.nodes.count / 2; ++i)
@@ -104,8 +106,9 @@ void change_one(Level& level, const std::function<void(std::int64_t)>& change) {
   if (last == comm->rank()) change(some);
 }
 
-// Elements at a non-manifold boundary get other labels. Stars with such labels are not restored and
-// must be replaced.
+// Checks that stars are restored if no node changes, and are rebuilt if one node moves by one bit
+// or gets another d. Elements at a non-manifold boundary get other labels; stars with such labels
+// are not restored and must be replaced.
 void check_restore(Level& level, const Body& body) {
   made_again(level);
   expect(made_again(level), "stars are put back");
@@ -124,7 +127,7 @@ void check_restore(Level& level, const Body& body) {
   expect_found_anew(level, body.name + ", with another d");
 }
 
-// A repair invalidates some stars; their replacements must be correct.
+// Checks the stars after a repair, which invalidates some of them.
 void check_after_repair(Level& level, const Body& body) {
   sweep_and_repair(level, 1);
   make_finish_stars(level, {});

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests that lack of memory on one rank, at every large allocation, is reported on every rank: no
-// rank hangs, the placement is unchanged by the failed call, and a later run on the same context
-// places the correct nodes. The operators new below reject one large request, or all from one on.
-// Arguments: the stride of the requests that are rejected, and the smallest size of those that
-// count.
+// Tests that lack of memory on one rank, at every large allocation, is reported on every rank. No
+// rank hangs, the failed call leaves the placement unchanged, and a later run on the same context
+// places the correct nodes. The operators new below reject one large request, or all requests from
+// one on.
+// usage: memory [STRIDE [LEAST]]
+//   STRIDE  every STRIDE-th request is rejected in a run of its own
+//   LEAST   smallest size of the requests that count, in bytes
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 
@@ -101,7 +103,7 @@ pnpbs_placement new_placement() {
   pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0);
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
   pnpbs_domain_destroy(&domain);
-  // Few steps, but all kinds of events.
+  // A run has few steps but all kinds of events.
   pnpbs_placement_set_int64(placement, "steps", 8);
   pnpbs_placement_set_int64(placement, "event_interval", 4);
   pnpbs_placement_set_int64(placement, "exchange_interval", 2);
@@ -129,7 +131,7 @@ pnpbs_status whole_job(pnpbs_placement placement, PlacementView& before) {
   if (status < 0) return status;
   std::int64_t nodes = 0, ghosts = 0, triangles = 0;
   pnpbs_placement_count(placement, &nodes);
-  const long refuse = until_refusal.exchange(-1);  // not in allocations of the test
+  const long refuse = until_refusal.exchange(-1);  // allocations of the test are not rejected
   std::vector<double> d(static_cast<std::size_t>(nodes) + 1);
   until_refusal = refuse;
   status = pnpbs_placement_get_nodes(placement, nodes, nullptr, nullptr, nullptr, d.data());
@@ -181,14 +183,14 @@ bool fails_well(int on_rank, long n, bool all_after, const std::string& right_ha
   if (status < 0) {
     expect(status == PNPBS_ERROR_MEMORY, name + ": another status");
     const std::string wanted = size > 1 ? "rank " + std::to_string(on_rank) + ": " : "out of";
-    // Without any memory there is no message.
+    // A rank without any memory has no message.
     const bool has_text = !all_after || least_refused == kLarge || rank != on_rank;
     expect(!has_text || std::strncmp(pnpbs_last_error(context), wanted.c_str(), wanted.size()) == 0,
            name + ": another message");
     const PlacementView after = view_of(placement, view_after_call);
     expect(before == PlacementView{} || before == after,
            name + ": changed " + before.difference(after));
-    // The placement can continue as well.
+    // The placement can be run again after the error.
     expect(pnpbs_placement_run(placement) >= 0, name + ": run again");
   } else {
     expect(hash_of(placement) == right_hash, name + ": not told, and other nodes");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests the partitioned files of a mesh against its arrays. Each rank reads its file; common
-// properties of the files are compared over all ranks. Then errors on one rank. Usage: mesh_files
+// Tests the partitioned files of a mesh against its arrays. Each rank reads its own file, and
+// common properties of the files are compared over all ranks. Also tests errors on one rank. Usage:
+// mesh_files
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 // ------------------------------------------------------------------ regions --------------------
 
-// Returns a square of three parts: the middle has one tag and the left half another.
+// Adds a square of three parts: the middle has one tag and the left part another.
 pnpbs_status plane_with_regions(pnpbs_domain domain, const char*) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, left[] = {0.4, 0, 0.4, 1},
                right[] = {0.6, 0, 0.6, 1}, in_left[] = {0.1, 0.1}, between[] = {0.5, 0.5};
@@ -30,7 +31,7 @@ pnpbs_status plane_with_regions(pnpbs_domain domain, const char*) {
   return pnpbs_domain_add_region(domain, in_left, 1);
 }
 
-// Returns a box within a box, with a region for every element.
+// Adds a box within a box, with a region for every element.
 pnpbs_status box_in_box(pnpbs_domain domain, const char*) {
   const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
   const double corners[8][3] = {{.3, .3, .3}, {.7, .3, .3}, {.3, .7, .3}, {.7, .7, .3},
@@ -289,7 +290,7 @@ std::string contents(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// An error on one rank is an error on all, and changes no file.
+// Checks that an error on one rank is an error on all, and changes no file.
 void check_errors(const std::string& folder) {
   const std::string prefix = folder + "/old", other = folder + "/new";
   pnpbs_domain domain = unit_domain(2);

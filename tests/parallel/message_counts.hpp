@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Counts the messages that a rank sends, by functions that replace those of the MPI library (its
-// profiling interface) in the whole program. Must be included in one file of a program that is
-// linked with the objects of the library.
+// profiling interface) in the whole program. Only one file of a program may include this header,
+// and the program must be linked with the objects of the library.
 #pragma once
 
 #include <mpi.h>

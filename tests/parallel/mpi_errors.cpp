@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets a call of MPI fail on one rank, at many positions. Every rank gets PNPBS_ERROR_MPI, no rank
-// hangs, and the next job on the same context places the correct nodes. The functions below replace
-// those of the MPI library (its profiling interface).
+// Makes a call of MPI fail on one rank, at many positions. Every rank must get PNPBS_ERROR_MPI, no
+// rank may hang, and the next job on the same context must place the correct nodes. The functions
+// below replace those of the MPI library (its profiling interface).
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 
@@ -38,7 +38,7 @@ int MPI_Issend(const void* data, int count, MPI_Datatype type, int to, int tag, 
   return PMPI_Issend(data, count, type, to, tag, comm, request);
 }
 
-// The second kind of failure receives the message into another buffer.
+// Fails in one of two ways. In the second one the message is received into another buffer.
 int MPI_Irecv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
               MPI_Request* request) {
   static std::vector<char> elsewhere(1 << 20);
@@ -81,7 +81,7 @@ int MPI_Ibarrier(MPI_Comm comm, MPI_Request* request) {
   return PMPI_Ibarrier(comm, request);
 }
 
-// Only reductions for agreement fail, not sums of many entries.
+// Fails only in reductions by which ranks agree on an error, not in sums of many entries.
 int MPI_Allreduce(const void* in, void* out, int count, MPI_Datatype type, MPI_Op op,
                   MPI_Comm comm) {
   if (op != MPI_SUM && fails("MPI_Allreduce")) return MPI_ERR_OTHER;
@@ -118,7 +118,7 @@ pnpbs_placement new_placement(int dim) {
     pnpbs_domain_add_box(domain, low, high, 1);
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
   pnpbs_domain_destroy(&domain);
-  // Few steps, but all kinds of events, and several exchanges between two of them.
+  // A run has few steps, but all kinds of events, and several exchanges between two events.
   pnpbs_placement_set_int64(placement, "steps", 12);
   pnpbs_placement_set_int64(placement, "event_interval", 6);
   pnpbs_placement_set_int64(placement, "exchange_interval", 1);
@@ -180,8 +180,8 @@ bool check_failure(int dim, int bad, const std::string& kind, long at, const std
   return true;
 }
 
-// A message of an update that ends locally on each rank cannot be sent. Its sender and its receiver
-// get the error, and the next update is correct.
+// Checks an update that each rank ends locally, if one of its messages cannot be sent. Its sender
+// and its receiver must get the error, and the next update must be correct.
 void check_split_update(int bad) {
   pnpbs_placement placement = new_placement(2);
   std::int64_t nodes = 0, ghosts = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A partitioned file of Gmsh, read by an independent parser that follows Gmsh's documentation. The
-// constructor checks the file's statements about itself.
+// Reads a partitioned file of Gmsh by a parser that follows Gmsh's documentation and shares no code
+// with the library. The constructor checks that the counts and ranges in the file match its
+// contents.
 #pragma once
 
 #include <array>
@@ -38,7 +39,7 @@ class File {
   std::map<std::int64_t, std::int64_t> ghost_entities;  // their partitions
   std::map<std::int64_t, FileNode> nodes;
   std::map<std::int64_t, FileElement> elements;
-  // Owner, and the partitions that have the ghost.
+  // The owner of each ghost element, and the partitions that have it as a ghost.
   std::map<std::int64_t, std::pair<std::int64_t, Ids>> ghosts;
   std::int64_t partitions = 0;
   bool has_ghosts = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cases of a program over ranks that its arguments select by name.
+// Runs those cases of a test program that its arguments select by name.
 #pragma once
 
 #include <cstdio>
@@ -8,8 +8,8 @@
 
 #include "rank_program.h"
 
-// Runs the cases that the arguments name, or all if there are none. An unknown name is a failure.
-// Collective over the group.
+// Runs the cases that the arguments name, or all cases if there are no arguments. An unknown name
+// is a failure. Collective over the group.
 template <class Cases>
 void run_named_cases(const Cases& cases) {
   std::set<std::string> named;

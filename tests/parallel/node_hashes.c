@@ -207,7 +207,7 @@ static void place(const struct placing* job) {
 
 /* ---------------------------------------------------------------- sequences ------------- */
 
-/* Refines at a front, as after an error estimate. */
+/* Refines d at a front, as after an error estimate. */
 static void refine_at(pnpbs_placement placement, double front) {
   int64_t n, i;
   double *xy, *d;
@@ -223,7 +223,7 @@ static void refine_at(pnpbs_placement placement, double front) {
   free(xy), free(d);
 }
 
-/* One live placement with a moving spot, values at nodes and a grid. */
+/* Adapts one live placement to a moving spot, to values at nodes and to a grid. */
 static void adapt(void) {
   const int64_t grid_size[] = {3, 2};
   const double origin[] = {0, 0}, step[] = {0.5, 1},
@@ -247,8 +247,8 @@ static void adapt(void) {
   check(pnpbs_placement_destroy(&placement), "adapt");
 }
 
-/* Begins with given points of the square, some outside the domain; every rank gives every size-th
- * of them. */
+/* Begins with given points of the square, some of them outside the domain. Every rank passes every
+ * size-th point. */
 static void begin_with_given_nodes(void) {
   enum { rows = 40 };
   const struct spacing spacing = {0.02, 0.02, 0.1, 0.1, EVERYWHERE};

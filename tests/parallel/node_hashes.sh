@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests that the nodes of all cases of node_hashes or volume_hashes are bitwise the same on one and
-# more ranks and threads, and that the comparison detects ghost layers that are too thin. It also
-# compares them with the recorded hashes. A code change that should not change results must keep
-# these. A difference from the record is a failure only with --recorded, since another mathematical
-# library or instruction set may give other nodes.
+# Tests that the nodes of all cases of node_hashes, or of volume_hashes, are the same to the bit on
+# several numbers of ranks and threads, and that the comparison detects ghost layers that are too
+# thin. It also reports whether the nodes are those of the recorded file, which a change of the code
+# that does not change results must keep. Another mathematical library or instruction set may give
+# other nodes, so a difference from the record is a failure only with --recorded.
 # usage: node_hashes.sh PROGRAM MPIEXEC DATA RECORD THIN_HALO [--recorded | --record]
-#   THIN_HALO   the folder of the library whose ghost layers are too thin
+#   THIN_HALO   folder of the library whose ghost layers are too thin
 #   --recorded  fails if the nodes differ from the recorded ones
 #   --record    writes the record
 set -euo pipefail

@@ -22,7 +22,7 @@ using pnpbs::Point;
 
 using Function = std::function<double(const Point<3>& x)>;
 
-// Returns a tree whose leaves are at most `width` wide at their centres.
+// Returns a tree in which no leaf is wider than `width` at its centre.
 inline BackgroundTree<3> refined_to(const Function& width) {
   BackgroundTree<3> tree;
   tree.build({{0, 0, 0}, {1, 1, 1}}, [&](const BackgroundTree<3>& grown, std::int32_t first,
@@ -61,8 +61,8 @@ inline std::vector<std::int64_t> leaf_work(const BackgroundTree<3>& tree,
   return work;
 }
 
-// Returns cells of equal work. Each rank knows the leaves that a first partition has assigned to
-// it.
+// Returns cells of equal work. Each rank knows only the leaves that a first partition has assigned
+// to it.
 inline std::vector<pnpbs::PartitionCell<3>> equal_cells(const pnpbs::Communicator& comm,
                                                         const BackgroundTree<3>& tree,
                                                         const std::vector<double>& d) {
@@ -76,7 +76,8 @@ inline std::vector<pnpbs::PartitionCell<3>> equal_cells(const pnpbs::Communicato
        [&](std::int32_t leaf) { return d[at(leaf)]; }});
 }
 
-// The tree must not move.
+// Returns a distribution of the tree by METIS. The distribution points to the tree, which must not
+// move.
 inline pnpbs::Distribution<3> distributed(const pnpbs::Communicator& comm,
                                           const BackgroundTree<3>& tree,
                                           const std::vector<double>& d, double radius) {

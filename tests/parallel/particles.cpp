@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests particles that fill a body. For any body, no pair is closer than documented, none is nearer
-// to the wall than the nodes were, most nodes become particles without moving, and the others only
-// for a reason. Volumes sum up to that of the body, and equal those of cells cut by brute force
-// from a square and a cube. Any number of ranks gives the bits of one. The test uses the public
-// interface only. Usage: particles <folder of the examples' bodies>
+// Tests particles that fill a body. For any body, no pair is closer than documented, no particle is
+// nearer to the wall than the nodes were, most nodes become particles without moving, and the
+// others move or are left out only because another node is close. The volumes sum up to that of the
+// body, and equal those of cells cut by brute force from a square and a cube. Any number of ranks
+// gives the bits of one. The test uses the public interface only. Usage: particles <folder of the
+// examples' bodies>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,12 +33,13 @@ pnpbs_status unit_square(pnpbs_domain domain, const char*) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   return pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0);
 }
-// A slit narrower than the spacing, and a narrow bay.
+// Adds a square with a slit narrower than the spacing, and a narrow bay.
 pnpbs_status slotted_plane(pnpbs_domain domain, const char*) {
   const double outline[] = {0, 0, 1, 0, 1, 1, 0.52, 1, 0.5, 0.5, 0.48, 1, 0, 1, 0, 0.6, -1, 0.5};
   return pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 9, outline, nullptr, 0);
 }
-// Strips with two layers of nodes that are too close to each other, and to those of the next strip.
+// Adds strips with two layers of nodes each, which are too close to each other and to those of the
+// next strip.
 pnpbs_status strips(pnpbs_domain domain, const char*) {
   pnpbs_status status = PNPBS_OK;
   for (int k = 0; k < 8 && status >= 0; ++k) {
@@ -49,7 +51,7 @@ pnpbs_status strips(pnpbs_domain domain, const char*) {
 pnpbs_status islands(pnpbs_domain domain, const char* data) {
   return pnpbs_domain_read_poly(domain, (std::string(data) + "/great_lakes_islands.poly").c_str());
 }
-// A plate in which two layers of nodes are too close to each other.
+// Adds a plate in which two layers of nodes are too close to each other.
 pnpbs_status thin_plate(pnpbs_domain domain, const char*) {
   const double low[] = {0, 0, 0}, high[] = {1, 1, 0.084};
   return pnpbs_domain_add_box(domain, low, high, 1);
@@ -192,7 +194,7 @@ void check_pairs(const Told& told, std::int32_t dim) {
   expect(told.closest >= closest_pair(dim), "no two are too close");
 }
 
-// Checks which nodes became particles, and why others did not.
+// Checks which nodes became particles, and why the others did not.
 void check_nodes(const Told& told, const NodesById& nodes, const Case& it) {
   std::int64_t moved = 0;
   for (const auto& [id, particle] : told.particles) {
@@ -318,7 +320,7 @@ void check_case(const Case& it, const char* data) {
   const Told all = of_rank_0(rank == 0 ? made_alone(it, data) : Told());
   Placed made = placed(it, context, data);
   check_bits(particles_of(made, it.dim), all);
-  // An error if one rank does not pass the body.
+  // It is an error if one rank does not pass the body.
   pnpbs_particles particles;
   if (size > 1)
     expect(pnpbs_particles_create(made.placement, rank == 1 ? nullptr : made.body, &particles) ==

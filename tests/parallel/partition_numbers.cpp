@@ -48,7 +48,7 @@ bool counts_in(Owners owners, int rank, std::int64_t cell, std::int64_t cells) {
   return false;
 }
 
-// Some counts are zero, some exceed 32 bits.
+// Returns the count of a rank in a cell. Some counts are zero, and some exceed 32 bits.
 std::int64_t count_of(int rank, std::int64_t cell) {
   const std::uint64_t random =
       number(static_cast<std::uint64_t>(rank), static_cast<std::uint64_t>(cell));
@@ -77,7 +77,7 @@ void check_sums(Owners owners, std::int64_t cells) {
   for (std::size_t k = 0; k < std::min(found.size(), own.size()); ++k)
     expect(found[k] == all[static_cast<std::size_t>(own[k].cell)], what + ": before a cell");
 
-  // A rank sends its requests, and the answers for the block that it adds up.
+  // A rank sends its requests, and the answers for the block of cells that it sums up.
   const std::int64_t asked = static_cast<std::int64_t>(own.size() * sizeof(CellSum));
   const std::int64_t block = (cells + comm->size() - 1) / comm->size() * comm->size() * 8;
   expect(sent.bytes <= asked + block, what + ": bytes sent");
@@ -87,7 +87,7 @@ void check_sums(Owners owners, std::int64_t cells) {
 
 // ------------------------------------------------------------------ parts ----------------------
 
-// The assignment by a complete table: kept[part * ranks + rank].
+// Returns the assignment of parts to ranks by a complete table: kept[part * ranks + rank].
 std::vector<int> ranks_by_table(const std::vector<std::int64_t>& kept, int ranks) {
   struct Match {
     std::int64_t work;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Places nodes over the ranks of MPI_COMM_WORLD. Prints the hash, and in one word the outcome of
+ * Places nodes over the ranks of MPI_COMM_WORLD. Prints the hash and one word with the outcome of
  * the run and the statistics of the elements (quality, edge length over d), which do not depend on
  * the number of ranks.
- * usage: place_on_ranks CASE SCALE [key=value]...  with CASE one of graded-square, uniform-square,
- * jump-square, ring, or a .poly file (graded) */
+ * usage: place_on_ranks CASE SCALE [key=value]...
+ * CASE is one of graded-square, uniform-square, jump-square, ring, or a .poly file (graded). */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>

@@ -97,8 +97,9 @@ inline void add_warnings(pnpbs_placement placement, PlacementView& view) {
 
 }  // namespace placement_view
 
-// Lists are built on request, which changes statistics. So before a call the lists are requested
-// first, and after a call the statistics are read first. Collective.
+// Returns the results before a call. Lists are built on request, which changes statistics. So
+// before a call the lists are requested first, and after a call the statistics are read first.
+// Collective.
 inline PlacementView view_before_call(pnpbs_placement placement) {
   PlacementView view;
   placement_view::add_nodes_and_lists(placement, view);

@@ -26,7 +26,7 @@ static inline void expect(int condition, const char* what) {
   ++failures;
 }
 
-/* Sets `group` and what belongs to it. Collective over the communicator. */
+/* Sets `group`, its context, rank and size. Collective over the communicator. */
 static inline void begin_group(MPI_Comm communicator) {
   group = communicator;
   MPI_Comm_rank(group, &rank);
@@ -34,13 +34,13 @@ static inline void begin_group(MPI_Comm communicator) {
   expect(pnpbs_context_create_mpi(group, &context) == PNPBS_OK, "context");
 }
 
-/* Starts MPI and makes all ranks the group, for programs that do not use run_in_groups. */
+/* Starts MPI and makes all ranks the group. For programs that do not use run_in_groups. */
 static inline void begin_ranks(int* argc, char*** argv) {
   MPI_Init(argc, argv);
   begin_group(MPI_COMM_WORLD);
 }
 
-/* The unit square or cube. */
+/* Returns the unit square or cube. */
 static inline pnpbs_domain unit_domain(int32_t dim) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
   pnpbs_domain domain;
@@ -52,7 +52,7 @@ static inline pnpbs_domain unit_domain(int32_t dim) {
   return domain;
 }
 
-/* Three times as large at x = 1 as at x = 0, where it is what `finest` points to. */
+/* A spacing callback: d is `*finest` at x = 0, and three times as large at x = 1. */
 static inline int32_t growing_spacing(int64_t n, int32_t dim, const double* x, double* d,
                                       void* finest) {
   int64_t i;
@@ -76,7 +76,8 @@ static inline int end_mpi(void) {
   return all != 0;
 }
 
-/* Ends what begin_ranks has begun. Returns the exit status of the program. */
+/* Destroys the context and ends MPI, for programs that use begin_ranks. Returns the exit status of
+ * the program. */
 static inline int end_ranks(void) {
   pnpbs_context_destroy(&context);
   return end_mpi();

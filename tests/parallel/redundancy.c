@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests the redundant work of ranks for nodes of others: none on one rank, and little if ghosts are
- * updated in each step or parts have short borders, also on whole spheres. The nodes do not depend
- * on it. */
+ * Tests how much work ranks do redundantly for nodes of other ranks: none on one rank, and little
+ * if ghosts are updated in each step or the parts have short borders, also on whole spheres. The
+ * nodes do not depend on this work. */
 #include <math.h>
 #include <string.h>
 
@@ -46,8 +46,8 @@ static void check_on_ranks(int32_t dim) {
   pnpbs_placement_destroy(&seldom);
 }
 
-/* Lists that an interval of 1 builds for owned nodes only are not sufficient for a longer interval.
- */
+/* Checks a change of the exchange interval: lists that an interval of 1 builds for owned nodes only
+ * are not sufficient for a longer interval. */
 static void check_change_of_interval(void) {
   pnpbs_placement changed = placed(3, "1"), same = placed(3, "1");
   char hash[32], other[32];
@@ -76,7 +76,8 @@ static int32_t spacing_from_corner(int64_t n, int32_t dim, const double* x, doub
   return 0;
 }
 
-/* Parts with the shortest borders have fewer ghosts than those with jagged ones. */
+/* Checks that two parts have the shortest border, and so fewer ghosts than parts with a jagged
+ * border. */
 static void check_borders_of_two_parts(void) {
   pnpbs_domain domain = unit_domain(3);
   pnpbs_placement placement;
@@ -114,9 +115,9 @@ static void hash_each_time(pnpbs_placement placement, char hash[TIMES][32]) {
   hash_of_nodes(placement, hash[2]);
 }
 
-/* In the chart of a whole sphere, points near the centre of projection are as far away as all the
- * rest. Still the rank that owns this region must not request more nodes than others, and lists
- * contain nodes that are near along the sphere, whenever they are built. */
+/* Checks a whole sphere. In its chart, points near the centre of projection are as far away as all
+ * other points. Still the rank that owns this region must not request more nodes than others, and
+ * lists must contain the nodes that are near along the sphere, whenever they are built. */
 static void check_whole_sphere(pnpbs_context serial) {
   pnpbs_placement placement = placed_on_whole_sphere(), alone;
   const pnpbs_context all = context;

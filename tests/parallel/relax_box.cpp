@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests that a body-centred cubic lattice with random displacements in a box relaxes over the ranks
-// to the same bits as on one rank, and does not if the ghost layer is too thin. (Under this law the
-// lattice is not at rest: eight neighbours are compressed more than twelve farther ones would be.
-// So nodes move again when the displacements have decayed, and errors would have an effect all the
-// time.)
+// to the same bits as on one rank, and does not if the ghost layer is too thin. Under this law the
+// lattice is not at rest, since its eight nearest neighbours are compressed. So nodes continue to
+// move when the displacements have decayed, and errors of the ghosts have an effect at all times.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,7 +22,7 @@ using PackedNode = pnpbs::PackedNode<3>;
 using rank_checks::comm;
 using rank_checks::expect;
 
-// The defaults of a placement.
+// These values are the defaults of a placement.
 constexpr pnpbs::LinearPush kLaw{1, 1.06};
 constexpr pnpbs::Motion kMotion{0.8, 0.2, 0.03};
 constexpr double kListRadius = 1.7;
@@ -36,10 +35,12 @@ constexpr double kEdge = 1.0 / kCells;     // of a cubic cell, with nodes at a c
 constexpr double kJitter = 0.3;            // in spacings, along each axis
 constexpr double kFixedRim = 1.5 * kEdge;  // three layers of nodes
 
-// A spacing that is slightly larger on one side; on average the distance of the nearest nodes.
+// Returns a spacing that is slightly larger on one side. On average it is the distance of nearest
+// nodes.
 double spacing(const Point<3>& x) { return 0.5 * std::sqrt(3.0) * kEdge * (0.97 + 0.06 * x[0]); }
 
-// Leaves are smaller in one half of the box, so hops have different lengths.
+// Returns the width of leaves, which is smaller in one half of the box, so that hops have different
+// lengths.
 double leaf_width(const Point<3>& x) { return (x[2] < 0.5 ? 2 : 4) * spacing(x); }
 
 double jitter(std::int64_t id, int k) {
@@ -139,10 +140,11 @@ void check_relaxation() {
   expect(after.min_gap > 0.8 && before.min_gap < 0.4, "the jitter is gone");
   std::uint64_t alone = 0;
   if (comm->rank() == 0) alone = relax(pnpbs::serial_communicator(), kSteps, hops).hash;
-  alone = comm->allreduce_sum(alone);  // value of the first rank
+  alone = comm->allreduce_sum(alone);  // only the first rank contributes a value other than 0
   expect(after.hash == alone, "the same bits as on one rank");
   if (comm->size() == 1) return;
-  // The number of hops is a bound for the worst case and may exceed the need by one.
+  // The number of hops is a bound for the worst case and may exceed the need by one, so two fewer
+  // are tested.
   const Relaxed thin = relax(comm, kSteps, hops - 2);
   print("too thin a halo", thin);
   expect(thin.hash != alone, "a halo that is too thin is noticed");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests runs continued from a checkpoint, for every kind of spacing, in the plane, in space, on
-// surfaces and on the sphere, with and without a growth limit and spots that samples of d miss.
-// Three ranks run and write checkpoints at five moments; two ranks and one rank continue from each
-// of them. Nodes, status and warnings must be the same.
+// surfaces and on the sphere, with and without a growth limit and small spots that samples of d
+// miss. Three ranks run and write checkpoints at five moments; two ranks and one rank continue from
+// each of them. Nodes, status and warnings must be the same as without interruption.
 #include <pnpbs/pnpbs_mpi.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void require(pnpbs_status status, const char* what) {
 
 // ------------------------------------------------------------------ spacings -------------------
 
-// A spacing; with `spot` it is small around a point that few samples come near.
+// A spacing. With `spot` it is small around a point near which few samples lie.
 struct Spot {
   double d, fine, radius;
   double at[3];
@@ -103,7 +103,7 @@ SetSpacing shape(double d) {
   };
 }
 
-// Sets values at the nodes of a placement that was initialised before.
+// Sets values at the nodes of an initial placement with constant d.
 SetSpacing at_nodes(double d) {
   return [=](pnpbs_placement p) {
     constant(d)(p);
@@ -174,7 +174,8 @@ Result result_of(pnpbs_placement placement, pnpbs_status status) {
 
 std::string path_of(int moment) { return "restart_" + std::to_string(moment) + ".vtkhdf"; }
 
-// Writes at the first events and then at later ones, which overwrite the last files.
+// Counts the events and checkpoints of a run. Checkpoints are written at the first events and then
+// at later ones, which overwrite the last files.
 struct Watch {
   pnpbs_placement placement;
   int events = 0, written = 0;

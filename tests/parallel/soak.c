@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A soak test: random operations in random order, chosen equally on all ranks by a seed, with a
- * check after each and a memory report at intervals. It runs for hours by hand and for seconds as a
- * test:
+ * Tests memory and results over time: random operations in random order, equal on all ranks by a
+ * seed, with a check after each and a memory report at intervals. The program runs for hours by
+ * hand and for seconds as a test:
  *
  *   soak <seconds> [seed] [most operations between reports]
  *
- * Memory is constant if the resident size of every rank in the last quarter equals that in the
- * second. */
-#define _GNU_SOURCE /* mkdtemp, mallinfo2, malloc_trim */
+ * Memory is constant if the resident size of every rank in the last quarter of the time equals that
+ * in the second. */
+#define _GNU_SOURCE /* for mkdtemp, mallinfo2, malloc_trim */
 #include <inttypes.h>
 #include <malloc.h>
 #include <math.h>
@@ -102,7 +102,7 @@ static void nodal_spacing(void) {
   free(d);
 }
 
-/* Gives the extracted nodes back as start nodes. */
+/* Passes the extracted nodes back as start nodes. */
 static void given_nodes(void) {
   int64_t n = 0, *ids;
   double* xy;

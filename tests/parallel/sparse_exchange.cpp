@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests messages to ranks that do not expect them: each arrives once, complete and in its own
+// Tests messages to ranks that do not expect them. Each arrives once, complete and in its own
 // exchange, for any pattern and with failures in between, and nothing else is sent. Also tests
 // exclusive sums over ranks.
 #include <unistd.h>
@@ -52,7 +52,7 @@ std::uint64_t number(std::uint64_t round, int from, int to) {
                       (static_cast<std::uint64_t>(from) << 20 | static_cast<std::uint64_t>(to)));
 }
 
-// Returns the length of each message, 0 for none. Every rank can compute it.
+// Returns the length of each message, 0 for none. Every rank can compute it for all others.
 std::uint64_t length(std::uint64_t round, int from, int to) {
   const std::uint64_t random = number(round, from, to);
   const std::uint64_t some = 1 + random % 3000;
@@ -94,7 +94,8 @@ bool same(const std::vector<Message>& a, const std::vector<Message>& b) {
   return all;
 }
 
-// A round of this rank: its messages in an order of its own, and the expected messages by rank.
+// A round of exchanges on this rank: its messages, in an order that depends on the round, and the
+// messages that it expects.
 struct Round {
   std::vector<Message> outgoing, expected;
   std::int64_t announced = 0;
@@ -105,8 +106,8 @@ struct Round {
       const int to = (k + me + static_cast<int>(round % 5)) % size;
       Bytes bytes = content(round, me, to);
       announced += to != me && !bytes.empty();
-      // Empty messages to other ranks may be passed and are not delivered. An empty message to
-      // oneself would be.
+      // Empty messages to other ranks may be passed and are not delivered. An empty message to the
+      // own rank is delivered, so none is passed.
       if (!bytes.empty() || (to != me && round % 2)) outgoing.push_back({to, std::move(bytes)});
     }
     for (int from = 0; from < size; ++from) {
@@ -133,8 +134,8 @@ void check_rounds() {
   expect(message_counts::counts.longest <= 32, "no table of all ranks");
 }
 
-// Exchanges follow each other, with ranks that are late at times, and are mixed with other
-// exchanges.
+// Checks that consecutive exchanges do not mix, even if some ranks are late and other kinds of
+// exchanges lie between.
 void check_mixing() {
   constexpr std::uint64_t kRounds = 300;
   std::vector<Round> rounds;
@@ -214,7 +215,8 @@ void check_failures() {
   }
 }
 
-// One rank has no memory for incoming messages, complete or in pieces. Their senders must not wait.
+// Checks a rank without memory for incoming messages, complete or in pieces. Their senders must not
+// wait forever.
 void check_no_memory() {
   for (const std::uint64_t size : {std::uint64_t{20000}, 3 * kPiece + 7})
     for (int bad = 0; bad < comm->size() && comm->size() > 1; ++bad) {
@@ -230,8 +232,8 @@ void check_no_memory() {
     }
 }
 
-// Some ranks have no memory at all: one, every other one, or all. An exchange that was prepared
-// before needs none, and one that needs memory fails on all ranks.
+// Checks exchanges with neighbours if one rank, every other rank or all ranks have no memory. An
+// exchange that was prepared before needs none. An exchange that needs memory fails on all ranks.
 void check_neighbours_without_memory() {
   std::vector<int> others(static_cast<std::size_t>(comm->size()));
   std::iota(others.begin(), others.end(), 0);
@@ -242,7 +244,7 @@ void check_neighbours_without_memory() {
   };
   for (const int pattern : {0, 1, 2}) {
     const std::string what = "pattern " + std::to_string(pattern);
-    // The number of pieces increases, so that memory of an earlier exchange does not suffice.
+    // The number of pieces increases, so that memory of an earlier exchange is not sufficient.
     const std::uint64_t pieces = 3 + 2 * static_cast<std::uint64_t>(pattern);
     const bool bad = (pattern == 0 && comm->rank() == comm->size() / 2) ||
                      (pattern == 1 && comm->rank() % 2 == 0) || pattern == 2;
@@ -270,7 +272,7 @@ void check_neighbours_without_memory() {
 
 // ------------------------------------------------------------------ gathering ------------------
 
-// All ranks throw if one has no memory for the contributions of the others.
+// Checks that all ranks throw if one has no memory for the contributions of the others.
 void check_gathering() {
   for (int bad = 0; bad < comm->size() && comm->size() > 1; ++bad)
     for (const std::size_t limit : {std::size_t{1}, std::size_t{20000}}) {

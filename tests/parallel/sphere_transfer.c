@@ -27,7 +27,8 @@ static void run_with(pnpbs_placement placement, double d) {
   expect(pnpbs_placement_run(placement) >= 0, "run");
 }
 
-/* The sea lies about the south pole, up to 30 degrees north; the cap is its southernmost part. */
+/* Returns a placement on the globe, in the sea or in the cap. The sea lies about the south pole, up
+ * to 30 degrees north; the cap is its southernmost part. */
 static pnpbs_placement placed(int shape, double d) {
   const double north[2] = {0, 90};
   double outside[3], degrees[2 * 90], coast[3 * 90];
@@ -105,7 +106,7 @@ static double error_about_the_point(pnpbs_transfer transfer) {
   return largest;
 }
 
-/* Far beyond the cap the field is unknown, but the extrapolation stays bounded. */
+/* Checks that the extrapolation stays bounded far beyond the cap, where the field is unknown. */
 static void check_is_bounded(void) {
   enum { N = 40 };
   pnpbs_placement placement = placed(CAP, 200);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests which ranks are sent requests if stars reach beyond the ghosts: only ranks that own nodes
-// nearby. In a long strip with far too few nodes, each rank has two neighbours for any number of
-// ranks.
+// Tests that stars that reach beyond the ghosts cause requests only to ranks that own nodes nearby.
+// In a long strip with far too few nodes, each rank has two neighbours for any number of ranks.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -19,7 +18,7 @@ using rank_checks::comm;
 using rank_checks::expect;
 
 constexpr double kLength = 16, kSpacing = 0.02;
-// Distance of the given nodes. Their circles are at most two of these wide.
+// Distance of the given nodes. The circumcircles are at most twice as wide.
 constexpr double kGap = 0.25;
 
 pnpbs_context context;
@@ -81,7 +80,8 @@ void check_questions() {
   require(pnpbs_placement_star_size(placement, &entries), "stars");
   const message_counts::Counts sent = message_counts::counts;
 
-  // The circles of a star, and a leaf or two between the nodes and the border of a part.
+  // Distance within which a rank may receive requests: the circumcircles of a star, and a leaf or
+  // two between the nodes and the border of a part.
   constexpr double kWay = 4 * kGap;
   std::int64_t near = 0;
   for (int r = 0; r < comm->size(); ++r) {
@@ -92,7 +92,8 @@ void check_questions() {
            "rank " + std::to_string(r) + " is asked, far away");
   }
   expect(sent.announced_messages() <= near * sent.barriers, "one message at a time to each");
-  // Parts of the strip follow each other along its length.
+  // The parts of the strip follow each other along its length, so with eight ranks some are far
+  // away.
   expect(comm->size() < 8 || near < comm->size() - 1, "some ranks are far away");
   const auto asked = static_cast<std::uint64_t>(sent.announced_messages());
   expect(comm->size() == 1 || comm->allreduce_sum(asked) > 0, "there are questions");

@@ -37,7 +37,7 @@ struct Case {
   double (*d)(const P&);
 };
 
-// The cost of a fill on a rank.
+// Counts of the work of a fill on a rank: evaluations of d and cells visited.
 struct Work {
   std::int64_t points_asked = 0, places_looked_at = 0;
 };
@@ -60,7 +60,7 @@ template <class Owns>
 Fill fill(const pnpbs::Communicator& over, const SurfaceCase& body, double (*d)(const P&),
           const BackgroundTree<3>& cells, const Owns& owns, std::int64_t limit = kMaxNodes) {
   Fill made;
-  // A spacing from nodes of an earlier placement is collective, so the ranks must make the same
+  // A spacing from nodes of an earlier placement is collective, so all ranks must make the same
   // calls.
   const auto spacing = [&](std::int64_t n, const P* x, double* values) {
     expect(over.same_on_all(0), "all ask for d together");
@@ -104,8 +104,8 @@ double nearly_even(const P& x) { return 0.04 + 1e-3 * x[0]; }
 double graded(const P& x) { return 0.03 + 0.02 * (x[0] + x[2]) * (x[0] + x[2]); }
 double large(const P&) { return 9; }
 
-// Flat and curved surfaces, constant and graded d, coarse facets, and a closed surface smaller than
-// d.
+// Returns flat and curved surfaces with constant and graded d, coarse facets, and a closed surface
+// smaller than d.
 std::vector<Case> cases() {
   using namespace space_shapes;
   return {{"ball", ball(4), constant},
@@ -119,7 +119,7 @@ std::vector<Case> cases() {
 
 // ------------------------------------------------------------------ nodes ----------------------
 
-// Owners of cells: contiguous along the Morton order, or random.
+// Owners of cells are contiguous along the Morton order, or random.
 int owner_in_a_row(std::int32_t cell, std::int32_t cells) {
   return static_cast<int>(std::int64_t{cell} * comm->size() / cells);
 }
@@ -149,8 +149,8 @@ void check_nodes(const Case& job, const SurfaceCase& body) {
 
 // ------------------------------------------------------------------ work -----------------------
 
-// Work is proportional to a rank's own nodes, except for large facets before they are cut, and the
-// border of its cells, which is an eighth of the body wide.
+// Checks that work is proportional to the own nodes of a rank. Exceptions are large facets before
+// they are cut, and the border of its cells, which is an eighth of the body wide.
 void check_work(const Case& job, const SurfaceCase& body) {
   const BackgroundTree<3> cells = cells_of(body, 3);
   const auto serial = pnpbs::serial_communicator();
@@ -227,7 +227,7 @@ Put put_on_box(const std::shared_ptr<const pnpbs::Communicator>& over) {
   return {asked - by_tree, level.owned_count()};
 }
 
-// A level fills the part of the surfaces that the rank owns.
+// Checks that a level fills only the part of the surfaces that the rank owns.
 void check_level() {
   const Put whole = put_on_box(pnpbs::serial_communicator()), own = put_on_box(comm);
   const double size = comm->size();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces level/step_hops.cpp in a test library: ghost layers have one hop, regardless of the
-// reach of the steps until the next exchange. Results then depend on the ranks, and the tests of
-// independence must detect it.
+// Replaces level/step_hops.cpp in a variant of the library: ghost layers have one hop, regardless
+// of how far the steps until the next exchange reach. Results then depend on the ranks, which the
+// tests of invariance must detect.
 #include "level/reach.hpp"
 
 namespace pnpbs {

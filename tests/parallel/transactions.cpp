@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests that a failed call changes nothing. The spacing callback of one rank returns an error in
-// some of its calls, or the monitor or a file fails. All results of queries on any rank stay as
-// they were. The same call, repeated, then succeeds with the same result as without the error. Run
-// on groups of ranks.
+// some of its calls, or the monitor or a file fails. All results of queries on any rank must remain
+// the same. The same call, repeated, must then succeed with the result that it has without the
+// error. The program runs on groups of ranks.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,7 +16,7 @@ namespace {
 
 using Call = std::function<pnpbs_status(pnpbs_placement)>;
 
-// d, and the call in which the callback of the last rank fails.
+// Parameters of a spacing, and the number of the call in which the callback of the last rank fails.
 struct Spacing {
   double d = 0.05, centre = 0.3;
   long calls = 0, fails_at = -1;
@@ -83,7 +83,7 @@ void set_another_spacing(pnpbs_placement placement, Spacing& spacing) {
   pnpbs_placement_set_spacing_callback(placement, spacing_at, &spacing);
 }
 
-// The calls before the failing one, and that call.
+// A call that fails, and the calls before it.
 struct Case {
   const char* name;
   std::function<void(pnpbs_placement, Spacing&)> prepare;
@@ -119,7 +119,8 @@ std::string about(const Shape& shape, const Case& c, long call) {
   return std::string(shape.name) + ", " + c.name + ", fails at call " + std::to_string(call);
 }
 
-// The largest number of calls over the ranks, and the result of the call without a failure.
+// The largest number of callback calls over the ranks, and the result of the call without a
+// failure.
 struct Undisturbed {
   long calls;
   pnpbs_status status;
@@ -171,7 +172,8 @@ void check(const Shape& shape, const Case& c) {
   for (const long call : at) check_failure(shape, c, right, call);
 }
 
-// A checkpoint is read with another spacing, which the callback of the last rank reveals too late.
+// Checks a checkpoint that is read with another spacing, which only the callback of the last rank
+// reveals, late in the call.
 void check_reading() {
   const Shape& shape = shapes()[0];
   Spacing spacing;

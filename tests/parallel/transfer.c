@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Tests fields transferred to other nodes over ranks, with first and second order: linear or
+ * Tests fields transferred to other nodes over ranks, with first and second order. Linear or
  * quadratic fields are exact, smooth fields converge with second or third order, nodes that stay
- * keep their values, and integrals are conserved on request. The bits are those of one process. An
- * error on one rank is an error on all. */
+ * keep their values, and integrals are conserved on request. The results have the bits of one
+ * process. An error on one rank is an error on all. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -133,7 +133,7 @@ static void expect_exact(pnpbs_transfer transfer, pnpbs_placement placement, sha
 
 /* ---------------------------------------------------------------- tests ------------------ */
 
-/* Checks exactness after rebalancing, for coarser and finer nodes, and for graded ones. */
+/* Checks that the transfer is exact after rebalancing, to coarser, finer and graded nodes. */
 static void check_exactness(shape s, double d) {
   pnpbs_placement placement = placed(s, d);
   pnpbs_transfer transfer = transfer_of(placement, s);
@@ -158,7 +158,8 @@ static void check_exactness(shape s, double d) {
   pnpbs_placement_destroy(&placement);
 }
 
-/* Halving the previous spacing reduces the error to a quarter; with second order, to an eighth. */
+/* Checks the order of convergence: halving the previous spacing reduces the error to a quarter, and
+ * with second order to an eighth. */
 static void check_order(shape s, double d) {
   pnpbs_placement placement = placed(s, d);
   pnpbs_transfer coarse = transfer_of(placement, s), fine;
@@ -190,8 +191,8 @@ static double det(const double* a, const double* b, const double* c, const doubl
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* Integrates the linear interpolant of a field over the elements that the library returns. values:
- * at this rank's nodes. */
+/* Integrates the linear interpolant of a field over the elements that the library returns. `values`
+ * are at the nodes of this rank. */
 static void integrate(pnpbs_placement placement, const double* values, double* integrals) {
   int32_t dim;
   int64_t owned, ghosts, elements, e, *corners;
@@ -289,7 +290,8 @@ static void check_same_bits(shape s, double d) {
   context = all;
 }
 
-/* Evaluates at points inside and slightly outside, none of them on the first rank. */
+/* Checks values at points inside and slightly outside of the domain. The first rank has no points.
+ */
 static void check_points(shape s, double d) {
   pnpbs_placement placement = placed(s, d);
   pnpbs_transfer transfer = transfer_of(placement, s);

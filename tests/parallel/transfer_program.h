@@ -28,7 +28,7 @@ static inline struct nodes get_nodes(pnpbs_placement placement) {
 
 static inline void free_nodes(struct nodes* v) { free(v->ids), free(v->x); }
 
-/* Returns the values [nodes of this rank][components]. */
+/* Returns the transferred values as an array [nodes of this rank][components]. */
 static inline double* at_nodes(pnpbs_transfer transfer, pnpbs_placement placement, int conserve) {
   int64_t n;
   int32_t components = 0;

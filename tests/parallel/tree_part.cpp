@@ -69,7 +69,7 @@ class Check {
 
   void run() {
     check_order();
-    // All leaves start on one rank.
+    // All leaves start on one rank and are then spread evenly.
     std::vector<LeafCell<Dim>> own;
     if (comm->rank() == comm->size() / 2)
       for (std::int32_t leaf = 0; leaf < whole_.leaf_count(); ++leaf)
@@ -102,7 +102,7 @@ class Check {
     }
   }
 
-  // Copies receive values from their owners: here, the indices in the complete tree.
+  // Sends the index of each leaf in the complete tree from its owner to the copies.
   void name_copies() {
     std::int64_t held = 0;
     for (const LeafCell<Dim>& cell : cells_) numbers_.push_back(number(cell));
@@ -137,7 +137,7 @@ class Check {
             "copies touch own leaves");
   }
 
-  // Checks that points are found in the leaf of the complete tree, on the same rank by all.
+  // Checks that each point is found in the leaf of the complete tree, and that one rank owns it.
   void check_points() const {
     Random random(17);
     for (int trial = 0; trial < 2000; ++trial) {

@@ -22,7 +22,8 @@ static int warns_of_ranks(pnpbs_placement placement) {
   return found;
 }
 
-/* options: pairs of key and value, terminated by NULL. */
+/* Runs a placement and returns how often a rank used values that it does not know exactly.
+ * `options` are pairs of key and value, terminated by NULL. */
 static int64_t uses_in(int32_t dim, const char* const* options) {
   double finest = dim == 2 ? 0.01 : 0.065;
   pnpbs_domain domain = unit_domain(dim);

@@ -20,7 +20,7 @@ constexpr const char* kData = PNPBS_SOURCE_DIR "/examples/data";
 
 // ------------------------------------------------------------------ bodies ---------------------
 
-// Returns 0 for points on a surface, which belong to neither side.
+// Returns 1 for points inside, -1 outside, and 0 on a surface.
 int side_of(double within) { return within > 1e-9 ? 1 : within < -1e-9 ? -1 : 0; }
 
 double within_box(const Point& x, const Point& high) {
@@ -45,7 +45,8 @@ Body l_block() {
           }};
 }
 
-// Nodes lie on the triangles, and chords between them inside, at most d^2 / 8 below the sphere.
+// Returns a globe. Nodes lie on its triangles, so chords between them lie inside the sphere, at
+// most d^2 / 8 below it.
 Body globe(double volume) {
   return {volume, 0.01, [](const Point& x) { return in_globe(x, {0, 0, 0}, 1); }};
 }
@@ -57,7 +58,8 @@ Body cavity(double volume) {
       }};
 }
 
-// The inside of a given body is not tested. Its tolerance is larger, as d is a third of its width.
+// Returns a body that a file describes. The sides of points are not tested. The tolerance is
+// larger, as d is a third of the body's width.
 Body given(double volume) {
   return {volume, 0.05, [](const Point&) { return 0; }};
 }
@@ -92,7 +94,8 @@ class Job {
     require(pnpbs_placement_set_spacing_callback(p_, volume_spacing_at, &d_), "spacing");
   }
 
-  // Every rank gives some of the nodes, independent of their future owners.
+  // Passes the nodes to the placement. Every rank passes some of them, independent of their later
+  // owners.
   void set_nodes(const std::vector<Point>& nodes) {
     std::vector<double> xyz;
     std::vector<std::int64_t> ids;
@@ -143,7 +146,8 @@ void run_bodies(const char* only) {
     if (std::strcmp(body.name, only) == 0) fill_and_run(body.name, body.body, body.spacing);
 }
 
-// All spheres hold eight or more nodes, and ids do not follow the rows.
+// Tests a cubic grid, in which every circumsphere passes through eight or more nodes. The order of
+// the ids differs from that of the rows.
 void exact_grid() {
   Job job("exact grid", volume_unit_box, VOLUME_CONSTANT(1.0 / 8));
   std::vector<Point> grid;
@@ -165,7 +169,7 @@ void adapting() {
   }
 }
 
-// There are more ranks than leaves, so some own nothing.
+// Tests more ranks than leaves, so that some ranks own nothing.
 void empty_ranks() {
   fill_and_run("few leaves", volume_unit_box, VOLUME_CONSTANT(0.5));
   fill_and_run("some leaves", volume_l_block, VOLUME_CONSTANT(0.2));

@@ -43,7 +43,7 @@ bool owns_something_in(const Distribution<3>& distribution, int rank, std::int32
   return distribution.owner(leaf) == rank && !empty_leaf(distribution, leaf);
 }
 
-// The expected halo, from the boxes of all leaves and cells.
+// The expected halo, computed from the boxes of all leaves and cells.
 class BruteForce {
  public:
   BruteForce(const BackgroundTree<3>& tree, const std::vector<double>& d,
@@ -142,7 +142,8 @@ void check_owners(const BackgroundTree<3>& tree, const Distribution<3>& distribu
   expect(comm->same_on_all(owners), "owners of points are the same on all ranks");
 }
 
-// Each rank counts leaf + 1 nodes in each leaf that it owns.
+// Checks prefix sums of counts over leaves. Each rank counts leaf + 1 nodes in each leaf that it
+// owns.
 void check_prefix_sums(const Distribution<3>& distribution, std::int32_t leaves) {
   std::vector<std::int64_t> counts(index(leaves), 0);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
@@ -202,8 +203,8 @@ void check_reach(const Distribution<3>& distribution, const BruteForce& brute, i
   expect(distribution.unrefined_within(hops).empty(), "all cells are refined");
 }
 
-// The cells that a rank refines first, selected by spacings in cells only, include all within a
-// reach.
+// Checks the cells that a rank refines first, which are selected by the spacings of cells only.
+// They must include all cells within a reach of the rank's own.
 void check_cells_near_own(const Distribution<3>& distribution) {
   const BackgroundTree<3>& tree = distribution.cells().tree();
   const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
@@ -219,8 +220,8 @@ void check_cells_near_own(const Distribution<3>& distribution) {
   }
 }
 
-// Domains: the whole box, an oblique slab of it, and half of its leaves, so that paths between
-// parts lead through empty cells.
+// The domains are the whole box, an oblique slab of it, and half of its leaves, so that paths
+// between parts lead through empty cells.
 bool in_box(const Point<3>&) { return true; }
 bool in_slab(const Point<3>& x) { return std::fabs(x[0] + 0.5 * x[1] - 0.7) < 0.17; }
 

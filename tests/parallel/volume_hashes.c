@@ -3,7 +3,8 @@
  * Places the nodes of many small bodies. Prints a line for each with the hash, the number of nodes,
  * and a hash of the statistics of the elements, none of which depends on the number of ranks and
  * threads.
- * usage: volume_hashes DATA [CASE [key=value]...], "all" for all cases */
+ * usage: volume_hashes DATA [CASE [key=value]...]
+ * The CASE "all" runs all cases. */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdlib.h>
@@ -25,7 +26,7 @@ static void check(pnpbs_status status, const char* what) {
 
 /* ---------------------------------------------------------------- statistics ------------ */
 
-/* FNV-1a over the bits. */
+/* Returns the FNV-1a hash after the bits of a further value. */
 static uint64_t mixed(uint64_t hash, double value) {
   unsigned char bytes[sizeof value];
   size_t k;
@@ -102,8 +103,8 @@ static void place(const struct volume_case* job) {
   check(pnpbs_placement_destroy(&placement), job->name);
 }
 
-/* One live placement with a spacing refined by two towards a corner, values at nodes, and a grid.
- */
+/* Adapts one live placement to a spacing refined by two towards a corner, to values at nodes, and
+ * to a grid. */
 static void adapt(void) {
   const int64_t grid_size[] = {2, 2, 1};
   const double origin[] = {0, 0, 0}, step[] = {1, 1, 1}, values[] = {0.06, 0.1, 0.1, 0.06};
@@ -127,8 +128,7 @@ static void adapt(void) {
   check(pnpbs_placement_destroy(&placement), "adapt");
 }
 
-/* Begins with given points of a box larger than the body; every rank gives every size-th of them.
- */
+/* Begins with given points of a box larger than the body. Every rank passes every size-th point. */
 static void begin_with_given_nodes(void) {
   enum { row = 20, all = row * row * row };
   struct volume_spacing spacing = VOLUME_CONSTANT(0.16);
@@ -165,8 +165,8 @@ static void drive_by_steps(void) {
   check(pnpbs_placement_destroy(&placement), "steps");
 }
 
-/* Rounds that hold d down at small angles; the last one may bring no improvement. In the second
- * body most nodes are corners of elements with a small angle. */
+/* Runs rounds that reduce d at small angles, the last of which may bring no improvement. In the
+ * second body most nodes are corners of elements with a small angle. */
 static void enlarge_angles(void) {
   static const struct {
     volume_body body;

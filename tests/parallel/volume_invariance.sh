@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests in space that the hash of the nodes and that of the elements' statistics are the same for
-# any number of ranks and threads, exchange interval and partition. node_hashes.sh runs all cases of
-# the program on more ranks.
+# Tests in space that the hash of the nodes and that of the statistics of the elements are the same
+# for any number of ranks and threads, any exchange interval and any partition. node_hashes.sh runs
+# all cases of the program on more ranks.
 # usage: volume_invariance.sh PROGRAM MPIEXEC DATA THIN_HALO
-# THIN_HALO is the folder of the library whose ghost layers are too thin.
+#   THIN_HALO  folder of the library whose ghost layers are too thin
 set -euo pipefail
 program=$1 mpiexec=$2 data=$3 thin_halo=$4${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 failed=0
@@ -16,7 +16,7 @@ place() { # arguments: ranks, threads, case, options
     "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" \
     "$program" "$data" "$@" < /dev/null
 }
-require_output() { # a program prints nothing for an unknown case
+require_output() { # the program prints nothing for an unknown case
   [ -n "$expected" ] || { echo "$subject: no output"; exit 1; }
 }
 compare() { # arguments: ranks, threads, options
@@ -37,7 +37,7 @@ for subject in box-graded globe ring-graded two-halves kleopatra-graded slotted 
   compare 5 1 exchange_interval=5 metis_seed=7
 done
 
-# The comparison must be able to fail: Too thin ghost layers give another set.
+# This test can fail: ghost layers that are too thin give other nodes.
 subject=box-graded
 expected=$(place 1 1 "$subject")
 require_output

@@ -25,8 +25,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Places = std::array<std::int64_t, 4>;  // indices of nodes by id, in increasing order
 using Point = std::array<double, 3>;
 
-// Known properties of the body: its volume and the tolerance of the triangulation's volume, and its
-// inside: 1 inside, -1 outside, 0 too near to the surface to decide.
+// Known properties of the body: its volume, the tolerance of the triangulation's volume, and a
+// function that returns 1 inside, -1 outside, and 0 too near to the surface to decide.
 struct Body {
   double volume, tolerance;
   std::function<int(const Point&)> inside;
@@ -209,8 +209,9 @@ class Judge {
     return on_sphere;
   }
 
-  // Returns whether a tetrahedron must not be returned: it is outside, its sphere is larger than
-  // possible between nodes that fill the body, or it is flat with all corners on the surface.
+  // Returns whether the library must not return a tetrahedron of CGAL: it is outside, its
+  // circumsphere is larger than possible between nodes that fill the body, or it is flat with all
+  // corners on the surface.
   bool is_none_of_the_body(const Places& t) const {
     Point centre{};
     double least = HUGE_VAL, widest = 0;

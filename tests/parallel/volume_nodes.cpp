@@ -20,7 +20,7 @@ using rank_checks::expect;
 constexpr std::int64_t kNodes = 20000;
 constexpr int kHops = 2;
 constexpr double kRadius = 1.7, kMin = 0.03;  // radius of the lists; spacing
-// Between two exchanges nodes drift less than a hop, as in a placement.
+// Largest drift of nodes between two exchanges. It is less than a hop, as in a placement.
 constexpr double kDrift = 0.6 * kRadius * kMin;
 
 double spacing(const Point<3>& x) { return kMin + 0.05 * pnpbs::distance<3>(x, {0.3, 0.4, 0.6}); }
@@ -86,7 +86,7 @@ void check_who_has_it(BoxNodes& box, int moment, bool with_ghosts, const std::st
          when + ": there are ghosts");
 }
 
-// Moves owned nodes to the next moment. Their ghosts follow only at an update.
+// Moves owned nodes to their state of a later moment. Their ghosts follow only at an update.
 void move_owned(BoxNodes& box, int moment) {
   pnpbs::Nodes<3>& nodes = box.nodes();
   for (std::int64_t i = 0; i < nodes.count; ++i) {

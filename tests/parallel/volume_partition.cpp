@@ -70,8 +70,8 @@ void check_tiling(const std::vector<PartitionCell<3>>& list, const PartitionCell
   expect(std::all_of(met.begin(), met.end(), [](int n) { return n == 1; }), "each cell once");
 }
 
-// Checks the work of the cells. Returns the largest work that a cell may have: its share, or that
-// of a leaf.
+// Checks the work of the cells. Returns the largest work that a cell may have: the equal share of a
+// cell, or the work of a leaf.
 std::int64_t check_work(const BackgroundTree<3>& tree, const std::vector<double>& d,
                         const PartitionCells<3>& cells) {
   const std::vector<std::int64_t> work = octree::leaf_work(tree, d);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests Voronoi cells against cells cut by brute force from a square and a cube, and their
-// invariants: volumes sum up to that of the elements, faces and boundary of a cell sum up to 0,
-// both sides have the same face, and any number of ranks gives the bits of one. The test uses the
-// public interface only. Usage: voronoi_cells
+// invariants: volumes sum up to that of the elements, the normals of the faces and the boundary of
+// a cell sum up to 0, and both sides have the same face. Any number of ranks gives the bits of one.
+// The test uses the public interface only. Usage: voronoi_cells
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,16 +37,17 @@ pnpbs_status slotted_plane(pnpbs_domain domain, const char*) {
   return pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 2, curve, nullptr, 0);
 }
 
-// Two nodes are mirrored at an inner curve and closer to its middle than its ends. The face between
-// their cells lies in a side of elements.
+// Adds a kite with an inner curve along its axis. Two nodes are mirror images at the curve and
+// closer to its middle than its ends are, so the face between their cells lies in a side of
+// elements.
 pnpbs_status kite(pnpbs_domain domain, const char*) {
   const double outline[] = {0, 0, 2, -0.75, 4, 0, 2, 0.75}, curve[] = {0, 0, 4, 0};
   pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, outline, nullptr, 0);
   return pnpbs_domain_add_polyline(domain, PNPBS_INNER, 0, 2, curve, nullptr, 0);
 }
 
-// What can be checked: everything for the unit square or cube, or only closed cells, or the
-// measure.
+// The properties of a case that can be checked: all of them for the unit square or cube, only
+// closed cells, or only the measure.
 enum class Known { everything, closed_cells, measure };
 struct Case {
   const char* name;
@@ -160,7 +161,8 @@ double measure_of_elements(pnpbs_placement placement, std::int32_t dim) {
 
 // ------------------------------------------------------------------ brute force ----------------
 
-// Returns the `count` nodes nearest to one, without itself; more than its cell has neighbours.
+// Returns the `count` nodes nearest to one, without itself. These must be more than its cell has
+// neighbours.
 std::vector<std::int64_t> closest(const Cells& cells, std::int64_t id, std::size_t count) {
   const Point x = cells.at(id).x;
   std::vector<std::pair<double, std::int64_t>> order;
@@ -287,7 +289,7 @@ void check_case(const Case& it) {
 
 // ------------------------------------------------------------------ errors ---------------------
 
-// An error on one rank is an error on all.
+// Checks that an error on one rank is an error on all.
 void check_errors() {
   pnpbs_placement placement;
   pnpbs_domain domain = unit_domain(2);

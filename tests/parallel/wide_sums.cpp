@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests sums over ranks beyond 64 bits against sums that each rank computes alone, and running sums
-// over cells, of which the fraction remains.
+// Tests sums over ranks beyond 64 bits against sums that each rank computes alone. Also tests
+// running sums over cells, in which the fractions must be kept.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -21,7 +21,7 @@ __extension__ using Whole = __int128;
 
 constexpr int kDoublings = 90;
 
-// Terms of each rank, which are added 2^doublings times.
+// Returns a term of the sum of a rank. The sum is then doubled `doublings` times.
 double term(int rank, int k) {
   return std::ldexp(1.0 + (7 * rank + k) % 11, k - 30) * (rank % 3 == 2 ? -1 : 1);
 }
@@ -60,7 +60,7 @@ void check_sums() {
   }
 }
 
-// A running sum over cells, each of which has 2^30 nodes and a fraction.
+// Checks a running sum over cells, each of which has 2^30 nodes and a fraction.
 void check_running_sums() {
   constexpr std::int64_t kCells = 1000, kPart = 12345678901;
   constexpr std::int64_t kInCell = (std::int64_t{1} << 62) + kPart;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares the C header with the declarations of the Python package.
+"""Compares the C header with the declarations of the Python package: every function, every
+argument, every type of callback, every constant.
+usage: check_declarations.py <pnpbs.h> <folder of pnpbs> [--self-test]
 
-It covers every function, every argument, every type of callback and every constant.
-usage: check_declarations.py <pnpbs.h> <folder of pnpbs>
 --self-test changes the header in many ways, one at a time, and fails unless each change is
 detected."""
 import ctypes
@@ -15,7 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "linkage"))
 import c_header
 
-# The types of a callback's arguments. Callbacks have no text and no other pointers.
+# The types of arguments of callbacks. Other pointers and text do not occur there.
 CALLBACK_TYPES = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "double": ctypes.c_double,
                   "double *": ctypes.POINTER(ctypes.c_double),
                   "const double *": ctypes.POINTER(ctypes.c_double), "void *": ctypes.c_void_p}
@@ -65,7 +65,7 @@ def differences(text, interface):
     yield from function_differences(c_header.functions(text), declared)
     yield from callback_differences(c_header.callbacks(text), interface.CALLBACKS)
     yield from constant_differences(c_header.constants(text), interface)
-    # Checks the ctypes types that the declarations become when the library is called.
+    # Checks the types to which declarations are converted when the library is called.
     for result, arguments in declared.values():
         for c_type in [result] + [c_type for c_type, _ in arguments]:
             is_pointer = c_type.endswith(("*", "_fn")) or c_type in HANDLES
@@ -114,7 +114,7 @@ def main():
         if not declared or len(c_header.functions(one)) != declared:
             found.append("not every declaration of the header was understood")
     print("\n".join(found) or f"{len(c_header.functions(text))} functions agree")
-    # The library of shapes has functions only.
+    # The library of shapes has only functions and the codes of notes.
     geo = c_header.functions(text_of_geo)
     shapes = importlib.import_module(f"{folder.name}.shapes")
     of_shapes = list(function_differences(geo, interface.declarations(shapes.DECLARATIONS)))

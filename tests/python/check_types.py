@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks the types that the package promises with py.typed.
-
-mypy checks the package and a typed program in strict mode, and the examples in a less strict mode.
-The program must also run. A program that breaks the promise must be rejected.
+"""Tests the types that the package guarantees with py.typed. mypy checks the package and a typed
+program in strict mode and the examples in normal mode, and the program runs. mypy must reject a
+program that violates the types.
 usage: check_types.py <folder of pnpbs> <source folder> <folder for mypy's cache>"""
 import os
 import subprocess
@@ -16,7 +15,7 @@ program = Path(__file__).with_name("typed_program.py")
 
 
 def mypy(*arguments):
-    """Runs mypy in the folder above the package, where `import pnpbs` finds it."""
+    """Runs mypy in the folder above the package, where `import pnpbs` finds the package."""
     command = [sys.executable, "-m", "mypy", f"--cache-dir={cache}", *map(str, arguments)]
     return subprocess.run(command, cwd=package.parent,
                           env=dict(os.environ, MYPYPATH=str(package.parent))).returncode

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of properties that a distributed mesh has on every rank."""
+"""Checks of a distributed mesh that hold on every rank."""
 import numpy as np
 
 
 def measures(mesh):
-    """Returns the areas of triangles in the plane or the volumes of tetrahedra."""
+    """Returns the areas of triangles in the plane, or the volumes of tetrahedra."""
     corners = mesh.coordinates[mesh.elements]
     sides = corners[:, 1:] - corners[:, :1]
     return np.linalg.det(sides) / (2 if mesh.dim == 2 else 6)
 
 
 def check_order(case, numbers, owners, first, owned, rank):
-    """Checks that owned items come first, with numbers from `first` on, followed by those of other
-    ranks sorted by number."""
+    """Checks that owned items come first, numbered from `first`, followed by those of other ranks
+    in the order of their numbers."""
     np.testing.assert_array_equal(numbers[:owned], first + np.arange(owned))
     np.testing.assert_array_equal(owners == rank, np.arange(len(owners)) < owned)
     case.assertTrue((np.diff(numbers[owned:]) > 0).all())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Domains whose meshes are passed to other packages."""
+"""Domains for the tests that pass meshes to other packages."""
 import numpy as np
 import pnpbs
 
@@ -15,7 +15,7 @@ def box(context):
 
 
 def of_file(context, path):
-    """Returns the domain in the file, and the centre of its bounding box."""
+    """Returns the domain in a file, and the centre of its bounding box."""
     if path.endswith(".poly"):
         domain = pnpbs.Domain(context).read_poly(path)
     else:
@@ -48,7 +48,7 @@ def blocks(context, dim):
 
 
 def blocks_with_regions(context, dim):
-    """Returns the blocks with regions. The first block has the tag 7, the other 20, and the rest
+    """Returns the blocks as regions: the first has the tag 7, the other one 20, and the rest has
     none."""
     domain = blocks(context, dim)
     return domain.add_region((0.2, 0.5, 0.5)[:dim], 7).add_region((0.8, 0.5, 0.5)[:dim], 20)

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of distributed meshes in DOLFINx on the ranks of MPI.
-
-Cells stay on their rank, facets and cells keep their tags, and Poisson's equation has the same
-error on any number of ranks, before and after the spacing is adapted.
-usage: test_dolfinx.py [FILE D], instead of the square and the box. Written for DOLFINx 0.5."""
+"""Tests distributed meshes in DOLFINx 0.5, on the ranks of MPI. Cells stay on their rank, facets
+and cells keep their tags, and Poisson's equation has the same error on any number of ranks, before
+and after the spacing is adapted.
+usage: test_dolfinx.py [FILE D], with the domain of a file instead of the square and the box."""
 import sys
 
 import dolfinx
@@ -27,7 +26,7 @@ def peak(x, centre, length):
 
 
 def error_of(mesh, facets, centre, length):
-    """Returns the number of nodes and the L2 error of linear elements."""
+    """Returns the L2 error of linear elements."""
     space = fem.FunctionSpace(mesh, ("CG", 1))
     u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
     exact = peak(ufl.SpatialCoordinate(mesh), centre, length)
@@ -70,7 +69,7 @@ def solve(placement, comm, centre, length):
 
 
 def run(domain, comm, d, centre, length):
-    """Returns errors before and after adapting."""
+    """Returns the errors before and after adapting."""
     placement = placed(domain, d, steps=100)
     nodes, error = solve(placement, comm, centre, length)
     away = np.linalg.norm(placement.nodes().points - centre, axis=1) / length
@@ -83,7 +82,7 @@ def run(domain, comm, d, centre, length):
 
 
 def check_regions(placement, expected):
-    """Checks the tags of all cells on this rank, ghosts included, and the measures of regions."""
+    """Checks the tags of all cells on this rank, including ghosts, and the measures of regions."""
     part = placement.mesh(ghost_layers=1)
     mesh, tags, regions = part.to_dolfinx(WORLD, regions=True)
     check_mesh(WORLD, part, mesh, tags)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of the Python package in one process."""
+"""Tests the Python package in one process."""
 import contextlib
 import ctypes
 import gc
@@ -34,7 +34,7 @@ def graded(x):
 
 
 def numbers_of_nodes(rows):
-    """Returns node numbers in the order of a .msh file of version 4.1 with the lines `rows`."""
+    """Returns the node numbers in the order of a .msh file of version 4.1 with these lines."""
     at, numbers = rows.index("$Nodes") + 2, []
     while rows[at] != "$EndNodes":
         count = int(rows[at].split()[3])
@@ -84,7 +84,7 @@ class Results(Case):
         pairs = {(i, j) for i, row in enumerate(lists) for j in row}
         self.assertEqual(pairs, {(j, i) for i, j in pairs})
         near = {(i, j) for i in range(len(points)) for j in range(len(points)) if i != j
-                and np.hypot(*(points[i] - points[j])) < 0.05}  # 0.05 is the least d
+                and np.hypot(*(points[i] - points[j])) < 0.05}  # the smallest d
         self.assertTrue(near and near <= pairs)
 
     def test_triangles(self):
@@ -372,10 +372,10 @@ class Domains(Case):
         self.assertAlmostEqual(inset.measure(), (1 - 2 * 0.042)**2, 9)
         self.assertEqual(set(inset.outline().tags), {7})
         self.assertAlmostEqual(offset(-np.inf, -0.042).measure(), inset.measure(), 9)
-        # A finer resolution has more points on the arcs at outer corners.
+        # A finer resolution has more points on the arcs around the outer corners.
         coarse, fine = (len(offset(0, 0.42, 0.1, h).outline().tags) for h in (0.05, 0.01))
         self.assertGreater(fine, 2 * coarse)
-        # The area lies between four straight lines.
+        # The inset lies between four straight lines.
         left, right = 0.042 / 0.979, 0.958 / 1.021
         self.assertAlmostEqual(offset(-np.inf, -0.42, lambda x: 0.1 + 0.05 * x[:, 0]).measure(),
                                0.916 * (right - left) - 0.021 * (right**2 - left**2), 9)
@@ -399,7 +399,7 @@ class Domains(Case):
         inset = pnpbs.Domain(self.context, dim=3).add_offset(box, -np.inf, -0.46, even, tag=6)
         self.assertAlmostEqual(inset.measure(), 0.77**3, 3)
         placement = pnpbs.Placement(inset, steps=20).set_spacing(0.25 * 1.147)
-        # The function stays alive, although the domain is closed and has no references.
+        # The function is kept alive, although the domain is closed and deleted.
         inset.close()
         box.close()
         del inset, even
@@ -437,7 +437,7 @@ class Domains(Case):
         self.assertTrue((volumes > 0).all())
         triangles, tags = placement.boundary_triangles()
         self.assertEqual(set(tags), {1, 2})
-        # The boundary triangles enclose the same volume by the divergence theorem.
+        # By the divergence theorem, the boundary triangles enclose the volume.
         a, b, c = (points[triangles[:, k]] for k in range(3))
         self.assertAlmostEqual(np.einsum("ij,ij->", a, np.cross(b, c)) / 6, volumes.sum(), 12)
         self.assertAlmostEqual(volumes.sum(), 1 - 4 / 3 * np.pi * 0.25**3, delta=0.02)
@@ -499,7 +499,8 @@ class Domains(Case):
         self.assertEqual(mesh.facets.shape, edges.shape)
 
     def test_grids_on_a_sphere(self):
-        """Grids use longitude and latitude in degrees. The first index is that of longitude."""
+        """The grid is in degrees of longitude and latitude. The first index runs along longitudes.
+        """
         sphere = pnpbs.Domain.on_sphere(self.context, 1, (0, 1, 1))
         lon, lat = np.meshgrid(np.arange(-180, 180, 10), np.arange(-85, 90, 10), indexing="ij")
         d = 0.1 + 0.03 * np.cos(np.radians(lat)) * np.sin(np.radians(lon))
@@ -516,7 +517,7 @@ class Domains(Case):
             placement.set_spacing(d, origin=(0, -95), step=(10, 10))
 
     def test_meshes_and_points_on_a_sphere(self):
-        """The d of earlier nodes leads to about the same number of nodes."""
+        """d at the previous nodes gives about the same number of nodes."""
         sphere = pnpbs.Domain.on_sphere(self.context, 1, (0, 1, 1))
         placement = pnpbs.Placement(sphere).set_spacing(lambda x: 0.1 + 0.03 * x[:, 2])
         placement.run()
@@ -586,7 +587,7 @@ class Meshes(Case):
         np.testing.assert_array_equal(mesh.facet_elements[:, 1] >= 0, mesh.facet_inner)
         self.assertEqual((len(mesh.shared_nodes), len(mesh.sharing_ranks)), (0, 0))
 
-        more = placement.mesh(ghost_layers=16)  # there are no other ranks
+        more = placement.mesh(ghost_layers=16)  # a single rank has no ghosts
         np.testing.assert_array_equal(more.elements, mesh.elements)
         self.assertIn(f", 2D, {mesh.all_nodes} nodes, ", repr(mesh))
         with self.assertRaises(AttributeError):
@@ -630,7 +631,7 @@ class Meshes(Case):
         self.assertAlmostEqual(measures(mesh).sum(), 2, 12)
         self.assertIn(6, mesh.facet_tags)
         np.testing.assert_array_equal(mesh.facet_inner, mesh.facet_tags == 6)
-        # The facets are counter-clockwise seen from outside, so that together they enclose the box.
+        # The facets are counter-clockwise as seen from outside, so together they enclose the box.
         a, b, c = mesh.coordinates[mesh.facets[mesh.facet_tags == 5]].transpose(1, 0, 2)
         self.assertAlmostEqual(np.einsum("ij,ij->", a, np.cross(b, c)) / 6, 2, 12)
         first, second = mesh.facet_elements[mesh.facet_inner].T
@@ -749,7 +750,7 @@ class Meshes(Case):
         wide = pnpbs.Domain(self.context).add_polyline([(-1, -1), (2, -1), (2, 2), (-1, 2)])
         message = self.assert_status(Status.ERROR_DOMAIN, pnpbs.Particles, placement, wide)
         self.assertIn("fill", message)
-        # Nodes on the boundary of the box are not strictly inside it.
+        # Nodes on the boundary of the inset fill it, but they must lie strictly inside the body.
         self.assert_status(Status.ERROR_DOMAIN, pnpbs.Particles, placement, inset)
         box = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
         message = self.assert_status(Status.ERROR_ARGUMENT, pnpbs.Particles, placement, box)
@@ -855,7 +856,7 @@ class Pictures(Case):
         self.assertEqual(len(set(colours)), 2)
         edges = len(np.unique(np.sort(mesh.elements[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0))
         x = ax.lines[0].get_xdata()
-        self.assertEqual(len(x), 3 * edges)  # both ends of each, and a gap
+        self.assertEqual(len(x), 3 * edges)  # two ends and a gap for each edge
 
         self.assertIs(placement.plot(ax), ax)
         self.assertEqual(sorted(self.legend(ax)), ["no tag", "tag 4", "tag 7"])
@@ -884,7 +885,7 @@ class Pictures(Case):
     @unittest.skipUnless(importlib.util.find_spec("pyvista"), "no PyVista")
     def test_in_space_by_pyvista(self):
         class Plotter:
-            """A stand-in for PyVista's plotter, which needs a screen as soon as it is created."""
+            """PyVista's own Plotter requires a screen when it is created, so it is replaced."""
 
             def __init__(self):
                 self.drawn, self.has_legend = [], False
@@ -925,7 +926,7 @@ class Progress(Case):
             lines = self.shown()
         self.assertEqual([line[:4] for line in lines if line], [f"{f:4.0%}" for f in fractions])
         self.assertEqual(lines[-2], f"100% [{'#' * 40}] {self.placement.node_count} nodes ")
-        # The monitor stays, but the bar is removed.
+        # The monitor of the user remains, and the progress bar is removed.
         count = len(fractions)
         with contextlib.redirect_stderr(io.StringIO()) as text:
             self.placement.set_spacing(0.04).run()
@@ -1045,8 +1046,8 @@ class Handles(Case):
 
 class Threads(unittest.TestCase):
     def spins(self, **variables):
-        """Returns the spin count that GCC's OpenMP read when it was loaded, and the variable in the
-        environment afterwards."""
+        """Returns the spin count that GCC's OpenMP reports when it is loaded, and the value of the
+        variable afterwards."""
         program = "import os, pnpbs; pnpbs.build_info(); print(os.environ.get('GOMP_SPINCOUNT'))"
         environment = {name: value for name, value in os.environ.items()
                        if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")}

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of distributed meshes in PETSc on the ranks of MPI.
-
-Cells stay on their rank, facets and cells keep their tags, fields are copied to the vertices and
-back, and Poisson's equation has the errors of examples/c/petsc_poisson, before and after the
-spacing is adapted.
-usage: test_petsc.py [FILE D], instead of the square and the box. Written for petsc4py 3.18."""
+"""Tests distributed meshes in PETSc (petsc4py 3.18), on the ranks of MPI. Cells stay on their rank,
+facets and cells keep their tags, fields are transferred to vertices and back, and Poisson's
+equation has the errors of examples/c/petsc_poisson, before and after the spacing is adapted.
+usage: test_petsc.py [FILE D], with the domain of a file instead of the square and the box."""
 import math
 import sys
 import traceback
@@ -29,8 +27,8 @@ def peak(x, centre, length):
 
 
 def load(x, centre, length):
-    """Returns the load. Its rounding equals that of the C program, as the positions of nodes depend
-    on the last bits."""
+    """Returns the load, rounded as in the C program, because the positions of nodes depend on its
+    last bits."""
     r2 = ((x - centre)**2).sum(axis=-1) / length**2
     one = 1 + r2
     return (2 * x.shape[-1] / (one * one) - 8 * r2 / (one * one * one)) / length**2
@@ -51,7 +49,7 @@ def to_nodes(nodes, at_vertices, count):
 
 
 class Plex:
-    """The coordinates of a plex, and the vertices of its points."""
+    """A DMPlex with its own data: coordinates, and the vertices of its points."""
 
     def __init__(self, plex):
         self.plex = plex
@@ -72,8 +70,7 @@ class Plex:
         """Returns those of the points that belong to this rank."""
         try:
             _, leaves, _ = self.plex.getPointSF().getGraph()
-        # Petsc4py raises it if ranks share nothing, as PETSc keeps no graph then.
-        except ValueError:
+        except ValueError:  # petsc4py raises it if ranks share nothing and PETSc has no graph
             return points
         return np.setdiff1d(points, leaves)
 
@@ -85,8 +82,8 @@ class Plex:
 
 
 def sums(part, of_elements):
-    """Returns the number and the measure of all items with a tag over all ranks, each counted once.
-    """
+    """Returns the numbers and measures of elements or facets by tag over all ranks, each counted
+    once."""
     rows = part.elements[:part.owned_elements] if of_elements else part.facets
     mine = np.full(len(rows), True) if of_elements else part.facet_owners == WORLD.rank
     tags = part.element_tags[:len(rows)] if of_elements else part.facet_tags
@@ -135,8 +132,8 @@ def check_plex(part, plex, nodes):
 
 
 def check_points(there, depth):
-    """Checks that every point has one owner and one position, so that ranks agree on edges and
-    faces."""
+    """Checks that every point has one owner and a position of its own, so that ranks agree on edges
+    and faces."""
     plex = there.plex
     points = np.arange(*plex.getDepthStratum(depth))
     centres = np.array([there.x[there.vertices(point)].mean(axis=0) for point in points])
@@ -148,7 +145,7 @@ def check_points(there, depth):
 
 
 def finite_elements(there, centre, length):
-    """Returns stiffness and right-hand side of each cell, the quadrature points, and the shape
+    """Returns stiffness matrix and load of each cell, the points of a quadrature, and the basis
     functions there."""
     x, dim = there.x[there.cells], there.x.shape[1]
     functions = np.full((dim + 1, dim + 1), FAR[dim]) + np.eye(dim + 1) * (1 - (dim + 1) * FAR[dim])
@@ -162,7 +159,7 @@ def finite_elements(there, centre, length):
 
 
 def error_of(there, centre, length):
-    """Returns the number of nodes and the L2 error of linear elements."""
+    """Returns the L2 error of linear elements."""
     plex = there.plex
     section = PETSc.Section().create(plex.comm)
     section.setChart(*plex.getChart())
@@ -197,7 +194,7 @@ def error_of(there, centre, length):
 
 
 def run(domain, d, centre, length):
-    """Returns errors before and after adapting, which reduces d where the load is large, by up to a
+    """Returns the errors before and after adapting. d decreases where the load is large, by up to a
     factor of three."""
     placement, errors = pnpbs.Placement(domain).set_spacing(d), []
     for _ in range(2):
@@ -226,14 +223,14 @@ def check_meshes_with_regions(context):
 
 
 def check_an_empty_rank(context):
-    """Checks a mesh of about two triangles, and neighbours that PETSc creates."""
+    """Checks a domain of about two triangles, for which some ranks have no cells."""
     triangle = pnpbs.Domain(context).add_polyline([(0, 0), (1, 0), (0, 1)], tags=1)
     part = placed(triangle, 0.9).mesh()
     check_plex(part, *part.to_petsc(WORLD))
 
 
 def check_overlap(context):
-    """Checks a layer of PETSc's own ghost cells with their labels."""
+    """Checks a layer of PETSc's own ghost cells, with their labels."""
     part = placed(blocks_with_regions(context, 2), 0.1).mesh()
     plex, _ = part.to_petsc(WORLD)
     if WORLD.size > 1:

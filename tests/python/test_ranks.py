@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of the Python package on the ranks of mpi4py's world. Run with mpirun."""
+"""Tests the Python package over the ranks of mpi4py's world. The program is started by mpirun."""
 import math
 import pathlib
 import shutil
@@ -36,8 +36,8 @@ def placed_box(context):
 
 
 def rows_by_id(placement):
-    """Returns for the ids of this rank's nodes the sums over the elements around each, in their
-    order."""
+    """Returns a sum over the elements around each node of this rank, in the order of the elements,
+    by id."""
     own, ghosts = placement.nodes(), placement.ghosts()
     ids = np.concatenate([own.ids, ghosts.ids])
     points = np.concatenate([own.points, ghosts.points])
@@ -88,7 +88,7 @@ class Ranks(unittest.TestCase):
         self.placement.end_update_ghosts(pairs)
         np.testing.assert_array_equal(pairs, np.stack([ids, 2 * ids], axis=1))
 
-        # The exchange pattern gives the same values.
+        # The exchange pattern must transfer the same ids.
         pattern = self.placement.exchange_pattern()
         requests = [WORLD.isend(own.ids[pattern.send[k]], int(rank))
                     for k, rank in enumerate(pattern.ranks)]
@@ -130,7 +130,7 @@ class Ranks(unittest.TestCase):
                 check_mesh(self, mesh, WORLD.rank)
                 owned = measures(mesh)[:mesh.owned_elements]
                 self.assertAlmostEqual(WORLD.allreduce(owned.sum()), 1, 12)
-                # Each item is owned exactly once over all ranks.
+                # Each owned item must occur once over all ranks.
                 numbers = np.concatenate(WORLD.allgather(mesh.numbers[:mesh.owned_nodes]))
                 np.testing.assert_array_equal(numbers, np.arange(whole.all_nodes))
                 numbers = np.concatenate(WORLD.allgather(
@@ -142,7 +142,7 @@ class Ranks(unittest.TestCase):
                 self.assertEqual(WORLD.allreduce(np.sum(mesh.facet_owners == WORLD.rank)),
                                  len(whole.facets))
                 at_own_nodes = (mesh.elements < mesh.owned_nodes).any(axis=1).sum()
-                if layers:  # all elements at the nodes of this rank
+                if layers:  # contains all elements at the nodes of this rank
                     self.assertEqual(at_own_nodes, len(placement.incident_elements()))
                 self.assertEqual(len(mesh.elements) > mesh.owned_elements,
                                  layers > 0 and WORLD.size > 1)
@@ -205,7 +205,7 @@ class Ranks(unittest.TestCase):
             self.assertEqual(caught.exception.status, Status.ERROR_CALLBACK)
         self.placement.set_spacing(0.05)
         self.placement.run()
-        places = self.placement.node_count + self.placement.ghost_count()  # collective
+        places = self.placement.node_count + self.placement.ghost_count()  # collective calls
         wrong = [1.0] if WORLD.rank == LAST else np.zeros(places)
         with self.assertRaises((ValueError, PNPBSError)):
             self.placement.update_ghosts(wrong)
@@ -215,9 +215,9 @@ class Ranks(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    # One report is enough. A failure on another rank still fails the run.
+    # Only one rank reports, but a failure on another rank still makes the run fail.
     if WORLD.rank:
         sys.stderr = open("/dev/null", "w", encoding="ascii")
-    # A context that is never closed is closed when Python ends.
+    # This context is not closed, so it must be closed when Python ends.
     left_open = pnpbs.Context(WORLD)
     unittest.main()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of shapes that GDAL reads, in Python."""
+"""Tests shapes that GDAL reads, in Python."""
 import json
 import pathlib
 import tempfile
@@ -35,7 +35,7 @@ class Shapes(unittest.TestCase):
             self.assertTrue(0.999 < projection.scale[0] < projection.scale[1] < 1)
             placement = pnpbs.Placement(domain).set_spacing(5)
             placement.run()
-            # Sides are straight in the projection, so the northern one extends to 55.004 degrees.
+            # Sides are straight in the projection, so the northern one bends to 55.004 degrees.
             degrees = shapes.to_degrees(placement.nodes().points)
             self.assertTrue(np.all((degrees > (17.999, 53.98)) & (degrees < (20.001, 55.01))))
             corners = shapes.from_degrees(SQUARE[:4])
@@ -64,7 +64,7 @@ class Shapes(unittest.TestCase):
             self.assertEqual(placement.run(), Status.OK)
             points = placement.nodes().points
             np.testing.assert_allclose(np.linalg.norm(points, axis=1), 6371, rtol=1e-15)
-            # Sides are great circles, so the northern one extends to 55.004 degrees.
+            # Sides are great circles, so the northern one bends to 55.004 degrees.
             degrees = pnpbs.sphere_degrees(points)
             self.assertTrue(np.all((degrees > (17.999, 53.999)) & (degrees < (20.001, 55.01))))
             for corner in pnpbs.sphere_points(6371, SQUARE):
@@ -73,7 +73,8 @@ class Shapes(unittest.TestCase):
                 shapes.add_to(pnpbs.Domain(context))
 
     def test_grids(self):
-        # The values are 3 longitude + latitude. A file beside the grid defines degrees as its unit.
+        # Checks a grid with the values 3 longitude + latitude. The file beside it says that it is
+        # in degrees.
         rows = [[3 * (17 + 0.5 * i) + 56 - 0.5 * j for i in range(9)] for j in range(7)]
         path = self.folder / "depth.asc"
         path.write_text("ncols 9\nnrows 7\nxllcenter 17\nyllcenter 53\ncellsize 0.5\n" +

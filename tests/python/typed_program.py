@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A typed user program for check_types.py. It must pass as it is, each `type: ignore` must be
-needed, and it must run."""
+"""A typed program of a user, for check_types.py: it must pass mypy unchanged, each `type: ignore`
+must be needed, and it must run."""
 import importlib.util
 import math
 import pathlib
@@ -112,7 +112,7 @@ def in_space(context: pnpbs.Context) -> None:
 
 
 def mistakes(context: pnpbs.Context, domain: pnpbs.Domain, placement: pnpbs.Placement) -> None:
-    """Contains errors that a type checker must find."""
+    """A type checker must reject each of these calls."""
     domain.add_arc((0, 0), "wide")  # type: ignore[arg-type]
     domain.set_role(1, "outer")  # type: ignore[arg-type]
     placement.set_spacing(lambda: 0.1)  # type: ignore[arg-type, misc]

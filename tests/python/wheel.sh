@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests the wheel. It is made from an existing library and used from a fresh environment. The
-# examples check the lines that they print, which must be the same on any number of ranks. Without
-# MPI the test also makes a self-contained wheel, as scripts/wheel.sh does.
+# Tests the wheel, built from an existing library and used in a fresh environment. The examples
+# check themselves by the lines that they print, and print the same on any number of ranks. Without
+# MPI, a wheel that contains all libraries is built as well, as by scripts/wheel.sh.
 # usage: wheel.sh <python> <bindings/python> <libpnpbs.so> <source folder> <mpiexec, or ''>
 set -eu
 python=$1 bindings=$2 library=$3 source=$4 mpiexec=$5
@@ -10,13 +10,14 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 unset PNPBS_LIBRARY PYTHONPATH
 
-# The build tools, NumPy and mpi4py are those of the tests' environment.
+# The build tools, NumPy and mpi4py are those of the environment of the tests.
 cp -r "$bindings" "$work/bindings"
 "$python" -m pip wheel --quiet --no-deps --no-build-isolation --disable-pip-version-check \
   -C cmake.define.PNPBS_LIBRARY="$library" -w "$work" "$work/bindings"
-# The build must leave the source folder unchanged.
+# The build must not leave files in the source folder.
 diff -r -x __pycache__ "$bindings" "$work/bindings"
-# Arguments: environment, wheel. Sets the variable site.
+# install <environment> <wheel>
+# Creates an environment with the wheel, and sets `site` to its folder of packages.
 install() {
   "$python" -m venv --without-pip "$1"
   site=$("$1/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
@@ -26,7 +27,7 @@ install() {
 }
 install "$work/fresh" "$work"/pnpbs-*.whl
 
-# The wheel has the library for each level of processors as well.
+# The wheel must also contain the library for each level of processors.
 for level in "$(dirname "$library")"/glibc-hwcaps/*/; do
   [ ! -d "$level" ] ||
     cmp "$level/libpnpbs.so.0" "$site/pnpbs/lib/glibc-hwcaps/$(basename "$level")/libpnpbs.so.0"
@@ -70,7 +71,7 @@ if ! "$python" -c 'import auditwheel' 2> /dev/null || ! command -v patchelf > /d
 fi
 "$python" -m auditwheel repair -w "$work/repaired" "$work"/pnpbs-*.whl > log 2>&1 || { cat log; exit 1; }
 install "$work/alone" "$work"/repaired/pnpbs-*manylinux*.whl
-# All libraries except those of the C library and the compiler must come from the wheel.
+# All libraries except those of the C library and of the compiler must be in the wheel.
 find "$site" -name 'lib*.so*' | while read -r library; do
   env -i ldd "$library" | awk -v site="$site" '
     /not found/ { print; bad = 1 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Support code that runs the command, each test in an empty folder of its own."""
+"""Base class of the tests that run the command, each test in an empty folder of its own."""
 
 import os
 import pathlib
@@ -17,7 +17,7 @@ LAKE = DATA / "lake_victoria.poly"
 DONE, FAILED, BAD_INPUT, NOT_CONVERGED, SPACING_MISSED, LEFT_OUT, NOT_CONFORMING = range(7)
 INTERRUPTED = 130
 
-# A unit square with a square hole. Its markers are 1 outside and 2 inside.
+# A unit square with a square hole. The marker of the outer side is 1, that of the hole is 2.
 SQUARE = """\
 8 2 0 0
 1 0 0
@@ -44,8 +44,8 @@ SQUARE_AREA = 0.96
 
 
 def receive_signals():
-    """Restores the default signal handlers. A background process ignores these signals, and its
-    children would inherit that."""
+    """Restores the default handlers of signals in a child process. A background process ignores
+    these signals, and its children inherit that."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
@@ -70,15 +70,16 @@ class CommandTest(unittest.TestCase):
         )
 
     def run_command(self, *arguments, code=DONE, stdin=b"", **more):
-        """Runs the command to its end and returns its output as bytes."""
+        """Runs the command to its end, and checks its exit code. Returns its output and messages as
+        bytes."""
         process = self.start(*arguments, stdin=subprocess.PIPE, **more)
         out, err = process.communicate(stdin)
         self.assertEqual(process.returncode, code, err.decode(errors="replace"))
         return out, err
 
     def run_on_ranks(self, *arguments, ranks=1):
-        """Runs the command quietly on this number of ranks with one thread each. One rank has no
-        launcher."""
+        """Runs the command quietly on this number of ranks, with one thread each. One rank is
+        started without a launcher."""
         launcher = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle",
                     "1", "-np", str(ranks)]
         process = subprocess.run(
@@ -88,20 +89,22 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(process.returncode, 0, process.stderr.decode())
 
     def place(self, *arguments, domain=None, spacing="0.06", **more):
-        """Runs the command, by default on the square."""
+        """Runs the command on the square, unless other arguments replace it."""
         return self.run_command(
             "--domain", domain or self.square, "--spacing", spacing, "--check", *arguments, **more
         )
 
     def place_body(self, domain, spacing, *arguments, **more):
-        """Runs the command in space, whether the bubbles come to rest or not."""
+        """Runs the command in space. The bubbles may come to rest or not. Returns its output and
+        messages."""
         process = self.start("--domain", domain, "--spacing", spacing, *arguments, **more)
         out, err = process.communicate()
         self.assertIn(process.returncode, (DONE, NOT_CONVERGED, SPACING_MISSED), err.decode())
         return out.decode(), err.decode()
 
     def refuse(self, *arguments, code=BAD_INPUT, **more):
-        """Runs a command that must fail with a message and write no file. Returns the message."""
+        """Runs the command, which must fail, write no file and give a reason. Returns the message.
+        """
         before = self.files()
         out, err = self.run_command(*arguments, code=code, **more)
         self.assertEqual(out, b"")
@@ -111,5 +114,5 @@ class CommandTest(unittest.TestCase):
         return message
 
     def files(self):
-        """Returns all files in the folder, including hidden ones."""
+        """Returns the names of all files in the folder, including hidden ones."""
         return sorted(os.listdir(self.folder))

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests hundreds of damaged checkpoints. Reading one must give the written placement or a message,
-// and never a crash, a hang or another placement.
+// Tests hundreds of damaged checkpoints. Reading any file must give the placement that was written,
+// or an error with a message. It must never crash, hang or give another placement.
 //
-// The file under test is mutate_checkpoint.vtkhdf in the working folder, so that it remains after a
-// crash. To run more tests: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 test_mutate_checkpoint
+// The file under test remains as mutate_checkpoint.vtkhdf in the working folder after a crash. More
+// damaged files can be tested by hand:
+// PNPBS_MUTATIONS=40000 PNPBS_SEED=7 test_mutate_checkpoint
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +33,8 @@ void set_file(const std::string& bytes) {
   std::ofstream(file_name, std::ios::binary | std::ios::trunc) << bytes;
 }
 
-// A job whose spacing can be given by values at nodes, which the checkpoint then contains.
+// A placement in the unit square. On request it has a spacing by values at nodes, which its
+// checkpoint then contains.
 struct Job {
   pnpbs_context context = nullptr;
   pnpbs_domain domain = nullptr;
@@ -76,8 +78,8 @@ struct Tally {
   int refused = 0, read = 0;
 };
 
-// Tries to read a damaged file. The same `reader` reads all files, as a rejected file must leave it
-// usable.
+// Reads a damaged file. All files are read by the same `reader`, which must remain usable when a
+// file is rejected.
 void try_to_read(Job& reader, const std::string& bytes, const std::string& hash, Tally& tally) {
   set_file(bytes);
   const pnpbs_status status = pnpbs_placement_read_checkpoint(reader.placement, file_name);
@@ -106,12 +108,12 @@ void damage_by_chance(bool values_at_nodes) {
   for (std::uint64_t k = 0; k < mutations; ++k)
     try_to_read(reader, damage.to_bytes(bytes), hash, tally);
   ck_assert_int_gt(tally.refused, static_cast<int>(mutations / 3));
-  // The file is cut off at many positions.
+  // The file may be cut off at any position.
   Tally cut;
   for (std::size_t part = 0; part < 60; ++part)
     try_to_read(reader, bytes.substr(0, bytes.size() * part / 60), hash, cut);
   ck_assert_int_eq(cut.read, 0);
-  // The undamaged file can be read, and the reader continues.
+  // The intact file must be read, and the run must continue from it.
   try_to_read(reader, bytes, hash, tally);
   ck_assert_int_ge(pnpbs_placement_run(writer.placement), 0);
   ck_assert_int_ge(pnpbs_placement_run(reader.placement), 0);
@@ -125,7 +127,7 @@ END_TEST
 START_TEST(damaged_with_values_at_nodes) { damage_by_chance(true); }
 END_TEST
 
-// Each bit of the nodes counts: a flipped bit anywhere in an array is detected.
+// Every bit of the nodes matters: one flipped bit anywhere in an array must be detected.
 START_TEST(flipped_bits_of_nodes) {
   Job writer, reader;
   writer.write(false);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests hundreds of damaged .poly files. Reading and checking one must give nodes or a message, and
-// never a crash, a hang or invalid nodes.
+// Tests hundreds of damaged .poly files. Reading and checking any file must give nodes, or an error
+// with a message. It must never crash, hang or give invalid nodes.
 //
-// The text under test is in mutate_poly.poly in the working folder, so that it remains after a
-// crash. To run more tests of each of three files: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_poly
+// The text under test remains as mutate_poly.poly in the working folder after a crash. More damaged
+// files, of each of three files, can be tested by hand:
+// PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_poly
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -20,8 +21,8 @@
 
 namespace {
 
-constexpr int nodes_across = 15;    // the spacing is the domain's longer side divided by this
-constexpr int full_run_every = 10;  // the others make a few steps
+constexpr int nodes_across = 15;    // the spacing is the longer side of the domain divided by this
+constexpr int full_run_every = 10;  // the other runs have a few steps only
 
 const char* const square_with_hole = R"(# a square with a hole
 8 2 0 1
@@ -46,8 +47,8 @@ const char* const square_with_hole = R"(# a square with a hole
 1 0.45 0.45
 )";
 
-// Vertices are numbered from 0. Segment 4 begins in the middle of segment 0, and segment 5 is
-// attached to it.
+// Vertices are numbered from 0. Segment 4 begins in the middle of segment 0, and segment 5
+// continues it.
 const char* const t_junction = R"(7 2 1 0
 0 -1 -1 0.5
 1 1 -1 0.5
@@ -77,7 +78,7 @@ struct Tally {
   int refused_text = 0, refused_domain = 0, refused_spacing = 0, placed = 0;
 };
 
-// Checks that the status is one of those expected and that the message is not empty.
+// Expects that the status is one of the expected errors, and that there is a message.
 void expect_refusal(pnpbs_context context, pnpbs_status status,
                     std::initializer_list<pnpbs_status> expected) {
   ck_assert_msg(std::find(expected.begin(), expected.end(), status) != expected.end(),
@@ -168,7 +169,7 @@ Tally examine_mutations(const std::string& seed_text, std::uint64_t seed) {
   return tally;
 }
 
-// The damage must reach every stage, or the test is pointless.
+// Expects that the damage reaches every stage. Otherwise the test would not cover it.
 void expect_variety(const Tally& tally) {
   ck_assert_int_gt(tally.refused_text, 50);
   ck_assert_int_gt(tally.refused_domain, 20);

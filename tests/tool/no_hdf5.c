@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A library to preload, with which HDF5 cannot be opened. */
-#define _GNU_SOURCE /* RTLD_NEXT */
+ * Prevents a program from opening HDF5, when preloaded as a library. */
+#define _GNU_SOURCE /* for RTLD_NEXT */
 #include <dlfcn.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Support code that runs the command under mpirun."""
+"""Base class of the tests that run the command under mpirun."""
 
 import os
 import pathlib
@@ -26,7 +26,8 @@ class RanksTest(CommandTest):
         )
 
     def ranks_of(self, process, count):
-        """Returns the processes of the ranks once they handle signals as the command does."""
+        """Returns the process ids of the ranks, once they have installed the signal handlers of the
+        command."""
         children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
         end = time.monotonic() + 100
         while time.monotonic() < end and process.poll() is None:
@@ -45,8 +46,8 @@ class RanksTest(CommandTest):
         return out, err.decode()
 
     def refuse_ranks(self, ranks, *arguments, code=BAD_INPUT, **more):
-        """Runs a command that must fail, write no file and print the reason once. Returns its
-        output."""
+        """Runs the command, which must fail, leave no file and give one reason. Returns the
+        message."""
         before = self.files()
         out, err = self.run_ranks(ranks, *arguments, code=code, **more)
         self.assertEqual(out, b"")
@@ -57,7 +58,8 @@ class RanksTest(CommandTest):
 
 
 def state_of(process):
-    """Returns the status that the system reports of a process, or an empty text if it has ended."""
+    """Returns the text that the system reports about a process, or "" if the process does not
+    exist."""
     try:
         return pathlib.Path(f"/proc/{process}/status").read_text()
     except (FileNotFoundError, ProcessLookupError):
@@ -65,14 +67,14 @@ def state_of(process):
 
 
 def is_running(process):
-    """Returns whether a process runs. One that has ended may still be listed until its parent waits
-    for it."""
+    """Returns whether a process runs. A process that has ended may still be listed until its parent
+    waits for it."""
     state = state_of(process)
     return bool(state) and "\nState:\tZ" not in state
 
 
 def catches_signals(process):
-    """Returns whether the process has handlers for both signals that interrupt the command."""
+    """Returns whether the process handles both signals that interrupt the command."""
     caught = state_of(process).partition("\nSigCgt:\t")[2].partition("\n")[0] or "0"
     return all(int(caught, 16) >> (number - 1) & 1 for number in (signal.SIGINT, signal.SIGTERM))
 
@@ -85,6 +87,6 @@ def end_soon(processes, patience=100):
 
 
 def errors(err):
-    """Returns the lines that say why a run failed, without warnings."""
+    """Returns the lines with the reason of a failure. Warnings may precede them."""
     return [line for line in err.splitlines()
             if line.startswith("pnpbs: ") and not line.startswith("pnpbs: warning: ")]

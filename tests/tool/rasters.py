@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes grids to GeoTIFF and NetCDF files, which GDAL reads, without GDAL."""
+"""Writers of grids in formats that GDAL reads, GeoTIFF and NetCDF. They do not use GDAL."""
 
 import struct
 
@@ -10,8 +10,9 @@ GEOGRAPHIC, PROJECTED = 2, 1
 
 
 def write_geotiff(path, values, west, north, step, epsg, no_data=None):
-    """Writes values[row][column] with the northern row first. west and north are those of the first
-    cell's corner. The code is that of a geographic system (such as 4326) or a projected one."""
+    """Writes values[row][column], beginning with the northern row. `west` and `north` are the
+    coordinates of the corner of the first cell. `epsg` is the code of a geographic system, such as
+    4326, or of a projected one."""
     rows, columns = values.shape
     data = np.asarray(values, "<f4").tobytes()
     kind = GEOGRAPHIC if 4000 <= epsg < 5000 else PROJECTED
@@ -40,7 +41,8 @@ def write_geotiff(path, values, west, north, step, epsg, no_data=None):
 
 
 def write_netcdf(path, longitudes, latitudes, **variables):
-    """Writes variables [latitude][longitude] by the conventions for climate and forecast."""
+    """Writes variables as arrays [latitude][longitude], by the conventions for climate and
+    forecast."""
     with netcdf_file(path, "w") as file:
         file.Conventions = "CF-1.6"
         for name, unit, numbers in (("lat", "degrees_north", latitudes),

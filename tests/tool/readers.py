@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Readers of the written files: third-party ones, and some written from the formats' definitions.
-"""
+"""Readers of the command's files. They are programs of others, or follow the definitions of the
+formats."""
 
 import csv
 
@@ -25,7 +25,7 @@ def point_array(grid, name):
 
 
 def grid_arrays(grid):
-    """Returns the contents of a VTK grid by name."""
+    """Returns all arrays of a VTK grid by name."""
     cells = range(grid.GetNumberOfCells())
     arrays = {"points": vtk_to_numpy(grid.GetPoints().GetData()),
               "corners": vtk_to_numpy(grid.GetCells().GetConnectivityArray()),
@@ -38,9 +38,9 @@ def grid_arrays(grid):
 
 
 def read_msh(path, points):
-    """Reads a Gmsh file by meshio. Returns the corners and physical groups of each kind of cells,
-    and the groups' names. Corners are indices of the given points, which must equal the file's in
-    some order."""
+    """Reads a Gmsh file by meshio. The points of the file must be `points` in any order. Returns
+    the corners, as indices into `points`, and the physical groups for each kind of cells, and the
+    names of the groups."""
     mesh = meshio.read(path, file_format="gmsh")
     theirs, ours = numpy.lexsort(mesh.points.T), numpy.lexsort(points.T)
     numpy.testing.assert_array_equal(mesh.points[theirs], points[ours])
@@ -55,8 +55,8 @@ def read_msh(path, points):
 
 
 def read_rows(path):
-    """Returns the first line and the numbered lines of a file of Triangle or TetGen. # begins a
-    comment."""
+    """Returns the numbers in the first line and the numbered lines of a file of Triangle or TetGen.
+    # begins a comment."""
     lines = [line.split("#")[0].split() for line in path.read_text().splitlines()]
     head, *rows = [line for line in lines if line]
     assert [int(row[0]) for row in rows] == list(range(1, int(head[0]) + 1))
@@ -64,7 +64,7 @@ def read_rows(path):
 
 
 def read_node(path, dimension=2):
-    """Reads nodes by the definition of Triangle and TetGen. Returns points and markers."""
+    """Reads a .node file by the definition of Triangle and TetGen. Returns points and markers."""
     (written, attributes, markers), rows = read_rows(path)
     assert (written, attributes, markers) == (dimension, 0, 1)
     assert all(len(row) == dimension + 1 for row in rows)
@@ -73,14 +73,15 @@ def read_node(path, dimension=2):
 
 
 def read_ele(path, corners=3):
-    """Reads elements by the same definitions. Returns the corners, numbered from 0."""
+    """Reads an .ele file by the same definition. Returns the corners, numbered from 0."""
     (written, attributes), rows = read_rows(path)
     assert (written, attributes) == (corners, 0) and all(len(row) == corners for row in rows)
     return numpy.array([[int(word) for word in row] for row in rows]) - 1
 
 
 def read_face(path):
-    """Reads faces by TetGen's definition. Returns the corners, numbered from 0, and the markers."""
+    """Reads a .face file by TetGen's definition. Returns the corners, numbered from 0, and markers.
+    """
     (markers,), rows = read_rows(path)
     assert markers == 1 and all(len(row) == 4 for row in rows)
     numbers = numpy.array([[int(word) for word in row] for row in rows])

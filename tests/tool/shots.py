@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of the command that are ended early over existing files. Afterwards all files are new, or
-none is, and no other file remains."""
+"""Base class of the tests of runs that end early, over files that existed before. Afterwards either
+all of the files are new or none of them, and no other file is left."""
 
 import os
 import time
@@ -9,11 +9,11 @@ from command import DONE, INTERRUPTED, NOT_CONVERGED
 from ranks import RanksTest
 
 
-WRITTEN = (DONE, NOT_CONVERGED)  # statuses after a few steps
+WRITTEN = (DONE, NOT_CONVERGED)  # the run stops after a few steps
 
 
 class ShotTest(RanksTest):
-    # A short run with large output.
+    # The run is short and writes much.
     SPACING = "0.007"
     NAMES = ("a.vtu", "b.msh", "c.csv", "d.pvtu", "e.png")
     RANKS = 2
@@ -32,7 +32,7 @@ class ShotTest(RanksTest):
             (self.folder / name).write_text("old")
 
     def are_new(self):
-        """Returns whether the files are new. Fails if some are new and others are not."""
+        """Returns whether the files are new. Fails if some are new and some are old."""
         new = {name: (self.folder / name).read_bytes() != b"old" for name in self.targets()}
         self.assertEqual(len(set(new.values())), 1, f"a mixture: {new}")
         return all(new.values())
@@ -41,7 +41,8 @@ class ShotTest(RanksTest):
         return [name for name in self.files() if name.startswith(".pnpbs-")]
 
     def check_files(self, code, hint):
-        """Checks the files after a run that may have been killed."""
+        """Checks the files after a run that may have been interrupted. Returns whether they are
+        new."""
         new = self.are_new()
         self.assertEqual(self.left_aside(), [], hint)
         if code in WRITTEN:
@@ -51,7 +52,7 @@ class ShotTest(RanksTest):
         return new
 
     def wait_aside(self, process, patience=300):
-        """Waits until a temporary file has some content."""
+        """Waits until a temporary file contains data."""
         end = time.monotonic() + patience
         while time.monotonic() < end and process.poll() is None:
             for name in self.left_aside():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of domains in space: what the command reads, prints and rejects."""
+"""Tests domains in space: files that the command reads, the text that it prints, and input that it
+rejects."""
 
 import itertools
 import json
@@ -15,7 +16,7 @@ from readers import point_array, read_with_vtk
 
 BOX = "box(0,0,0, 1,1,1)"
 
-# A unit cube in TetGen's format. The second number of its first line is the dimension.
+# A unit cube in TetGen's format. The second number of the first line says that it is in space.
 FACES = ["1 2 3 4", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"]
 VERTICES = "8 3 0 0\n" + "".join(f"{1 + i} {x} {y} {z}\n" for i, (x, y, z) in enumerate(
     [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]))
@@ -38,7 +39,7 @@ nodata_value -1
 
 
 def tetrahedra_of(grid):
-    """Returns the corners of the tetrahedra of a .vtu."""
+    """Returns the corners of the tetrahedra among the cells of a .vtu file."""
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     return numpy.array([corners[a:b] for a, b in zip(offsets[:-1], offsets[1:]) if b - a == 4])
@@ -69,11 +70,11 @@ class Files(CommandTest):
         self.assertTrue(report["edge"]["bands"])
         self.assertRegex(out, r"(?m)^body     80 x 60 x 70, volume 86 524, elements fill 86 \d\d\d, surface 23 \d\d\d$")
         self.assertRegex(out, r"smallest dihedral angle \d")
-        # The holes are round, and coarse triangles cut them off slightly.
+        # The holes of the body are round, so coarse triangles deviate a little.
         self.assertAlmostEqual(volume_of(points, tetrahedra_of(grid)) / 86524, 1, delta=0.01)
 
     def test_each_kind_of_file(self):
-        # The volume comes from the summary.
+        # Checks the volume in the summary.
         (self.folder / "cube.poly").write_text("# a comment first\n\n" + CUBE)
         (self.folder / "cube.smesh").write_text(VERTICES + "6 0\n" + "".join(
             f"4 {face}\n" for face in FACES) + "0\n")
@@ -127,7 +128,7 @@ class Files(CommandTest):
         self.assertEqual(err, "")
 
     def test_surfaces_only(self):
-        # A cube without its lid is an open box.
+        # Checks an open box: a cube without its lid.
         self.save_cube_without_lid("open.off")
         self.refuse("--domain", "open.off", "--spacing", "0.1", "-o", "a.vtu")
         out, _ = self.place_body("open.off", "0.1", "-o", "a.node", "-o", "a.face", "--check",
@@ -152,8 +153,7 @@ class Files(CommandTest):
         out, err = self.place_body("open.off", "0.1", "-o", "a.vtu", "--check", "--report",
                                    "a.json", "--repair", "0.05")
         volume = float(re.search(r"volume ([0-9.]+)", out)[1])
-        # Half of the directions are open at the lid.
-        self.assertAlmostEqual(volume, 1, delta=0.01)
+        self.assertAlmostEqual(volume, 1, delta=0.01)  # half of all directions at the lid are open
         self.assertIn("repaired, with a resolution of 0.05", err)
         report = json.loads((self.folder / "a.json").read_text())
         self.assertEqual(report["repair"], 0.05)
@@ -169,7 +169,7 @@ class Files(CommandTest):
         self.assertEqual(set(json.loads((self.folder / "b.json").read_text())["repaired"].values()),
                          {0})
         self.place_body("open.off", "0.1", "--repair", "--dry-run")
-        # A valid body stays as it is, with its tags. It can be resurfaced nevertheless.
+        # A sound body stays as it is, with its tags, but its surface can also be rebuilt.
         (self.folder / "cube.poly").write_text(CUBE)
         for option, resolution, tags in (("--repair", 0, set(range(7, 13))),
                                          ("--resurface", 0.1, {7})):
@@ -193,8 +193,8 @@ class Files(CommandTest):
         self.save_cube_without_lid("open.off")
         _, err = self.place_body("open.off", "0.2", "-o", "a.vtu", "--check", "--repair", "auto")
         self.assertIn("the body is repaired, as it is refused otherwise: ", err)
-        # The fin of the cube is a third of d thick. The mesh loses it, and a repair at this
-        # resolution removes it.
+        # The cube has a fin of a third of d. The fin is lost in the elements, so automatic repair
+        # removes it.
         self.save_cube_with_fin("fin.off", half_width=0.055)
         torn = ["--domain", "fin.off", "--spacing", "0.34", "--set", "conforming_rounds=1",
                 "-o", "a.vtu", "--report", "a.json"]
@@ -207,7 +207,7 @@ class Files(CommandTest):
         found = json.loads((self.folder / "a.json").read_text())
         self.assertEqual(found["repair"], "auto")
         self.assertEqual(found["repaired"]["resolution"], 0.34)
-        # A valid body stays as it is.
+        # A body whose elements conform is not repaired.
         self.save_cube_with_fin("fin.off", half_width=0.1)
         out, err = self.place_body("fin.off", "0.2", "-o", "a.vtu", "--repair", "auto")
         self.assertIn("volume 1.15,", out)
@@ -217,7 +217,7 @@ class Files(CommandTest):
             "-o", "a.vtu"))
 
     def test_picture_of_surfaces(self):
-        # The picture shows all triangles and no cut.
+        # Checks that the picture contains all triangles and no cut.
         self.save_cube_without_lid("open.off")
         self.place_body("open.off", "0.2", "-o", "a.svg", "-o", "a.face", "--surfaces-only")
         triangles = int((self.folder / "a.face").read_text().split()[0])
@@ -268,8 +268,8 @@ class Grids(CommandTest):
         grid = read_with_vtk(self.folder / "a.vtu")
         return points_of(grid), point_array(grid, "spacing")
 
-    # The rows are at y = 0 and 1, first for the lower layer and then for z = 0.5. A gap there takes
-    # the value of the cell below it.
+    # The grid has values at y = 0 and y = 1 in two layers, z = 0 and z = 0.5. A gap in the upper
+    # layer takes the value of the cell below it.
     def test_layers(self):
         header, values = LAYERS.split("dz 0.5\n")
         header += "dz 0.5\nnodata_value -1\n"
@@ -340,8 +340,7 @@ class Refusals(CommandTest):
                            ("levelet(0,0,0, 1,1,1, 0.1, x)", "did you mean levelset?")):
             with self.subTest(text):
                 self.assertIn(word, self.refuse_domain(text))
-        # The name of an existing file takes precedence.
-        (self.folder / "lake(1)").write_bytes(LAKE.read_bytes())
+        (self.folder / "lake(1)").write_bytes(LAKE.read_bytes())  # file names take precedence
         self.run_command("--domain", "lake(1)", "--spacing", "20", "-o", "a.csv")
 
     def test_what_is_for_the_other_dimension(self):

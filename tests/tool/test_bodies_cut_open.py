@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of pictures of bodies against the tetrahedra in the .vtu file."""
+"""Tests pictures of bodies against faces computed from the tetrahedra in the .vtu file."""
 
 import math
 import re
@@ -29,7 +29,7 @@ TURNED, RAISED = math.radians(26), math.radians(22)
 
 
 def view_of(normal):
-    """Returns the view's axes to the right, upwards and towards the viewer."""
+    """Returns the axes of the view: to the right, upwards and towards the viewer."""
     normal = numpy.array(normal, float) / numpy.linalg.norm(normal)
     floor = abs(normal[2]) > 0.8
     right = numpy.cross((0, 1, 0) if floor else (0, 0, 1), normal)
@@ -56,7 +56,7 @@ def palette_colours(stops, fractions):
 
 
 class Shell:
-    """The faces of the tetrahedra behind a plane that are visible."""
+    """The faces of the tetrahedra behind a plane that face the viewer."""
 
     def __init__(self, points, tetrahedra, normal, offset):
         self.points = points
@@ -80,7 +80,7 @@ class Shell:
 
 class Pictures(CommandTest):
     def shell(self, domain, spacing, plane, normal, offset, *arguments):
-        """Writes the picture, and computes what it should show."""
+        """Draws a picture with the command. Returns the shell that it should show."""
         self.place_body(domain, spacing, "-o", "a.vtu", "-o", "a.svg", "-o", "a.png", "--cut", plane,
                         *arguments)
         self.grid = read_with_vtk(self.folder / "a.vtu")
@@ -93,13 +93,13 @@ class Pictures(CommandTest):
         triangles, colours = [], []
         for path in self.root.iter(SVG + "path"):
             face, fill = FACE.match(path.get("d", "")), FILL.search(path.get("style", ""))
-            if face and fill and "stroke:rgb" in path.get("style"):  # not part of the colour bar
+            if face and fill and "stroke:rgb" in path.get("style"):  # not a part of the colour bar
                 triangles.append([float(number) for number in face.groups()])
                 colours.append([float(part) / 100 for part in fill.groups()])
         return numpy.array(triangles).reshape(-1, 3, 2), numpy.array(colours)
 
     def fitted(self, triangles, shell):
-        """Returns the picture's triangles in the coordinates of the view."""
+        """Returns the triangles of the picture in the coordinates of the view."""
         flat = shell.projected[:, :, :2].reshape(-1, 2)
         ours = triangles.reshape(-1, 2) * (1, -1)
         scale = numpy.ptp(flat, axis=0) / numpy.ptp(ours, axis=0)
@@ -110,7 +110,7 @@ class Pictures(CommandTest):
         triangles, colours = self.drawn()
         self.assertEqual(len(triangles), len(shell.faces))
         fitted = self.fitted(triangles, shell)
-        # Triangles of the picture and of the shell are matched by their centres.
+        # Each drawn triangle must equal one of the shell, which is found by its centre.
         centres, wanted = fitted.mean(axis=1), shell.projected[:, :, :2].mean(axis=1)
         gap = numpy.linalg.norm(centres[:, None] - wanted[None], axis=2)
         face = gap.argmin(axis=1)
@@ -123,14 +123,14 @@ class Pictures(CommandTest):
                                       atol=2e-3)
         fraction = numpy.clip((values[shell.owner[face[~skin]]] - low) / (high - low), 0, 1)
         expected = palette_colours(palette, fraction)
-        # A value between two classes may have the colour of either.
+        # A value on the border of two classes may have the colour of either.
         off = abs(hue(colours[~skin]) - hue(expected)).max(axis=1)
         self.assertLess(numpy.mean(off > 2e-3), 0.01)
         self.assertLess(off.max(), 0.05)
         return fitted, face
 
-    # Checks that the last triangle drawn at a point is the first one that a ray from the viewer
-    # hits.
+    # Checks that at any point the triangle drawn last is the one that a ray from the viewer hits
+    # first.
     def check_order(self, shell, fitted, face):
         rng = numpy.random.default_rng(1)
         low, high = fitted.reshape(-1, 2).min(axis=0), fitted.reshape(-1, 2).max(axis=0)
@@ -144,8 +144,7 @@ class Pictures(CommandTest):
             if not len(hit) or ((weights > -1e-3).all(axis=1)).sum() > len(hit):
                 continue
             corners = shell.projected[face[hit]]
-            # The depth comes from the triangle's own corners, as the shell may list them in another
-            # order.
+            # Each face uses its own corners, since drawn corners may be in another order.
             depth = [numpy.linalg.solve(numpy.c_[corner[:, :2], numpy.ones(3)], corner[:, 2])
                      @ [*place, 1] for corner in corners]
             self.assertEqual(hit[-1], hit[numpy.argmax(depth)])
@@ -180,7 +179,7 @@ class Pictures(CommandTest):
         shown = self.check_faces(shell, PALETTES["edge"], value, float(low), float(high))
         self.check_order(shell, *shown)
 
-    # The default cut is perpendicular to the shortest extent. Without colours the cut is plain.
+    # By default the cut is orthogonal to the shortest extent. Without a colour the cut is plain.
     def test_plain_pixels(self):
         self.place_body("box(0,0,0, 4,3,1)", "0.3", "-o", "a.vtu", "-o", "a.png", "--color", "none")
         pixels = matplotlib.image.imread(self.folder / "a.png")[:, :, :3]
@@ -197,7 +196,7 @@ class Pictures(CommandTest):
         u, v = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
         area = abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
         cut = area[shell.cut].sum() / area.sum()
-        self.assertGreater(shares[0], 0.8 * cut)  # the rest are edges
+        self.assertGreater(shares[0], 0.8 * cut)  # the rest of the pixels shows edges
         self.assertLess(shares[0], cut)
         self.assertTrue(0.5 * (1 - cut) < shares[1] < 1 - cut)
 
@@ -208,7 +207,7 @@ class Pictures(CommandTest):
                           ("--color", "none")):
             self.place_body("box(0,0,0, 1,1,1)", "0.4", "-o", "a.png", *arguments)
             written.add((self.folder / "a.png").read_bytes())
-        self.assertEqual(len(written), 7)  # the default is x=0.5, as no extent is the shortest
+        self.assertEqual(len(written), 7)  # the default is x=0.5
 
     def test_wrong_cuts(self):
         ask = ("--domain", "box(0,0,0, 2,1,1)", "--spacing", "0.4", "-o", "a.png", "--cut")

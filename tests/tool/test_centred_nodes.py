@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of --nodes-at centers: particles with volumes that represent the domain."""
+"""Tests --nodes-at centers: particles that fill the domain."""
 
 import json
 import math
@@ -12,7 +12,7 @@ from readers import read_csv, read_with_vtk
 
 
 def gap_to_square(x, y):
-    """Returns the distance of inner points to the boundary of the square with its hole."""
+    """Returns the distance from inner points to the boundary of the square with its hole."""
     outside = numpy.minimum.reduce([x, 1 - x, y, 1 - y])
     hole = numpy.hypot(numpy.maximum(abs(x - 0.5) - 0.1, 0), numpy.maximum(abs(y - 0.5) - 0.1, 0))
     return numpy.minimum(outside, hole)
@@ -33,7 +33,7 @@ class CentredNodes(CommandTest):
             self.assertAlmostEqual(sum(d ** 2), SQUARE_AREA, delta=0.02 * SQUARE_AREA)
             self.assertAlmostEqual(math.fsum(table["volume"]), SQUARE_AREA, delta=1e-12)
             gap = gap_to_square(table["x"], table["y"]) / d
-            # Chords instead of arcs at the hole's corners reduce the distance slightly.
+            # The chords of the arcs about the corners of the hole cut off a little.
             self.assertAlmostEqual(gap.min(), 0.42, delta=0.01)
             ratios = table["volume"] / d ** 2
             self.assertAlmostEqual(report["volumes"]["ratio"]["mean"], ratios.mean(), delta=1e-12)
@@ -52,7 +52,8 @@ class CentredNodes(CommandTest):
         self.assertNotRegex(out, "(?m)^(edges|quality) ")
         self.assertLess(abs(report["volumes"]["ratio"]["mean"] - 1), 0.03)
 
-    # At this d elements have small angles. They do not matter for particles.
+    # At this d the elements of the bracket have small angles. They matter only for nodes at the
+    # boundary.
     def test_in_a_bracket(self):
         for nodes_at, warned in (("centers", False), ("boundary", True)):
             _, err = self.run_command("--domain", DATA / "bracket.stl", "--spacing", "7",
@@ -74,7 +75,7 @@ class CentredNodes(CommandTest):
                                   "centers", "-o", "a.csv")
         table = read_csv(self.folder / "a.csv")
         d = 0.02 + 0.02 * table["x"]
-        # Some nodes were pushed to a point where d differs.
+        # d of the nodes, some of which were pushed to where d differs.
         numpy.testing.assert_allclose(table["spacing"], 1.076 * d, rtol=0.01)
         self.assertAlmostEqual(sum(d ** 2), SQUARE_AREA, delta=0.03 * SQUARE_AREA)
 

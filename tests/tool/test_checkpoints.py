@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of checkpoints by the command: A run that is stopped at any point and restarted gives the
+"""Tests checkpoints of the command. A run that is stopped at any time and restarted ends with the
 same nodes, and VTK can open the file."""
 
 import json
@@ -15,7 +15,7 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 from command import COMMAND, DONE, INTERRUPTED, NOT_CONVERGED, CommandTest
 
 PLANE = ("--spacing", "0.01 + 0.02*x", "--set", "effort=best")
-# The steps take long enough for a signal to arrive between them.
+# Steps take long enough for a signal to arrive between them.
 LONG = ("--spacing", "0.003 + 0.003*x", "--set", "effort=best", "--set", "tolerance_mean=0",
         "--set", "steps=400", "--nodes-only")
 
@@ -60,8 +60,8 @@ class Checkpoints(CommandTest):
         self.assertEqual(self.report(*square, *restart)["hash"], expected)
 
     def restart(self, *options):
-        """Restarts from step.vtkhdf, the checkpoint of a run that ended after 20 steps. Returns the
-        report and its warnings."""
+        """Restarts from step.vtkhdf, a checkpoint of a run that ended after 20 steps. Returns the
+        report and its warnings about options."""
         report = self.report("--domain", self.square, "--spacing", "0.01 + 0.02*x", "--restart",
                              "step.vtkhdf", *options, "--checkpoint", "again.vtkhdf")
         self.assertEqual(report["finished"], 1)
@@ -137,8 +137,7 @@ class Checkpoints(CommandTest):
     def test_what_finds_no_room_leaves_the_old_file(self):
         path = self.folder / "a.vtkhdf"
         path.write_text("old")
-        # In units of 1024 bytes: too few for the layout, or for the nodes.
-        for blocks in (3, 50, 150):
+        for blocks in (3, 50, 150):  # of 1024 bytes each: too few for the layout, or for the nodes
             with self.subTest(blocks):
                 process = subprocess.run(
                     ["bash", "-c", f'ulimit -f {blocks}; exec "$0" "$@"', COMMAND, "--domain",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of pictures with coloured triangles."""
+"""Tests pictures with coloured triangles."""
 
 import re
 import unittest
@@ -13,11 +13,11 @@ BY = ("quality", "edge", "spacing")
 CLASSES = 49
 TRIANGLE = r"M \S+ \S+ L \S+ \S+ L \S+ \S+ Z"
 
-# With d = 1 only the corners are nodes, and the triangles are halves of the square: quality 2
-# sqrt(2) - 2, mean edge (2 + sqrt(2)) / 3.
+# With d = 1 the corners of the square are the only nodes, so both triangles are halves of it. Their
+# quality is 2 sqrt(2) - 2 and their mean edge (2 + sqrt(2)) / 3.
 UNIT_SQUARE = "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"
 TWO_TRIANGLES = {
-    # the texts of the colour bar, the position of the two triangles on it, and its colours near
+    # the text of the colour bar, the position of the two triangles on it, and its colours around
     # this position
     "quality": ("quality 2 r_in / R: 0.828 to 0.828", "0.8 0.85 0.9 0.95 1",
                 (2 * 2**0.5 - 2 - 0.8) / 0.2, 0x3B0F70, 0x8C2981, 0.25),
@@ -32,11 +32,11 @@ def parts(colour):
 
 
 def fills(root):
-    """Returns the fill colours above the legend, with the number of triangles in each."""
+    """Returns the colours of the areas above the legend, with the number of triangles in each."""
     found = []
     for path in root.iter():
         if path.tag == SVG + "use":
-            break  # begin of the legend
+            break  # the legend begins here
         fill = re.search(r"fill:rgb\((.+?)%,(.+?)%,(.+?)%\)", path.get("style", ""))
         if fill:
             colour = [float(part) / 100 for part in fill.groups()]
@@ -45,15 +45,13 @@ def fills(root):
 
 
 def pattern(things):
-    """Returns numbers for things in order of appearance. Rows that differ only in names give equal
-    results."""
+    """Returns the same list for two sequences that differ only by the names of their items."""
     names = {}
     return [names.setdefault(thing, len(names)) for thing in things]
 
 
 def shows(root, words):
-    """Returns whether a sequence of glyphs in the picture has the same repetitions as the letters
-    of the words."""
+    """Returns whether glyphs repeat somewhere in the picture like the letters of `words`."""
     glyphs = [use.get(HREF) for use in root.iter(SVG + "use")]
     wanted = pattern(words)
     return any(pattern(glyphs[at : at + len(words)]) == wanted for at in range(len(glyphs)))

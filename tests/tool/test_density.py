@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of --density: masses of nodes and particles in files, in the report and in the summary."""
+"""Tests --density: masses of nodes and particles, in files, in the report and in the summary."""
 
 import json
 import math
@@ -28,7 +28,7 @@ class Masses(CommandTest):
         numpy.testing.assert_array_equal(table["mass"], table["density"] * table["volume"])
         self.assertEqual(report["density"], "1000 + 500*x")
         self.assertEqual(report["mass"], math.fsum(table["mass"]))
-        # By symmetry this is the density in the middle.
+        # By symmetry the mean density is that at the centre.
         self.assertAlmostEqual(report["mass"], 1250 * SQUARE_AREA, delta=0.5)
         self.assertRegex(out, r"(?m)^mass     1200 in all$")
         grid = read_with_vtk(self.folder / "a.vtu")
@@ -76,7 +76,7 @@ class Masses(CommandTest):
         for density, found in (("x - 0.5", r"(-[\d.e-]+|0)"), ("sqrt(y - 0.1)", "-?nan")):
             message = self.refused(density)
             self.assertRegex(message, rf"found {found} at \([\d.e-]+, [\d.e-]+\)$")
-        # The formula is invalid only at the final nodes, not at the initial ones.
+        # This formula is invalid only at the final nodes, not at the initial ones.
         self.assertIn(" at (", self.refused("x < 1e-6 ? 1 : (rint(1e4*x) == 1e4*x ? 1 : 0)"))
 
     def test_what_is_no_formula(self):

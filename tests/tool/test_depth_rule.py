@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of --depth-rule, which computes d from the depth, against numpy."""
+"""Tests --depth-rule, which derives d from the depth, against numpy on the same values."""
 
 import re
 import unittest
@@ -25,7 +25,7 @@ def by_slopes(depth, slope, nodes, least=10):
 
 @exists_if(BUILT)
 class InThePlane(BayTest):
-    """A bay with depths from 10 to 24 m, which increase by 5 m per degree to the east and 4 m to
+    """The depth ranges from 10 to 24 m. It increases by 5 m per degree to the east and by 4 m to
     the north."""
 
     def setUp(self):
@@ -38,7 +38,8 @@ class InThePlane(BayTest):
         return 10 + 5 * (longitude - 18) + 4 * (latitude - 54)
 
     def slopes_at(self, table):
-        """Returns the slope per kilometre. A degree of a meridian at 54.5 degrees has 111.3 km."""
+        """Returns the slope per kilometre. A degree of a meridian at 54.5 degrees is 111.3 km long.
+        """
         latitude = np.radians(self.degrees(table)[1])
         return np.hypot(5 / (111.6 * np.cos(latitude)), 4 / 111.3)
 
@@ -59,7 +60,7 @@ class InThePlane(BayTest):
         steep = np.mean(expected < by_waves(depth, least=5))
         self.assertTrue(0.1 < steep < 0.9, steep)
         np.testing.assert_allclose(table["spacing"], expected, rtol=0.02)
-        # Where the depth is below the least depth, the bottom counts as flat.
+        # Where the depth is less than the minimum, the bottom counts as flat.
         table, *_ = self.table(*self.ask, "--depth-rule", "d.tif,slope=70,least=16", "--set",
                                "growth_limit=0")
         depth, slope = self.depths_at(table), self.slopes_at(table)
@@ -129,7 +130,8 @@ class InThePlane(BayTest):
 
 @exists_if(BUILT)
 class OnASphere(GridsTest):
-    """Elevations of the whole Earth, from 0 to 360 degrees, with some land without data."""
+    """The grid has elevations of the whole Earth, from 0 to 360 degrees, and some land without
+    data."""
 
     radius = 6371.22
 
@@ -142,8 +144,8 @@ class OnASphere(GridsTest):
         self.ask = ("--sphere", f"{self.radius},20,-30", "--set", "growth_limit=0", "--depth-rule")
 
     def cells_of(self, table):
-        """Returns the column and row of the cells whose centres surround each node, and the
-        relative position between them."""
+        """Returns the column and row of the cell centres around each node, and the weights between
+        them."""
         lat = np.degrees(np.arcsin(table["z"] / self.radius))
         lon = np.degrees(np.arctan2(table["y"], table["x"])) % 360
         column, row = np.clip(lon - 0.5, 0, 359), np.clip(lat + 89.5, 0, 179)
@@ -157,8 +159,8 @@ class OnASphere(GridsTest):
         degree = np.pi / 180 * self.radius
         east = ((1 - t) * (b - a) + t * (d - c)) / (degree * np.cos(np.radians(lat)))
         north = ((1 - s) * (c - a) + s * (d - b)) / degree
-        # The slope jumps at the edges of cells. Beyond the centres of the outermost cells it is
-        # zero.
+        # The slope jumps at the edges of cells, and is 0 beyond the outermost cell centres. These
+        # nodes are left out.
         clear = ((abs(s - 0.5) < 0.499) & (abs(t - 0.5) < 0.499) & (abs(lat) < 89) & (lon > 0.5) &
                  (lon < 359.5))
         return -height, np.hypot(east, north), clear
@@ -177,7 +179,7 @@ class OnASphere(GridsTest):
                                    np.clip(np.minimum(wave, steep), 90, 300)[clear], rtol=1e-5)
 
     def test_land_without_data(self):
-        """Gaps have the depth of the nearest cell, which here is the same along a parallel."""
+        """A gap has the depth of the nearest cell, which here is the same along a parallel."""
         heights = np.repeat(-500 - 20 * abs(self.latitudes)[:, None], 360, 1).astype("f4")
         holes = heights.copy()
         holes[40:140, 100:140] = np.nan
@@ -185,7 +187,7 @@ class OnASphere(GridsTest):
         table, *_ = self.table(*self.ask, "h.nc,up,metres=1000,wave=20")
         depth, _, clear = self.depth_and_slope(table, heights.astype(float))
         lon, lat, *_ = self.cells_of(table)
-        clear &= (abs(lon - 120) > 22) | (abs(lat) < 25)  # where other rows are not nearer
+        clear &= (abs(lon - 120) > 22) | (abs(lat) < 25)  # others are nearer to other rows
         self.assertGreater(np.sum(clear & (abs(lon - 120) < 19)), 100)
         np.testing.assert_allclose(table["spacing"][clear], by_waves(depth, 20)[clear], rtol=1e-5)
 

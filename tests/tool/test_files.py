@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of the files that the command writes, with third-party readers."""
+"""Tests the files that the command writes, by readers of others."""
 
 import json
 import os
@@ -21,8 +21,8 @@ from readers import point_array, read_csv, read_ele, read_msh, read_node, read_w
 
 
 def read_png(data):
-    """Returns width, height and rows of a PNG without palette. Only the size of unfiltered rows is
-    checked."""
+    """Returns width, height and pixel rows of a PNG without a palette. Only the size of the
+    unfiltered rows is checked."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, pixels, header = 8, b"", None
     while at < len(data):
@@ -56,7 +56,7 @@ class Agreement(CommandTest):
         self.grid = read_with_vtk(self.folder / "a.vtu")
 
     def test_all(self):
-        # All checks are in one test, as they share one run.
+        # Checks everything in one test, because one run is enough.
         self.check_vtu()
         self.check_meshio()
         self.check_pieces()
@@ -103,7 +103,8 @@ class Agreement(CommandTest):
         self.assertEqual(len(mesh.cells[0].data), self.grid.GetNumberOfCells())
         numpy.testing.assert_array_equal(mesh.point_data["id"], point_array(self.grid, "id"))
 
-    # Checks the boundary edges in the facets file against those of the .msh file, by node numbers.
+    # Checks that the edges of the boundary equal those of the .msh file, by indices of the same
+    # nodes.
     def check_facets(self):
         points = vtk_to_numpy(self.grid.GetPoints().GetData())
         lines, tags = read_msh(self.folder / "a.msh", points)[0]["line"]
@@ -137,7 +138,8 @@ class Agreement(CommandTest):
         triangles, inside = cells["triangle"]
         numpy.testing.assert_array_equal(triangles, self.corners())
         self.assertEqual(set(inside), {1})
-        # The outer square has tag 1, the inner one 2. Edges connect neighbouring nodes on them.
+        # The outer square has tag 1 and the inner one tag 2. Edges connect neighbouring nodes on
+        # them.
         lines, tags = cells["line"]
         self.assertEqual(len(tags), self.report["boundary_nodes"])
         self.assertEqual(set(tags), {1, 2})
@@ -177,7 +179,7 @@ class Agreement(CommandTest):
     def check_png(self):
         width, height, raw = read_png((self.folder / "a.png").read_bytes())
         self.assertTrue(300 < width < 4000 and 300 < height < 4000)
-        self.assertGreater(len(set(raw)), 100)  # the picture is not empty
+        self.assertGreater(len(set(raw)), 100)  # not a blank page
 
 
 class Report(CommandTest):
@@ -233,8 +235,8 @@ class Report(CommandTest):
                         < report["quality"]["mean"] < 1)
 
     def test_missed_spacing(self):
-        """The cubic force law of the paper compresses the coarse part beside a fine line. Files are
-        written nevertheless."""
+        """Checks a missed spacing. The paper's law compresses coarse regions beside a fine line.
+        Files are written nevertheless."""
         self.square.write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n"
                                "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
         out, err = self.place("--report", "r.json", "-o", "a.csv", "--set", "method=paper",
@@ -246,13 +248,13 @@ class Report(CommandTest):
         self.assertTrue((self.folder / "a.csv").exists())
 
     def test_memory_is_that_of_the_end(self):
-        """The memory is that of the command alone and does not include what its parent holds."""
-        held = bytearray(800 << 20)  # more than sanitizers keep
+        """Checks that the memory is that of the command alone, without that of its parent process.
+        """
+        held = bytearray(800 << 20)  # more than sanitizers use
         out, _ = self.place("--report", "r.json", "-o", "a.msh", "-o", "a.vtu", spacing="0.01")
         del held
         memory = json.loads((self.folder / "r.json").read_text())["memory"]
-        # It is read after peak_bytes, which may have grown since.
-        largest = memory["max_peak_bytes"]
+        largest = memory["max_peak_bytes"]  # measured after peak_bytes, so it may be larger
         self.assertTrue(1 << 20 < memory["peak_bytes"] <= largest < 500 << 20, memory)
         self.assertIn(f"memory   {largest / (1 << 20):.3g} MiB at most", out.decode())
 
@@ -297,8 +299,7 @@ class StandardStreams(CommandTest):
             with self.subTest(name):
                 self.place("--output", "a." + name)
                 out, err = self.place("--output", "-", "--format", name)
-                # This is compared for the other formats, as it tells nothing about pictures.
-                if name != "vtu":
+                if name != "vtu":  # pictures are compared by their bytes only
                     self.assertEqual(len(out) > 100, True)
                 self.assertEqual(out, (self.folder / ("a." + name)).read_bytes())
                 self.assertEqual(err, b"")
@@ -342,7 +343,7 @@ class NodesOnly(CommandTest):
         corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
         numpy.testing.assert_array_equal(corners, numpy.arange(nodes))
         points, tags = vtk_to_numpy(grid.GetPoints().GetData()), point_array(grid, "tag")
-        # Groups have numbers from 1 on in version 4.1. Inner nodes have the first free number.
+        # Version 4.1 numbers groups from 1, so the inner nodes have the first free number.
         for name, inner in (("a.msh", 3), ("a.msh2", 0)):
             cells, groups = read_msh(self.folder / name, points)
             self.assertEqual(list(cells), ["vertex"])

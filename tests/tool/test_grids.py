@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of --spacing-grid with grids beside and across the domain, and in formulas."""
+"""Tests --spacing-grid with grids that cover the domain or a part of it, and in formulas."""
 
 import json
 import re
@@ -11,7 +11,7 @@ from command import BAD_INPUT, DONE, NOT_CONVERGED, CommandTest
 
 QUICK = ("--set", "steps=3")
 
-# d grows from 0.05 in the west to 0.1 in the east of the unit square, and beyond it.
+# A grid with d from 0.05 in the west to 0.1 in the east of the unit square, and beyond it.
 GRID = """\
 ncols 4
 nrows 4
@@ -31,7 +31,7 @@ def grid(x=-0.1, y=-0.1, step=0.3):
 
 class GridsTest(CommandTest):
     def table(self, *arguments, codes=(DONE, NOT_CONVERGED, 4)):
-        """Returns the nodes of a run, its report, and its messages."""
+        """Returns the nodes of a run, its report and its messages."""
         process = self.start(*arguments, *QUICK, "-o", "nodes.csv", "--report", "report.json")
         _, err = process.communicate()
         self.assertIn(process.returncode, codes, err.decode())
@@ -50,14 +50,15 @@ class Coverage(GridsTest):
     def test_all_of_the_domain(self):
         _, report, err = self.on_square("--spacing-grid", self.write(grid()))
         self.assertNotIn("covers only", err)
-        # The cells end where the domain does, so that their centres do not reach its border.
+        # The cells of this grid end at the boundary of the domain, which their centres therefore do
+        # not reach.
         _, _, err = self.on_square("--spacing-grid", self.write(grid(0, 0, 0.25)))
         self.assertNotIn("covers only", err)
         self.assertFalse([w for w in report["warnings"] if "grid" in w])
 
     def test_spots_between_samples(self):
-        """Low values at single points of a fine grid have small d around them, although they are
-        few."""
+        """Checks that low values at single points of a fine grid have nodes around them, however
+        few these points are."""
         size = 161
         values = np.full((size, size), 0.05)
         spots = [(37, 22), (90, 131), (121, 68)]
@@ -81,8 +82,7 @@ class Coverage(GridsTest):
         self.assertEqual(len([w for w in report["warnings"] if "covers only" in w]), 1)
 
     def test_gaps_of_a_grid_alone(self):
-        """The grid has gaps, which the command reports. The library uses the grid as it is and
-        reports none."""
+        """The library takes the grid with filled gaps, so it has no information about gaps."""
         gap = grid().replace("cellsize", "nodata_value -1\ncellsize").replace("0.06 0.08", "0.06 -1", 2)
         name = self.write(gap)
         for more in ((), ("--field", "g=2*grid")):
@@ -92,8 +92,8 @@ class Coverage(GridsTest):
         for more in ((), ("--field", "g=2*grid")):
             table, report, err = self.on_square("--spacing-grid", name, *more)
             found = re.search(r"has gaps in the domain: of [0-9]+ nodes, ([0-9]+) lie", err)
-            # The centres of cells are at -0.1 + 0.15 + 0.3 k. The last two of the upper rows have
-            # no data.
+            # Centres of cells are at -0.1 + 0.15 + 0.3 k. In the upper rows the last two have no
+            # data.
             without = (table["x"] > 0.65) & (table["y"] > 0.65)
             self.assertEqual(int(found[1]), np.sum(without))
             self.assertIn(found[0], report["warnings"][-1])
@@ -125,8 +125,8 @@ class Formulas(GridsTest):
                                              "cellsize 1\n2\n")
 
     def test_one_grid(self):
-        # d from a formula may differ in its last bit, which decides between symmetric repairs of
-        # triangles.
+        # d by a formula may differ in the last bit, which can decide the repair of symmetric
+        # triangles. So repairs are off.
         plain = "--set", "smoothing_rounds=0"
         alone, *_ = self.on_square("--spacing-grid", "g.asc", *plain)
         for arguments in (("--spacing-grid", "g.asc", "--spacing", "grid"),
@@ -142,13 +142,13 @@ class Formulas(GridsTest):
         x, y = table["x"], table["y"]
         at = np.clip((x + 0.1) / 0.3 - 0.5, 0, 3)
         h = np.interp(at, range(4), [0.05, 0.06, 0.08, 0.1])
-        # The distance is to the hole of the square, 0.4 .. 0.6, whose tag is 2.
+        # The distance to the hole, which is 0.4 .. 0.6 in the square and has tag 2.
         dist = np.hypot(np.maximum(abs(x - 0.5) - 0.1, 0), np.maximum(abs(y - 0.5) - 0.1, 0))
         np.testing.assert_allclose(table["spacing"], np.minimum(h, 0.06 + 0.1 * dist), rtol=0.03)
 
     def test_slopes(self):
-        """The slopes are those of 3 x - 4 y and of squares, interpolated linearly between the
-        centres of cells."""
+        """Checks slopes of 3 x - 4 y and of squares, which are interpolated linearly between cell
+        centres."""
         x, y = np.meshgrid(np.arange(-0.05, 1.06, 0.1), np.arange(1.05, -0.06, -0.1))
         self.write_values("plane.asc", 3 * x - 4 * y)
         self.write_values("squares.asc", x**2)
@@ -156,7 +156,7 @@ class Formulas(GridsTest):
         np.testing.assert_allclose(table["spacing"], 0.05, rtol=1e-6)
         table, *_ = self.on_square("--spacing-grid", "h=squares.asc", "--spacing-grid", "k=plane.asc", "--spacing",
                                    "0.05 + 0.02*h_slope + 0*k + 0*k_slope", "--set", "growth_limit=0")
-        middle = 0.1 * np.floor((table["x"] + 0.05) / 0.1)  # between the centres of two cells
+        middle = 0.1 * np.floor((table["x"] + 0.05) / 0.1)  # middle between two cell centres
         inside = abs(table["x"] - middle) < 0.04
         np.testing.assert_allclose(table["spacing"][inside], 0.05 + 0.04 * middle[inside], rtol=1e-6)
         message = self.refuse("--domain", self.square, "-o", "a.csv", "--spacing-grid", "h=plane.asc", "--spacing",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of named groups: Gmsh files as domains, inner surfaces from files, names from input to
+"""Tests named groups: Gmsh files as domains, inner surfaces in files, and names from input to
 output."""
 
 import itertools
@@ -11,15 +11,15 @@ import numpy
 
 from command import SQUARE_AREA, CommandTest
 
-# The corners of a unit cube and of its sides, seen from outside.
+# The corners of a unit cube, and the corners of its sides as seen from outside.
 CORNERS = numpy.array([(i & 1, i >> 1 & 1, i >> 2) for i in range(8)], float)
 SIDES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
 SHEET = numpy.array([(0.3, 0.3, 0.5), (0.7, 0.3, 0.5), (0.7, 0.7, 0.5), (0.3, 0.7, 0.5)])
 
 
 def octasphere(radius, times):
-    """Returns the triangles of an octahedron, refined by four `times` times, on a sphere about
-    (0.5, 0.5, 0.5)."""
+    """Returns the triangles of an octahedron on a sphere about (0.5, 0.5, 0.5), after cutting each
+    into four `times` times."""
     triangles = [numpy.array([(x, 0, 0), (0, y, 0), (0, 0, z)], float)[:: x * y * z]
                  for x in (1, -1) for y in (1, -1) for z in (1, -1)]
     for _ in range(times):
@@ -30,7 +30,7 @@ def octasphere(radius, times):
 
 
 def edges_of(triangles):
-    """Returns how many triangles share each edge."""
+    """Returns the edges of the triangles, and the number of triangles at each edge."""
     edges = numpy.sort(numpy.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
     return numpy.unique(edges, axis=0, return_counts=True)
 
@@ -40,7 +40,7 @@ def two_triangles(a, b, c, d):
 
 
 def stl(**solids):
-    """Returns an STL text of solids that consist of squares and triangles."""
+    """Returns an STL text with named solids, each of squares and triangles."""
     lines = []
     for name, squares in solids.items():
         lines.append(f"solid {name}")
@@ -54,7 +54,8 @@ def stl(**solids):
 
 
 def areas(mesh, kind):
-    """Returns areas of triangles or lengths of lines by the names of their groups."""
+    """Returns the sum of the areas of triangles, or of the lengths of lines, by the names of their
+    groups."""
     name_of = {group[0]: name for name, group in mesh.field_data.items()
                if group[1] == {"line": 1, "triangle": 2}[kind]}
     sums = {}
@@ -93,7 +94,8 @@ class GroupTest(CommandTest):
 
 class Gmsh(GroupTest):
     def test_there_and_back_in_the_plane(self):
-        """Written files of both versions can be used as domains with the same groups."""
+        """Checks that a written file can be read as a domain with the same groups, in both versions
+        of the format."""
         self.place("-o", "a.msh", "-o", "a.msh2", "--name", "1=outer wall", "--name", "2=hole",
                    spacing="0.1")
         (self.folder / "b.msh").write_bytes((self.folder / "a.msh2").read_bytes())
@@ -119,11 +121,12 @@ class Gmsh(GroupTest):
         self.assertIn(((3, 1), "domain"), self.groups().items())
 
     def test_meshio_writes_them(self):
-        """Reads a body of tetrahedra written by meshio, as text and binary."""
+        """Checks a body of tetrahedra that meshio writes, as text and as binary file."""
         tetrahedra = [(0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7),
                       (0, 5, 1, 7)]
         triangles = sum((two_triangles(*side) for side in SIDES), [])
-        # The tetrahedra define the sides for which meshio uses the other diagonal.
+        # meshio's triangles do not match the sides of the tetrahedra where a side is split along
+        # the other diagonal. Such triangles are ignored.
         mesh = meshio.Mesh(CORNERS, [("triangle", triangles), ("tetra", tetrahedra)],
                            cell_data={"gmsh:physical": [numpy.repeat(range(1, 7), 2),
                                                         numpy.full(6, 9)],
@@ -143,7 +146,7 @@ class Gmsh(GroupTest):
                            cell_data={"gmsh:physical": [numpy.array([5, 5])],
                                       "gmsh:geometrical": [numpy.array([1, 1])]})
         meshio.write(self.folder / "m.msh", mesh, file_format="gmsh22", binary=False)
-        self.fill("m.msh", "-o", "a.msh")  # a file in a plane is a plane domain
+        self.fill("m.msh", "-o", "a.msh")  # a surface in a plane is a plane domain
         self.assertEqual(areas(self.mesh("a.msh"), "triangle"), {"domain": 1.0})
         self.fill("m.msh", "-o", "a.msh", "--surfaces-only")
         self.assertEqual(areas(self.mesh("a.msh"), "triangle"), {"tag_5": 1.0})
@@ -177,7 +180,7 @@ class InnerSurfaces(GroupTest):
             self.assertTrue((abs(on_sheet[:, :2] - 0.5) <= 0.2).all())
 
     def check_faces(self, mesh, triangles):
-        """Checks that the triangles are distinct and that each is a face of two tetrahedra."""
+        """Checks that each face belongs to two tetrahedra and occurs once."""
         faces = {tuple(face) for face in numpy.sort(triangles, axis=1).tolist()}
         self.assertEqual(len(faces), len(triangles))
         counts = dict.fromkeys(faces, 0)
@@ -194,7 +197,7 @@ class InnerSurfaces(GroupTest):
         return mesh, numpy.concatenate(found)
 
     def test_a_sheet_becomes_triangles(self):
-        """The sheet is used as it is, and rotated so that nodes lie on it only within rounding."""
+        """The sheet is used as it is, and rotated such that no node lies exactly on it."""
         axis = numpy.array([1, 2, 3]) / numpy.sqrt(14)
         turned = [0.5 + r * numpy.cos(0.7) + numpy.cross(axis, r) * numpy.sin(0.7)
                   + axis * axis.dot(r) * (1 - numpy.cos(0.7)) for r in SHEET - 0.5]
@@ -230,8 +233,7 @@ class InnerSurfaces(GroupTest):
         self.check_faces(mesh, triangles)
         self.assertEqual(set(edges_of(triangles)[1]), {2})
         corners = len(numpy.unique(triangles))
-        # Euler's formula V - E + F with E = 3 F / 2.
-        self.assertEqual(corners - len(triangles) / 2, 2)
+        self.assertEqual(corners - len(triangles) / 2, 2)  # V - E + F with E = 3 F / 2
         sphere = 4 * numpy.pi * 0.09
         self.assertTrue(0.93 * sphere < areas(mesh, "triangle")["ball"] < sphere)
         a, b, c = mesh.points[triangles.T] - 0.5
@@ -255,7 +257,7 @@ class InnerSurfaces(GroupTest):
                     for k, square in enumerate(squares)) + "0\n0\n")
         self.fill("m.poly", "--inner", "2")
         self.assertEqual(self.report()["nodes"], nodes)
-        # A Gmsh mesh of this surface is matched by its position.
+        # In a Gmsh mesh, the surface is found by its position.
         triangles = sum((two_triangles(*square) for square in squares), [])
         groups = numpy.repeat((1, 2), (12, 2))
         mesh = meshio.Mesh(numpy.array(vertices), [("triangle", triangles)],

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of the HDF5 files .vtkhdf and .xdmf with VTK, h5py and meshio, against the .vtu file."""
+"""Tests files that are written by HDF5, .vtkhdf and .xdmf, by VTK, h5py and meshio against the .vtu
+file."""
 
 import os
 import subprocess
@@ -27,7 +28,8 @@ class Hdf5Files(CommandTest):
     def contents(self):
         return {name: (self.folder / name).read_bytes() for name in self.names}
 
-    # Checks all files. `kinds` are the cell kinds of a file and of the facets file beside it.
+    # `kinds` are the kind of cells of the file, and that of the facets if there is a file of
+    # facets.
     def check(self, ask, *kinds):
         self.run_on_ranks(*ask, *OUTPUTS)
         self.names = FILES + (FACETS if len(kinds) > 1 else ())
@@ -46,7 +48,8 @@ class Hdf5Files(CommandTest):
         self.check_dolfinx(name, kind)
         self.check_h5py(name)
 
-    # VTK's reader of XDMF returns other number types and reads nodes and edges as chains.
+    # VTK's reader of XDMF uses other types of numbers, and represents vertices and edges as
+    # polyvertices and polylines.
     def check_vtk(self, name, reader):
         found = grid_arrays(read_with_vtk(self.folder / name, reader))
         self.assertEqual(set(found), set(self.expected))
@@ -59,7 +62,7 @@ class Hdf5Files(CommandTest):
                 if name.endswith(".vtkhdf"):
                     self.assertEqual(found[key].dtype, array.dtype)
 
-    # meshio ignores the time of a grid.
+    # meshio does not read the time of a grid.
     def check_meshio(self, name, kind):
         text = (self.folder / f"{name}.xdmf").read_text()
         self.assertEqual(text.count('<Time Value="0"/>'), 1)
@@ -124,7 +127,7 @@ class Hdf5Files(CommandTest):
                 self.assertEqual(theirs.dtype, ours.dtype)
                 numpy.testing.assert_array_equal(theirs, ours)
 
-    # Checks that any number of ranks writes the same bytes.
+    # Checks that the files have the same bytes on any number of ranks.
     def check_ranks(self, ask):
         expected = self.contents()
         for ranks in (1, 2, 3) if MPIEXEC else (1,):
@@ -146,7 +149,7 @@ class Hdf5Files(CommandTest):
     def test_nodes_of_a_body_only(self):
         self.check((*BOX, "--nodes-only"), "vertex")
 
-    # There are more rows than a rank writes at a time and than a window holds.
+    # Checks more rows than a rank writes at a time, and than a window contains.
     def test_many_nodes(self):
         ask = ("--domain", self.square, "--spacing", "0.006", "--steps", "3", "--set", "sweeps=0")
         process = subprocess.run([COMMAND, *map(str, ask), *OUTPUTS, "-q"], cwd=self.folder,
@@ -183,7 +186,7 @@ class Refused(CommandTest):
         (self.folder / "a.h5").mkdir()
         self.assertIn("a.h5", self.ask("-o", "a.xdmf", "-o", "a.csv", code=FAILED))
 
-    # The limit is in blocks of 1024 bytes. It leaves no room for the layout or for all rows.
+    # The limits are in blocks of 1024 bytes: too few for the layout, or for all rows.
     def test_no_room(self):
         for name in FILES:
             (self.folder / name).write_text("old")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of usage and of invalid input: a helpful message, exit code 2, and no file."""
+"""Tests the usage and invalid input: a helpful message, exit code 2 and no file."""
 
 import json
 import os
@@ -100,7 +100,7 @@ class Outputs(CommandTest):
         for path in ("missing/a.csv", "folder.csv", "/proc/a.csv", "square.poly/a.csv",
                      "x" * 300 + ".csv", ""):
             with self.subTest(path):
-                # A run with this spacing would take long.
+                # This spacing would take very long, so the error must come before the run.
                 self.refuse("--domain", LAKE, "--spacing", "0.02", "--output", path)
         self.assertIn("missing/r.json", self.refuse("--domain", LAKE, "--spacing", "0.02",
                                                     "--report", "missing/r.json"))
@@ -131,7 +131,8 @@ class Bodies(CommandTest):
         message = self.refuse_body(self.octahedron(7e6))
         for word in ("the edge from (0, 0, 7e+06) to", "which is 7000000.0", "max_nodes allows"):
             self.assertIn(word, message)
-        # The number of nodes is within max_nodes, but their memory is requested before the run.
+        # The number of nodes is within the limit, but their memory is checked before the run as
+        # well.
         message = self.refuse_body(self.octahedron(7e8), "--set", "max_nodes=2000000000",
                                    spacing="4", code=FAILED)
         self.assertIn("max_memory", message)
@@ -216,7 +217,7 @@ class Expressions(CommandTest):
         self.assertEqual(len(results), 1)
 
     def test_functions(self):
-        # Each term is 1 if its function works.
+        # Checks functions in formulas. Each term is 1 if its function is correct.
         terms = ("hypot(3,4)/5", "hypot(2, 3, 6)/7", "hypot(3*(1+x), min(4,5)*(1+x))/(5+5*x)",
                  "pow(2,3)/8", "min(1,2,3)", "max(-1,0,1)", "abs(-1)", "sqrt(1)",
                  "exp(0)", "log(e)", "floor(1.9)", "ceil(0.1)", "mod(7,3)", "ln(e)", "log10(10)", "log2(2)",
@@ -252,7 +253,7 @@ class Grids(CommandTest):
         self.assertEqual((self.folder / "a.node").read_bytes(),
                          (self.folder / "b.node").read_bytes())
 
-    # Cells are twice as wide as high. They have the same values at other points.
+    # Checks cells that are twice as wide as high: they have the same values at other positions.
     def test_cells_that_are_no_squares(self):
         self.place_on(GRID.replace("cellsize 0.5", "dx 0.5\nDY 0.25"), "-o", "a.csv")
         rows = [line.split(",") for line in (self.folder / "a.csv").read_text().splitlines()[1:]]
@@ -263,13 +264,14 @@ class Grids(CommandTest):
         rows = [line.split(",") for line in (self.folder / "b.csv").read_text().splitlines()[1:]]
         for _, x, _, _, spacing in rows:
             self.assertAlmostEqual(float(spacing), 0.05 + 0.2 * min(float(x), 0.25), delta=0.002)
-        # The first corner of the cells is half a cell before the first centre.
+        # The corner of the grid is half a cell before the first centre.
         corner = GRID.replace("xllcenter 0", "xllcorner -0.25").replace("yllcenter 0",
                                                                         "yllcorner -0.125")
         self.place_on(corner.replace("cellsize 0.5", "dx 0.5\ndy 0.25"), "-o", "c.csv")
         self.assertEqual((self.folder / "a.csv").read_bytes(), (self.folder / "c.csv").read_bytes())
 
-    # Each row has one value, so that it does not matter which cell of a row a gap takes it from.
+    # All values of a row are equal, so it does not matter from which cell of its row a gap takes
+    # its value.
     def test_gaps_take_the_nearest_value(self):
         self.place_on(GRID, "-o", "a.node")
         gaps = GRID.replace("0.1 0.1 0.1", "0.1 0.1 -9999").replace("0.05 0.05 0.05",
@@ -303,7 +305,8 @@ class Grids(CommandTest):
 
 
 class Domains(CommandTest):
-    """Tests how the command handles invalid data. The library's own tests cover all kinds of it."""
+    """Tests damaged files through the command. The tests of the library cover all kinds of errors.
+    """
 
     def refuse_domain(self, data):
         (self.folder / "bad.poly").write_bytes(data)

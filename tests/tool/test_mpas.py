@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of MPAS grids of spheres: Their contents are consistent, and the weights of velocities
-along edges are those of TRiSK, which is checked by properties that no other weights have (Thuburn,
+"""Tests MPAS grids of spheres. Their arrays are consistent, and the weights of velocities along
+edges are those of TRiSK, which is checked by properties that no other weights have (Thuburn,
 Ringler, Skamarock and Klemp 2009). PNPBS_GEO says whether the command was built with GDAL."""
 
 import json
@@ -14,7 +14,7 @@ import scipy.sparse
 from builds import exists_if
 from command import CommandTest
 
-RADIUS = 6371220.0  # metres
+RADIUS = 6371220.0  # in metres
 
 
 def unit(x):
@@ -26,7 +26,7 @@ def arc(a, b):
 
 
 def triangle_area(a, b, c):
-    """Returns the area of a spherical triangle by l'Huilier's formula."""
+    """Returns the area by l'Huilier's theorem."""
     x, y, z = arc(b, c), arc(c, a), arc(a, b)
     s = (x + y + z) / 2
     return 4 * np.arctan(np.sqrt(np.maximum(0, np.tan(s / 2) * np.tan((s - x) / 2) * np.tan((s - y) / 2)
@@ -47,12 +47,12 @@ class Grid:
         return self.values[name]
 
     def places(self, name, others=True):
-        """Returns indices from 0 on, with -1 for none."""
+        """Returns indices from 0, or -1 for none."""
         return self[name].astype(np.int64) - 1
 
     def rows_of(self, name, counts):
-        """Returns indices of rows and of their entries, for the first `counts` entries of each row.
-        """
+        """Returns the row index and the value of each used entry, that is, of the first `counts`
+        entries of each row."""
         columns = self.places(name)
         used = np.arange(columns.shape[1]) < self[counts][:, None]
         assert np.all(columns[~used] == -1), name
@@ -94,8 +94,8 @@ class MpasGrids(CommandTest):
         for name, other in (("edgesOnCell", on_edge), ("verticesOnCell", grid.places("cellsOnVertex"))):
             cell, what, _ = grid.rows_of(name, "nEdgesOnCell")
             self.assertTrue(np.all(np.any(other[what] == cell[:, None], axis=1)), name)
-        # Each vertex of a cell lies between its edge and the next edge. The same holds for the
-        # cells at a vertex.
+        # Each vertex of a cell lies between an edge and the next one, and so does each cell at a
+        # vertex.
         count, edges = grid["nEdgesOnCell"], grid.places("edgesOnCell")
         for k in range(edges.shape[1]):
             here = np.flatnonzero(count > k)
@@ -138,9 +138,9 @@ class MpasGrids(CommandTest):
         self.assertLess(np.abs(np.angle(np.exp(1j * turn[between]))).max(), 1e-12)
 
     def check_weights(self, grid):
-        """Checks energy conservation: The matrix is antisymmetric in the right measure. Checks
-        steady geostrophic modes: The divergence of the velocities along the edges is that of those
-        across them, by kites."""
+        """Energy is conserved: the matrix is antisymmetric in the right measure. Geostrophic modes
+        are steady: the divergence of the velocities along the edges is that of those across them,
+        by kites."""
         edge, other, used = grid.rows_of("edgesOnEdge", "nEdgesOnEdge")
         weights = scipy.sparse.csr_matrix((grid["weightsOnEdge"][used], (edge, other)),
                                           shape=(grid.sizes["nEdges"],) * 2)
@@ -193,7 +193,7 @@ class MpasGrids(CommandTest):
         np.testing.assert_allclose(grid["gridSpacing"], d, rtol=0.35)
         np.testing.assert_array_equal(grid["indexToCellID"], 1 + np.arange(n["nCells"]))
         self.check_qualities(grid)
-        # The nodes that close the sphere do not move and do not count.
+        # The nodes of the closing patch do not move, so the statistics leave them out.
         bands = self.report()["cell"]["bands"]
         cells = sum(band["cells"] for band in bands)
         self.assertTrue(0.8 * n["nCells"] < cells < n["nCells"], f"{cells} of {n['nCells']}")
@@ -211,7 +211,7 @@ class MpasGrids(CommandTest):
         self.assertTrue(np.all((grid["triangleAngleQuality"] > 0) & (grid["triangleAngleQuality"] <= 1)))
 
     def check_report(self, grid, d):
-        """Compares the statistics of the cells, over all cells and by bands of d."""
+        """Checks the statistics of the cells, in total and by bands of d at the cells."""
         report = self.report()
         pairs = grid.places("cellsOnEdge")
         between = np.all(pairs >= 0, axis=1)
@@ -286,8 +286,8 @@ class MpasGrids(CommandTest):
         np.testing.assert_allclose(grid.x["Cell"] * RADIUS, np.column_stack([inner[k] for k in "xyz"]), rtol=1e-12,
                                    atol=1e-8)
         n = grid.sizes
-        # One land mass: The vertices and edges beyond the last cells form a ring, without the edges
-        # inside the land.
+        # The domain has one land. Vertices and edges beyond the outermost cells form a ring,
+        # without the edges that lie between land only.
         self.assertEqual(n["nCells"] - n["nEdges"] + n["nVertices"], 1)
         self.assertGreater(np.sum(grid["cellsOnEdge"] == 0), 20)
         self.assertGreater(np.sum(grid["boundaryVertex"]), 20)

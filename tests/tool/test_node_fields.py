@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of --field: values of formulas at nodes, in files, against numpy at the same points."""
+"""Tests --field: values of formulas at nodes, in files, against numpy at the same points."""
 
 import json
 import unittest
@@ -49,7 +49,8 @@ class NodeFields(CommandTest):
     def test_of_the_shape_and_of_grids(self):
         (self.folder / "h.asc").write_text(RAMP.format(3, 5, 7, 9))
         grid = ("--spacing-grid", "h=h.asc")
-        # A grid may be used in the formula of a field only, whatever gives d.
+        # The spacing may be given in any way. A grid that only the formula of a field uses counts
+        # as used.
         for spacing in ("0.1", "auto", "0.09 + 0.001*h"):
             more = ("--max-spacing", "0.1") if spacing == "auto" else ()
             table = self.table(*grid, "--field", "b=-h", "--field", "slope=h_slope", "--field",
@@ -59,7 +60,7 @@ class NodeFields(CommandTest):
             boundary = table["tag"] != 0
             self.assertLess(abs(table["off"][boundary]).max(), 1e-14)
             self.assertGreater(table["off"][~boundary].min(), 0.01)
-        # A single grid gives d, and formulas can use its name too.
+        # A grid can be the spacing itself and still be used by its name in formulas.
         (self.folder / "d.asc").write_text(RAMP.format(0.08, 0.1, 0.12, 0.14))
         self.run_command("--domain", self.square, "--spacing-grid", "d.asc", "--field", "g=2*grid",
                          "-o", "a.csv", QUIET)
@@ -67,7 +68,8 @@ class NodeFields(CommandTest):
         np.testing.assert_allclose(table["g"], 0.2 + 0.04 * table["x"], rtol=1e-14)
 
     def test_of_the_shape_in_a_branch(self):
-        """The formulas use distances that are not computed at some points, such as the origin."""
+        """Checks a formula that needs the shape in one branch only. Points in the other branch,
+        such as the origin, do not evaluate it."""
         table = self.table("--field", "a=x > 0.5 ? dist(1) : -1", "--field",
                            "b=x > 0.5 && gap(2) < 0.215 ? 1 : 0", "--field", "gap=gap(2)")
         x, y = table["x"], table["y"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of --volumes: the volume of each node, in files, in the report and in the summary."""
+"""Tests --volumes: the volume of each node, in files, in the report and in the summary."""
 
 import json
 import math
@@ -42,7 +42,7 @@ class NodeVolumes(CommandTest):
         return read_csv(self.folder / "a.csv"), report, out.decode()
 
     def check_figures(self, table, report, dimension):
-        """Checks the report. Sums are exact before rounding."""
+        """Checks the statistics. Sums are rounded once, from the exact sum."""
         ratios = table["volume"] / numpy.prod([table["spacing"]] * dimension, axis=0)
         self.assertEqual(report["volumes"], {
             "total": math.fsum(table["volume"]),
@@ -56,7 +56,7 @@ class NodeVolumes(CommandTest):
         self.assertEqual(list(table), ["id", "x", "y", "tag", "spacing", "volume"])
         self.assertAlmostEqual(math.fsum(table["volume"]), SQUARE_AREA, delta=1e-12)
         self.check_figures(table, report, 2)
-        # The volume of inner nodes is that of a node of the triangular lattice.
+        # Inner nodes have the area of a node of the triangular lattice.
         inside = table["tag"] == 0
         ratios = (table["volume"] / table["spacing"] ** 2)[inside]
         self.assertAlmostEqual(numpy.median(ratios), math.sqrt(3) / 2, delta=0.05)

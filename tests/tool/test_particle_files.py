@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of particle files for other programs, .peridigm, .lammps and .hdf5, against the .csv file.
+"""Tests files of particles for other programs, .peridigm, .lammps and .hdf5, against the .csv file.
 """
 
 import math
@@ -20,14 +20,14 @@ from readers import read_csv
 from test_regions import CUBES
 
 HDF5 = os.environ.get("PNPBS_HAVE_HDF5") == "1"
-# This is not a ball, whose many facets take 9 s.
+# A cube is used because a ball, with its many facets, takes 9 s.
 CUBE = ("--domain", "box(1,0,-1, 3,2,1)", "--spacing", "0.4", "--nodes-at", "centers")
 DENSITY = ("--density", "1000 + 100*z")
 TEXTS = ("a.peridigm", "a.lammps")
 
 
 def read_peridigm(path):
-    """Reads a file like Peridigm's TextFileDiscretization: five numbers per line, comments with #.
+    """Reads the file like TextFileDiscretization: five numbers per line, and comments begin with #.
     """
     lines = [line.split() for line in path.read_text().splitlines() if not line.startswith("#")]
     assert all(len(line) == 5 for line in lines)
@@ -36,9 +36,9 @@ def read_peridigm(path):
 
 
 def read_lammps(path):
-    """Reads a file like the LAMMPS command read_data: Header lines are identified by their last
-    words; one line is skipped after the title and after the name of the section. Returns the rows
-    and the header."""
+    """Reads the file like read_data: header lines are recognized by their last words, and one line
+    is skipped after the title and after the name of the section. Returns the rows and the header.
+    """
     lines = path.read_text().splitlines()[1:]
     begin = lines.index("Atoms # peri")
     head = {}
@@ -67,7 +67,7 @@ class ParticleFiles(CommandTest):
         self.assertAlmostEqual(math.fsum(volumes), 8, delta=1e-12)
         self.assertGreater(volumes.min(), 0)
 
-    # The format also works for nodes of a mesh. Their volumes are computed without a request.
+    # Nodes of a mesh can be written as well. Their volumes need not be requested.
     def test_peridigm_of_a_mesh(self):
         self.run_on_ranks("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.3", *self.outputs("a.peridigm"))
         points, _, volumes = read_peridigm(self.folder / "a.peridigm")
@@ -146,8 +146,8 @@ class ParticleFiles(CommandTest):
             self.check_box(head["BoxSize"], gas["Coordinates"][:], size)
 
     def check_box(self, box, points, size):
-        """Checks the box: It begins at 0. Where particles have negative coordinates, it has room
-        for them after a shift."""
+        """The box begins at 0. If particles have negative coordinates, they are shifted, and the
+        box has room for the shifted ones."""
         self.assertEqual(box.shape, (3,))
         low, high = points.min(axis=0), points.max(axis=0)
         expected = numpy.where(low < 0, high - low + 2 * size, high + size)
@@ -160,7 +160,7 @@ class ParticleFiles(CommandTest):
             self.run_on_ranks(*ask, *DENSITY[:1], "1000 + 100*x", *self.outputs("a.hdf5", "a.csv"))
             self.check_gadget(read_csv(self.folder / "a.csv"), dimension)
 
-    # Checks that any number of ranks writes the same bytes.
+    # Checks that the files have the same bytes on any number of ranks.
     def check_ranks(self, ask, names):
         expected = {name: (self.folder / name).read_bytes() for name in names}
         for ranks in (1, 2, 3) if MPIEXEC else (1,):
@@ -170,7 +170,7 @@ class ParticleFiles(CommandTest):
             for name, content in expected.items():
                 self.assertTrue((self.folder / name).read_bytes() == content, f"{name}, {ranks}")
 
-    # There are more particles than are written at a time, or so few that some ranks have none.
+    # Checks more particles than are written at a time, and so few that some ranks have none.
     def test_on_ranks(self):
         names = ("a.hdf5",) if HDF5 else ("a.csv",)
         for spacing in ("0.004 + 0.01*x", "0.25"):
@@ -182,7 +182,7 @@ class ParticleFiles(CommandTest):
         self.run_on_ranks(*ask)
         self.check_ranks(ask, (*TEXTS, *names))
 
-    # The box contains the walls and the body inside them.
+    # Checks a file with the particles of walls and of the domain that they surround.
     @exists_if(HDF5)
     def test_walls(self):
         self.run_on_ranks("--domain", self.square, "--spacing", "0.1", "--nodes-at", "walls", "--density",

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests under mpirun that a failure or interrupt on one rank ends all ranks and leaves no file."""
+"""Tests that a failure or an interruption of one rank under mpirun ends all ranks and leaves no
+file."""
 
 import os
 import signal
@@ -25,8 +26,8 @@ class Failing(RanksTest):
 
     def test_disk_full_for_one_rank(self):
         (self.folder / "a.csv").write_text("old")
-        # The limit is in KiB. MPI must still be able to write its own files of 4 MiB. Rank 1 writes
-        # the middle of 14 MB.
+        # The limit is in KiB. MPI must still be able to create its own files of 4 MiB. Rank 1
+        # writes the middle part of 14 MB.
         limited = ("bash", "-c", "test $OMPI_COMM_WORLD_RANK != 1 || ulimit -f 5000; "
                    'exec "$0" "$@"', COMMAND)
         message = self.refuse_ranks(3, "--domain", LAKE, "--spacing", "0.6", "--steps", "12",

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests in which every call on a file fails once. The command must end with an error and leave
-existing files unchanged, or work without the call. PNPBS_FAULT_STRIDE = n tests every n-th call on
-ranks."""
+"""Tests that every file call may fail. The command then ends with an error and leaves the previous
+files, or it succeeds without the call. On ranks, every n-th call fails, where n is
+PNPBS_FAULT_STRIDE."""
 
 import os
 import unittest
@@ -17,7 +17,8 @@ class Faults(ShotTest):
     NAMES = ("a.vtu", "d.pvtu", "e.png")
 
     def one_fault(self, at, rank, ranks):
-        """Returns which call has failed, or None if no call was left."""
+        """Makes the call number `at` fail. Returns the name of this call, or None if there were
+        fewer calls."""
         self.RANKS = ranks
         self.lay_old_files()
         log = self.folder / "log"

@@ -18,8 +18,8 @@ SAME_BYTES = ("a.vtu", "a_facets.vtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.
 
 
 def grid_by_ids(grid):
-    """Returns nodes and triangles of a grid as sets that do not depend on the numbering in the
-    file."""
+    """Returns the nodes and triangles of a grid as sets that do not depend on indices in the file.
+    """
     ids = point_array(grid, "id")
     points = vtk_to_numpy(grid.GetPoints().GetData())
     own = numpy.ones(len(ids), bool)
@@ -43,7 +43,8 @@ def facets_by_ids(grid):
 
 class InnerSurfaces(RanksTest):
     def test_are_the_same_triangles(self):
-        """A tetrahedron lies in a cube. Its faces are compared in files of any number of ranks."""
+        """Checks a tetrahedron in a cube: its faces are the same in the files of any number of
+        ranks."""
         cube = [[i & 1, i >> 1 & 1, i >> 2] for i in range(8)]
         sides = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
         inner = [[0.2, 0.2, 0.3], [0.8, 0.3, 0.2], [0.4, 0.8, 0.3], [0.5, 0.5, 0.8]]
@@ -72,7 +73,7 @@ class InnerSurfaces(RanksTest):
 
 class Regions(RanksTest):
     def test_are_the_same(self):
-        """Some elements have no region, and with a coarse d some ranks have no nodes."""
+        """Some elements have no region, and some ranks have no nodes if d is coarse."""
         pair = self.folder / "pair.poly"
         pair.write_text("6 2 0 0\n1 0 0\n2 1 0\n3 2 0\n4 2 1\n5 1 1\n6 0 1\n8 1\n1 1 2 1\n"
                         "2 2 3 1\n3 3 4 1\n4 4 5 1\n5 5 6 1\n6 6 1 1\n7 2 5 2\n8 1 5 3\n0\n"
@@ -100,8 +101,8 @@ class SameFiles(RanksTest):
         return [*(word for name in names for word in ("-o", name)), "--report", "a.json"]
 
     def check(self, spacing, all_ranks):
-        """Runs alone and on several ranks. Returns the numbers of nodes in the pieces of the last
-        run."""
+        """Compares the files of one rank with those of several. Returns the numbers of nodes in the
+        pieces of the last run."""
         ask = ("--domain", self.square, "--spacing", spacing, *self.outputs())
         _, warnings = self.run_command(*ask)
         expected = {name: (self.folder / name).read_bytes() for name in SAME_BYTES}
@@ -133,7 +134,7 @@ class SameFiles(RanksTest):
         nodes = json.loads((self.folder / "a.json").read_text())["nodes"]
         self.assertLess(max(held), nodes / 2)  # no rank has all nodes
 
-    # d follows the shape, in the plane and in space, and for a number of nodes.
+    # Checks d from the shape, in the plane and in space, also for a given number of nodes.
     def test_spacing_from_the_shape(self):
         for ask in (("--domain", LAKE, "--spacing", "auto", "--nodes", "1e3"),
                     ("--domain", "box(0,0,0, 1,0.8,0.4)",
@@ -170,7 +171,7 @@ class SameFiles(RanksTest):
             self.assertEqual((self.folder / "a.svg").read_bytes(), expected)
         self.assertIn("--color", self.refuse_ranks(3, *ask, "red"))
 
-    # This includes the extent, volume and surface in the summary.
+    # Checks pictures of bodies, and the summary line with extent, volume and surface.
     def test_pictures_of_bodies(self):
         ask = ("--domain", "cylinder(0,0,0, 0,0,2, 1)", "--spacing", "0.25", "--steps", "10",
                "-o", "a.svg", "-o", "a.png", "--cut", "1,1,0, 0.3")

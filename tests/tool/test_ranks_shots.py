@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests with signals at random moments of writing and with killed ranks. The command must end soon
-on all ranks, with all files new or none. PNPBS_SHOTS is the number of random signals (a few by
-default)."""
+"""Tests signals at random moments of writing, and ranks that are killed. The command must end soon
+on all ranks, with either all files new or none. PNPBS_SHOTS is the number of random moments (a few
+by default)."""
 
 import os
 import random
@@ -19,7 +19,8 @@ SHOTS = int(os.environ.get("PNPBS_SHOTS", "4"))
 
 class Signals(ShotTest):
     def run_once(self, shoot):
-        """Calls shoot(process) during a run. Returns the exit status of the run."""
+        """Runs the command while shoot(process) acts on it. Returns the exit code and the messages.
+        """
         self.lay_old_files()
         process = self.start_ranks(self.RANKS, *self.arguments())
         try:
@@ -91,11 +92,11 @@ class Killed(ShotTest):
             process.kill()
             raise
         self.assertNotIn(process.returncode, WRITTEN)
-        self.assertFalse(self.are_new())  # temporary files have recognisable names
+        self.assertFalse(self.are_new())  # leftovers have names of temporary files
 
     def let_end(self, process):
-        """Ends the run. mpirun of Open MPI 4.1 sometimes waits forever after all its ranks have
-        ended."""
+        """Waits for the end of mpirun. Open MPI 4.1 sometimes waits forever after all its ranks
+        have ended, so it is killed then."""
         try:
             process.communicate(timeout=20)
         except subprocess.TimeoutExpired:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests under mpirun that the command prints each message once and has one exit code."""
+"""Tests that the command under mpirun prints each message once and has one exit code."""
 
 import unittest
 
@@ -61,7 +61,7 @@ class OneVoice(RanksTest):
         self.assertIn("mpirun", message)
 
     def test_alone_there_is_no_mpi(self):
-        # This setting prevents MPI from starting.
+        # This variable prevents MPI from starting. The command alone must not start it.
         broken = {"OMPI_MCA_pml": "none_of_these"}
         self.place(environment=broken)
         process = self.start("--help", environment={"PNPBS_MPI": "1", **broken})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of --spacing-grid with files that GDAL reads. PNPBS_GEO says whether the command was built
-with it."""
+"""Tests --spacing-grid with files that GDAL reads. PNPBS_GEO says whether the command was built
+with GDAL."""
 
 import json
 import os
@@ -26,7 +26,8 @@ class Without(GridsTest):
 
 
 class BayTest(GridsTest):
-    """A bay from 18 to 20 degrees east and 54 to 55 north. The depths are linear in degrees."""
+    """The domain is a bay from 18 to 20 degrees east and 54 to 55 north. The depths are linear in
+    the degrees."""
 
     def setUp(self):
         super().setUp()
@@ -42,7 +43,8 @@ class BayTest(GridsTest):
         return 10 + 5 * (longitude[None, :] - 18) + 4 * (latitude[:, None] - 54)
 
     def degrees(self, table):
-        """Returns degrees by the series of the transverse Mercator projection, to some 10 m."""
+        """Returns longitude and latitude by the series of the transverse Mercator projection, with
+        an error of about 10 m."""
         # pylint: disable=too-many-locals
         a, f = 6378.137, 1 / 298.257223563
         n = f / (2 - f)
@@ -70,7 +72,7 @@ class Rasters(BayTest):
         self.expect_depths(table)
         self.assertNotIn("covers only", err)
         self.assertEqual(report["spacing_grid"], "d.tif")
-        # Longitudes beyond 360 give the same result.
+        # The result is the same with longitudes beyond 360.
         write_geotiff(self.folder / "e.tif", self.depths(17.5, 55.5, 0.05, 60, 40), 377.5, 55.5,
                       0.05, 4326)
         self.expect_depths(self.table(*self.ask, "--spacing-grid", "e.tif")[0])

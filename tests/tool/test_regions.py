@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of tags of regions, from files and --region to the files of the results."""
+"""Tests tags of regions: from files and --region to the files of the results."""
 
 import json
 import unittest
@@ -11,7 +11,7 @@ import vtk
 from command import BAD_INPUT, CommandTest
 from readers import grid_arrays, read_rows, read_with_vtk
 
-# Two unit squares beside each other, and the lines of the regions section.
+# Two adjacent unit squares, and the contents of the regions section.
 PAIR = """\
 6 2 0 0
 1 0 0
@@ -30,7 +30,8 @@ PAIR = """\
 7 2 5 2
 0
 """
-# Two unit cubes on top of each other in TetGen's format. The wall between them is an inner facet.
+# Two unit cubes, one on top of the other, in TetGen's format. The wall between them is an inner
+# facet.
 CUBES = """\
 12 3 0 0
 """ + "".join(f"{4 * z + k} {x} {y} {z}\n" for z in range(3)
@@ -43,7 +44,7 @@ CUBES = """\
 
 
 def sizes(points, corners):
-    """Returns areas of triangles or volumes of tetrahedra."""
+    """Returns the areas of triangles, or the volumes of tetrahedra."""
     x = points[corners]
     edges = x[:, 1:] - x[:, :1]
     if corners.shape[1] == 3:
@@ -61,7 +62,8 @@ class RegionTest(CommandTest):
         return self.folder / name
 
     def fill(self, domain, *arguments, spacing="0.15", warning=""):
-        """Fills the domain and returns the messages."""
+        """Runs the command and writes all formats. The report must have one warning with this text,
+        or none."""
         names = ("a.vtu", "a.msh", "a.msh2", "a.node", "a.ele")
         process = self.start("--domain", domain, "--spacing", spacing, "--check", "--steps", "40",
                              "--set", "tolerance_mean=1", "--report", "a.json", *arguments,
@@ -75,8 +77,8 @@ class RegionTest(CommandTest):
             self.assertIn(warning, text)
 
     def check_sizes(self, expected, names=None):
-        """Compares the sizes of regions in all of the files. `names` are the groups by tag in
-        Gmsh's files."""
+        """Checks the sums of the sizes by region in all of the files. `names` are the names of the
+        groups by tag in Gmsh files."""
         grid = meshio.read(self.folder / "a.vtu")
         corners, tags = grid.cells[0].data, grid.cell_data["region"][0]
         self.assertEqual(tags.dtype, numpy.int32)
@@ -105,7 +107,7 @@ class RegionTest(CommandTest):
                                  for tag, size in expected.items()})
 
     def check_entities(self):
-        """Checks that nodes on no facet are in the entity of the elements around them."""
+        """Checks that nodes on no facet belong to the entity of the elements around them."""
         lines = iter((self.folder / "a.msh").read_text().splitlines())
         blocks = {}
         for section in ("$Nodes", "$Elements"):
@@ -166,8 +168,8 @@ class FilesOfTetGen(RegionTest):
         self.check_sizes({7: 1.0, 4: 1.0})
         self.fill(path, "--inner", "2", "--surfaces-only", spacing="0.3")
         self.assertNotIn("region", meshio.read(self.folder / "a.vtu").cell_data)
-        # Facets divide a body without being declared as inner ones. A body that is valid with them
-        # is not repaired. After resurfacing no wall remains between the regions.
+        # Facets divide a body even if they are not given as inner ones. Such a body is sound and is
+        # not repaired. A rebuilt surface has no wall inside.
         self.fill(path, spacing="0.3")
         self.check_sizes({7: 1.0, 4: 1.0})
         self.fill(path, "--repair", "0.1", spacing="0.3", warning="not repaired: the body is sound")
@@ -184,7 +186,8 @@ class FilesOfTetGen(RegionTest):
 
 
     def cube_in_cube(self, rest):
-        """Writes a cube of side 3 with one of side 1 in its middle. Their markers are 10 and 20."""
+        """Writes a cube of side 3 with a cube of side 1 in its middle, with the markers 10 and 20.
+        """
         corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
         sides = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
         rows = ["16 3 0 0"]
@@ -233,7 +236,7 @@ class FilesOfGmsh(RegionTest):
         self.there_and_back({7: 1.0, 4: 1.0}, {}, "0.25")
 
     def square_of(self, groups, lines=()):
-        """Writes four by four quadrangles with these groups."""
+        """Writes four by four quadrangles, which have these groups."""
         points = [(x, y, 0.0) for y in range(5) for x in range(5)]
         squares = [(5 * y + x, 5 * y + x + 1, 5 * y + x + 6, 5 * y + x + 5)
                    for y in range(4) for x in range(4)]
@@ -248,7 +251,7 @@ class FilesOfGmsh(RegionTest):
         return self.folder / "m.msh"
 
     def test_parts_of_groups(self):
-        """One group lies in two corners, and a loop of lines lies inside another group."""
+        """One group is in two corners, and a loop of lines lies in the middle of another group."""
         groups = [3, 5, 5, 5] + 2 * [5, 5, 5, 5] + [5, 5, 5, 3]
         self.fill(self.square_of(groups), spacing="0.5")
         self.check_sizes({3: 2.0, 5: 14.0}, {3: "steel"})
@@ -281,7 +284,7 @@ class Command(RegionTest):
         self.check_sizes({8: 1.0, 0: 1.0})
 
     def test_in_other_grids(self):
-        """Regions are in HDF5 files too, if HDF5 is available."""
+        """Checks files by HDF5, if the command has it."""
         ask = ("--domain", self.write("m.poly", PAIR), "--spacing", "0.2", "--quiet",
                "--region", "0.5,0.5:7", "-o", "a.vtu")
         process = self.start(*ask, "-o", "a.vtkhdf", "-o", "a.xdmf")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of the mesh files for sea and river models, .gr3 and .2dm, by readers of their definitions
-and against the Gmsh files and tables of the same runs. PNPBS_GEO says whether the command was built
-with GDAL."""
+"""Tests meshes for models of seas and rivers, .gr3 and .2dm, by readers that follow the definitions
+of the formats, against Gmsh files and tables of the same runs. PNPBS_GEO says whether the command
+was built with GDAL."""
 
 import collections
 import json
@@ -18,10 +18,10 @@ from readers import read_csv
 Gr3 = collections.namedtuple("Gr3", "nodes depths triangles open land")
 TwoDm = collections.namedtuple("TwoDm", "nodes heights triangles materials strings")
 
-# The unit square with a square hole. Its right side is an open boundary, and so is one side of the
+# The unit square with a square hole, with tags for an open right side and for an open side of the
 # hole.
 SIDES = SQUARE.replace("2 2 3 1\n", "2 2 3 3\n").replace("6 6 7 2\n", "6 6 7 4\n")
-# A square with a triangle inside that touches its lower side, and an inner curve.
+# A square with a triangle inside that touches its lower side, and with an inner curve.
 TOUCHING = """\
 9 2 0 0
 1 0 0
@@ -79,7 +79,7 @@ def read_gr3(path):
 
 
 def read_2dm(path):
-    """Reads a .2dm file by the definition in the XMS Wiki."""
+    """Reads a .2dm file by the page in the XMS Wiki."""
     cards = [line.split() for line in path.read_text().splitlines()]
     assert [card[0] for card in cards[:3]] == ["MESH2D", "MESHNAME", "NUM_MATERIALS_PER_ELEM"]
     by_kind = collections.defaultdict(list)
@@ -105,7 +105,8 @@ def read_2dm(path):
 
 
 def read_msh2(path):
-    """Returns triangles and edges by node numbers from 0 on, and the tags of the edges."""
+    """Returns triangles and edges by the indices of their nodes from 0, and the tags of the edges.
+    """
     lines = path.read_text().split("$Elements\n")[1].split("\n")[1:]
     rows = [[int(word) for word in line.split()] for line in lines if line and line[0] != "$"]
     return (np.array([row[-3:] for row in rows if row[1] == 2]) - 1,
@@ -113,7 +114,7 @@ def read_msh2(path):
 
 
 def read_ugrid(path):
-    """Returns the variables of a file, which are found by the attributes of the mesh."""
+    """Returns the variables of a UGRID file, which are found by the attributes of the mesh."""
     with netCDF4.Dataset(path) as file:
         file.set_auto_mask(False)
         mesh, = file.get_variables_by_attributes(cf_role="mesh_topology")
@@ -136,7 +137,7 @@ def edges_of(nodes, is_loop=False):
 
 
 def bounding_edges(triangles):
-    """Returns the edges that belong to only one triangle, in the triangle's direction."""
+    """Returns the edges that only one triangle has, with the orientation of that triangle."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     every = {tuple(edge) for edge in edges}
     return {edge for edge in every if edge[::-1] not in every}
@@ -160,8 +161,8 @@ class SeaFiles(CommandTest):
         return gr3, two_dm
 
     def check(self, gr3, two_dm, triangles, tags):
-        """Checks that the boundaries of both files are that of the triangles, with the domain on
-        the left of each edge."""
+        """The boundaries in both files must be that of the triangles, with the domain on the left
+        of each edge."""
         for mesh in (gr3, two_dm):
             np.testing.assert_array_equal(mesh.triangles, triangles)
         edges = [edge for nodes in gr3.open for edge in edges_of(nodes)]
@@ -191,8 +192,7 @@ class SeaFiles(CommandTest):
         gr3, _ = self.placed(SIDES, "--name", "3=Open sea", "--name", "1=opera")
         (sea,), (coast, island) = gr3.open, gr3.land
         np.testing.assert_array_equal(gr3.nodes[sea][:, 0], 1)
-        # Upwards, which is counter-clockwise.
-        self.assertTrue(np.all(np.diff(gr3.nodes[sea][:, 1]) > 0))
+        self.assertTrue(np.all(np.diff(gr3.nodes[sea][:, 1]) > 0))  # upwards: counter-clockwise
         self.assertEqual([coast[0], island[0]], [0, 1])
         self.assertEqual([coast[1][0], coast[1][-1]], [sea[-1], sea[0]])
         self.assertAlmostEqual(area_of(gr3.nodes[sea + coast[1][1:-1]]), 1, places=12)
@@ -264,7 +264,7 @@ class SeaFiles(CommandTest):
                               "boundary_tag": "boundary"})
 
     def test_negative_tags_of_curves(self):
-        """A minus sign ends a node string, so that negative tags are impossible."""
+        """A minus sign marks the end of a string, so its tag cannot be negative."""
         (self.folder / "a.poly").write_text(SQUARE.replace(" 2\n", " -2\n"))
         message = self.refuse("--domain", "a.poly", "--spacing", "0.1", "-q", "-o", "b.2dm")
         self.assertIn("numbers node strings by tags from 1 on, and the tag of a curve is -2", message)
@@ -299,13 +299,13 @@ def closed(ring):
 
 
 def coast(*rings):
-    """Returns GeoJSON with a feature for each ring, so that each has a tag."""
+    """Returns a feature for each ring, so that each ring has a tag."""
     return json.dumps({"type": "FeatureCollection", "features": [
         {"type": "Feature", "properties": {},
          "geometry": {"type": "MultiPolygon", "coordinates": [[closed(part)] for part in ring]}} for ring in rings]})
 
 
-# The outlines are as in common files: cut at 180 degrees, and with Antarctica extended to the pole.
+# Polygons that are cut at 180 degrees, as in real files, and Antarctica around the pole.
 ANTARCTICA = [[[lon, -74 + 3 * np.cos(np.radians(3 * lon))] for lon in range(-180, 181, 5)] + [[180, -90], [-180, -90]]]
 ACROSS = [[[168, 8], [180, 8], [180, 22], [170, 25]], [[-180, 8], [-172, 12], [-180, 22]]]
 CONTINENT = [[[-20, -10], [30, -30], [50, 10], [20, 40], [-30, 30]]]
@@ -352,8 +352,7 @@ class OnSphere(CommandTest):
 
     @exists_if(os.environ["PNPBS_GEO"] == "1")
     def test_a_sea_between_lands(self):
-        # The point is on the far side, so land and sea are exchanged.
-        sphere = f"{self.RADIUS},180,0"
+        sphere = f"{self.RADIUS},180,0"  # the far side is land, and the continent is sea
         gr3 = self.sea(CONTINENT, [[[0, 0], [12, 0], [5, 8]]], sphere=sphere, spacing="150")
         self.assertEqual([kind for kind, _ in gr3.land], [0, 0, 1])
         outside = gr3.land[0][1][:-1] + gr3.land[1][1][:-1]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of spacings that use the shape of the domain, seglen and curvature(N), against the values
-for shapes whose segments and radii are known."""
+"""Tests spacings that use the shape of the domain, seglen and curvature(N), against the values for
+shapes with known segments and radii."""
 
 import unittest
 
@@ -18,7 +18,7 @@ def distances_to_segment(points, a, b):
 
 class ShapeSpacing(CommandTest):
     def nodes(self, domain, spacing, *arguments, steps=3):
-        """Returns the nodes' positions, their d, and whether they are on the boundary."""
+        """Returns the positions of the nodes, d there, and whether they are on the boundary."""
         self.place_body(domain, spacing, "--set", f"steps={steps}", "-o", "nodes.csv",
                         "--nodes-only", "-q", *arguments)
         table = np.genfromtxt(self.folder / "nodes.csv", delimiter=",", names=True)
@@ -45,8 +45,8 @@ class ShapeSpacing(CommandTest):
         return "body.off"
 
     def test_a_spot_with_a_fixed_node(self):
-        """d is sampled at fixed nodes, so a spot that no other sample hits is found if it contains
-        one."""
+        """Checks that d is sampled at fixed nodes: a spot that no other sample hits is found by a
+        fixed node in it."""
         corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
         spot = np.array([0.3712, 0.6283])
         formula = f"hypot(x-{spot[0]},y-{spot[1]})<0.004 ? 0.001 : 0.1"
@@ -77,8 +77,7 @@ class ShapeSpacing(CommandTest):
                 np.testing.assert_allclose(d, at_rim + GROWTH * inwards, rtol=2e-3)
 
     def test_curvature_of_two_circles(self):
-        """Checks the distance to the two boundaries of a ring, the smaller of them for half the
-        spacing, and a factor before it."""
+        """Checks the curvature of a ring with a factor. The smaller circle has half the spacing."""
         angles = np.arange(240) * 2 * np.pi / 240
         unit = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         domain = self.write_polygons(2 * unit, unit, hole=(0, 0))
@@ -94,14 +93,15 @@ class ShapeSpacing(CommandTest):
         at_surface = 2 * np.pi * 0.5 / 18
         inwards = 0.5 - np.linalg.norm(points - [1, 2, 3], axis=1)
         self.assertGreater(np.count_nonzero(surface), 50)
-        # Triangles approximate the ball, and where they are small they turn by a little more.
+        # Triangles approximate the ball, and small ones turn by slightly more.
         ratio = d / (at_surface + GROWTH * inwards)
         self.assertLess(ratio.max(), 1.01)
         self.assertGreater(ratio.min(), 0.92)
         self.assertGreater(ratio.mean(), 0.95)
 
     def test_curvature_of_a_cylinder(self):
-        """The ends of a cylinder are flat, and the edges around them do not count as curvature."""
+        """Checks a cylinder. Its ends are flat, and the edges around them do not count as
+        curvature."""
         points, d, _ = self.nodes("cylinder(0,0,0, 0,0,3, 0.5)", "curvature(14)")
         from_side = 0.5 - np.hypot(points[:, 0], points[:, 1])
         np.testing.assert_allclose(d, 2 * np.pi * 0.5 / 14 + GROWTH * from_side, rtol=0.02)
@@ -123,8 +123,8 @@ class ShapeSpacing(CommandTest):
         self.assertGreater(d.max(), 0.6)
 
     def test_seglen_of_an_octahedron(self):
-        """All edges have the same length, and d is a third of the mean length of the edges around.
-        """
+        """Checks a body whose edges all have the same length. The spacing is a third of their mean
+        length."""
         vertices = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
         triangles = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4],
                      [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
@@ -133,8 +133,8 @@ class ShapeSpacing(CommandTest):
         np.testing.assert_allclose(d, (2**0.5 + GROWTH * inwards) / 3, rtol=1e-6)
 
     def test_seglen_of_a_box(self):
-        """The triangles of a box have two legs and a diagonal. The smallest of the triangles around
-        counts."""
+        """Checks a box. Its triangles have two legs and a diagonal, and the smallest value of the
+        adjacent triangles counts."""
         points, d, surface = self.nodes("box(0,0,0, 3,1,1)", "seglen/4")
         small, large = (2 + 2**0.5) / 3, (4 + 10**0.5) / 3  # at the ends, at the sides
         to_end = np.minimum(points[:, 0], 3 - points[:, 0])
@@ -144,7 +144,8 @@ class ShapeSpacing(CommandTest):
         self.assertTrue(surface.any())
 
     def test_a_branch_alone(self):
-        """These formulas are not evaluated at the origin."""
+        """Checks functions of the shape in one branch of a formula, which the origin does not take.
+        """
         for asked in ("dist(1)", "gap(2)", "curvature(9)"):
             with self.subTest(asked):
                 d = f"min({asked}, 0.2) + 0.05"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of domains from geographic files, such as GeoJSON, with projections. PNPBS_GEO says whether
+"""Tests domains in geographic formats, such as GeoJSON, with projections. PNPBS_GEO says whether
 the command was built with GDAL."""
 
 import json
@@ -54,7 +54,7 @@ class Without(ShapesTest):
 @exists_if(BUILT)
 class Shapes(ShapesTest):
     def nodes(self, *arguments, spacing="20", domain=None):
-        """Makes a run in kilometres. Returns coordinates, report and messages."""
+        """Runs the command in kilometres. Returns coordinates, report and messages."""
         report, err = self.report("--domain", domain or self.geojson(LAND), "--spacing", spacing,
                                   "--unit", "km", "--output", "nodes.csv", "--check", *arguments)
         table = np.genfromtxt(self.folder / "nodes.csv", delimiter=",", names=True)
@@ -69,7 +69,7 @@ class Shapes(ShapesTest):
         self.assertEqual(report["warnings"], [])
         least, greatest = report["projection"]["scale"]
         self.assertTrue(0.9996 < least < greatest < 1.001)
-        # The central meridian, 21 degrees east, is at 500 km.
+        # The central meridian, 21 degrees east, is at x = 500 km.
         self.assertTrue(np.all((x[:, 0] > 300) & (x[:, 0] < 440)))
         self.assertTrue(np.all((x[:, 1] > 5980) & (x[:, 1] < 6100)))
         self.assertIn("UTM", (self.folder / "nodes.prj").read_text())
@@ -85,7 +85,7 @@ class Shapes(ShapesTest):
         self.assertIn("unit", report["projection"])
         plain, report, _ = self.nodes("--projection", "+proj=laea +lat_0=54.5 +lon_0=19 +units=km")
         self.assertLess(np.abs(plain).max(), 70)
-        # Degrees of latitude have 111.3 km here, and degrees of longitude 65.6 km in the south.
+        # A degree of latitude is 111.3 km here, and a degree of longitude is 65.6 km in the south.
         self.assertAlmostEqual(np.ptp(plain[:, 0]), 131.2, delta=0.5)
         self.assertAlmostEqual(np.ptp(plain[:, 1]), 111.3 + 0.5, delta=0.5)
         self.assertEqual(report["projection"]["unit"], "kilometre")
@@ -114,20 +114,21 @@ class Shapes(ShapesTest):
         self.assertIn("it has: name, code", self.refuse(*ask, "--tag-field", "tag"))
 
     def test_a_line_along_the_shore_is_an_open_boundary(self):
-        # The hand-drawn line is some 20 m off and does not run from corner to corner.
+        # Checks an open boundary drawn by hand: it deviates by about 20 m and does not connect
+        # corners.
         path = self.geojson(LAND, feature("LineString", [[20.0003, 54.2], [19.9998, 55.0002]],
                                           name="open"))
         x, report, err = self.nodes("--tag-field", "name", domain=path, spacing="5")
         self.assertIn("note: a line runs along the boundary", err)
         self.assertEqual([group["name"] for group in report["groups"]], ["land", "open"])
         table = np.genfromtxt(self.folder / "nodes.csv", delimiter=",", names=True)
-        length = 0.8 * 111.3  # km
+        length = 0.8 * 111.3  # in km
         self.assertAlmostEqual(np.sum(table["tag"] == 2), length / 5, delta=2)
         self.assertLess(np.ptp(x[table["tag"] == 2][:, 0]), 8)
 
     def test_what_is_left_out_of_a_coast(self):
-        """A coast whose lines do not close, with an island. Only the island would be meshed, so the
-        command reports an error."""
+        """Checks a coast whose lines do not close, and an island. Only the island would be meshed,
+        so there is a warning."""
         island = feature("Polygon", [closed([[18.8, 54.4], [19.2, 54.4], [19.2, 54.6]])], name="i")
         coast = feature("LineString", SQUARE[:4], name="coast")
         ask = ("--spacing", "5", "--unit", "km", "--tag-field", "name", "-o", "nodes.csv",
@@ -135,7 +136,7 @@ class Shapes(ShapesTest):
         _, err = self.run_command("--domain", self.geojson(island, coast), *ask, code=LEFT_OUT)
         self.assertIn("warning: outside the domain and left out: ", err.decode())
         self.assertIn("nodes.csv", self.files())
-        # With the open boundary that closes the coast, the island is an island.
+        # With the open boundary the coast is closed, and the domain surrounds the island.
         ends = feature("LineString", [SQUARE[3], SQUARE[0]], name="open")
         self.run_command("--domain", self.geojson(island, coast, ends), *ask)
         report = json.loads((self.folder / "report.json").read_text())
@@ -170,7 +171,8 @@ class Shapes(ShapesTest):
         message = self.refuse("--domain", "land.shp", "--spacing", "20", "--output", "land.vtu")
         self.assertIn("land.prj' would replace what is read", message)
         self.assertEqual(prj.read_text(), "the input's")
-        # A .prj file beside a GeoJSON file was written by the previous run.
+        # The .prj file beside the GeoJSON file is our own from the previous run, so it may be
+        # replaced.
         self.run_command("--domain", self.geojson(LAND), "--spacing", "20000", "--output", "land.vtu")
         self.assertIn("UTM", prj.read_text())
 
@@ -195,7 +197,7 @@ class Shapes(ShapesTest):
                              (self.folder / ("two" + ending)).read_bytes())
 
     def test_coast_of_many_vertices(self):
-        """The coast has 10^5 vertices, and d is 0.2 to 20 km."""
+        """Checks a coast with 10^5 vertices, with d from 0.2 to 20 km."""
         draw = random.Random(7)
         ring = [(2.2 * math.cos(2 * math.pi * k / 24), 2.2 * math.sin(2 * math.pi * k / 24))
                 for k in range(24)]

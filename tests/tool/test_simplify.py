@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of shores finer than d: corners by angle, and simplification."""
+"""Tests shores that are finer than d: corners by angle, and simplification."""
 
 import json
 import unittest
@@ -43,7 +43,8 @@ class Shores(CommandTest):
         self.assertEqual(self.report("--simplify", "0.25", spacing="10 + 0*dist")[1], by_number[1])
 
     def test_where_d_is_from_a_file(self):
-        """A mesh and scattered points with the same d simplify the shore as the formula does."""
+        """Checks that a mesh and scattered points with the same d simplify the shore like the
+        formula."""
         by_formula = self.report("--simplify", "0.25,2", spacing="10 + 0.005*x")
         points = [(x, y) for y in (-600, 600) for x in (-900, 900)]
         (self.folder / "d.csv").write_text(

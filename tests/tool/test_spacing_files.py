@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of spacings from files with values at points, as meshio and VTK write them, and of damaged
-files."""
+"""Tests spacings from files with values at points, as meshio and VTK write them, and damaged files.
+"""
 
 import itertools
 import unittest
@@ -17,7 +17,7 @@ QUICK = ("--set", "steps=3")
 
 
 def lattice(dim, n, low=-0.05, high=1.05):
-    """Returns the points of a lattice and its triangles or tetrahedra, some of them with reversed
+    """Returns the points of a lattice and its triangles or tetrahedra, which have either
     orientation."""
     axis = np.linspace(low, high, n)
     grid = np.meshgrid(*[axis] * dim, indexing="ij")
@@ -34,7 +34,7 @@ def lattice(dim, n, low=-0.05, high=1.05):
 
 class SpacingFiles(CommandTest):
     def nodes(self, spacing, dim=2, **more):
-        """Returns the nodes placed with this spacing, exact to the bit."""
+        """Returns the file with the nodes of a run with this spacing, for comparison to the bit."""
         domain = self.square if dim == 2 else "box(0,0,0,1,1,1)"
         self.place_body(domain, spacing, *QUICK, "-o", "out.csv", "--nodes-only", **more)
         return (self.folder / "out.csv").read_bytes()
@@ -133,8 +133,8 @@ class SpacingFiles(CommandTest):
         self.assertEqual(self.nodes("vertices.vtu"), self.nodes("same.csv"))
 
     def test_a_small_fine_spot_is_found(self):
-        """A small value lies between all sampling points of cells, among values 50 times as large.
-        """
+        """Checks a spot that lies between all samples of cells, surrounded by values 50 times as
+        large."""
         middle = np.array([0.637, 0.211])
         random = np.random.default_rng(7)
         points = np.concatenate([random.uniform(0, 1, (300, 2)),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of spheres, and of seas on them whose coasts are given in longitude and latitude. PNPBS_GEO
+"""Tests whole spheres, and seas on spheres that coasts in longitude and latitude bound. PNPBS_GEO
 says whether the command was built with GDAL."""
 
 import json
@@ -24,8 +24,8 @@ def feature(*polygons):
             "geometry": {"type": "MultiPolygon", "coordinates": [[closed(ring)] for ring in polygons]}}
 
 
-# The outline is cut at 180 degrees as in common files: It follows the meridian to the pole and
-# back. Some files have -179.99999999999994 there.
+# Antarctica is cut at 180 degrees, as in real files: the curve follows the meridian to the pole and
+# returns along it. Some points have -179.99999999999994 there.
 WEST = -180 + 6e-14
 ANTARCTICA = feature([[max(lon, WEST), -74 + 3 * np.cos(np.radians(3 * lon))]
                       for lon in range(-180, 181, 5)] + [[180, -90], [WEST, -90]])
@@ -34,20 +34,19 @@ CONTINENT = feature([[-20, -10], [30, -30], [50, 10], [20, 40], [-30, 30]])
 
 
 def element_rows(path):
-    """Returns the elements of an .msh2 file: number, kind (1: edge, 2: triangle), tags and nodes.
-    """
+    """Returns the rows of an .msh2 file: number, kind (1: edge, 2: triangle), tags and nodes."""
     lines = path.read_text().split("$Elements\n")[1].split("\n")[1:]
     return [[int(word) for word in line.split()] for line in lines if line and line[0] != "$"]
 
 
 def triangles_and_edges(rows):
-    """Returns triangles and edges by node indices from 0 on."""
+    """Returns triangles and edges by the indices of their nodes."""
     return (np.array([row[-3:] for row in rows if row[1] == 2]) - 1,
             np.array([row[-2:] for row in rows if row[1] == 1]) - 1)
 
 
 class WholeSphere(CommandTest):
-    """Whole spheres, which need no file and therefore no GDAL."""
+    """A sphere without a file, which does not require GDAL."""
 
     SPACING = "250 + 150*sin(pi*lon/180)^2"
 
@@ -71,7 +70,7 @@ class WholeSphere(CommandTest):
         self.assertTrue(0.4 * len(corners) < seen < 0.6 * len(corners), f"{seen} of {len(corners)}")
 
     def triangles_in_picture(self, *arguments, spacing="600"):
-        """Returns the triangles of the picture, each as rows of x and y, and the size of the
+        """Returns the triangles in the picture, each an array of x and y, and the size of the
         picture."""
         self.placed("--output", "sphere.svg", *arguments, spacing=spacing)
         picture = (self.folder / "sphere.svg").read_text()
@@ -81,16 +80,15 @@ class WholeSphere(CommandTest):
         return [np.reshape(path, (-1, 2)) for path in paths if len(path) in (6, 8)], size
 
     def test_views(self):
-        """In a view from a point the triangles near it are the largest. A map shows all triangles,
-        and those at its ends twice."""
+        """Checks views. In a view from a point, triangles there are largest. A map shows all
+        triangles, and those at its ends twice."""
         for view in ("0,0", "120,50", "-70,-90"):
             triangles, size = self.triangles_in_picture("--view", view)
             areas = np.array([abs(np.linalg.det(x[1:3] - x[0])) / 2 for x in triangles])
             middles = np.array([x[:3].mean(axis=0) for x in triangles])
             off = np.linalg.norm(middles - [size[0] / 2, middles.mean(axis=0)[1]], axis=1) / (size[0] / 2)
             self.assertGreater(areas[off < 0.3].mean(), 2 * areas[off > 0.8].mean())
-        # East is on the right, north at the top, where there are fewer.
-        for view in ("0,0", "map"):
+        for view in ("0,0", "map"):  # east is to the right and north upwards, where nodes are fewer
             for k, spacing in enumerate(("600 + 0.05*y", "600 + 0.05*z")):
                 triangles, size = self.triangles_in_picture("--view", view, spacing=spacing)
                 middle = np.array([x[:3].mean(axis=0)[k] for x in triangles])
@@ -105,14 +103,15 @@ class WholeSphere(CommandTest):
         self.assertIn("give --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
 
     def test_nodes_follow_the_spacing_beside_the_patch(self):
-        """d changes in the chart along the distance that the last sweeps move nodes. Edges must be
-        compared with d at the final positions. With the previous d the spacing was reported as
-        missed because of 85 edges."""
+        """Checks that no d is missed near the centre of projection. There d in the chart changes as
+        the last sweeps move nodes, so it must be evaluated at the final positions. With d from
+        before the sweeps, the status was a missed spacing, by 85 edges."""
         self.placed(spacing="100")
 
     def test_nodes_are_as_dense_on_both_sides(self):
-        """d in the chart grows by a factor of 100 towards the point of projection. Levels that lost
-        nodes where d grows left 1.3 per cent too few beside the patch."""
+        """Checks the number of nodes by distance from the centre of projection. In the chart d
+        grows 100 times on the way. When levels lost nodes where d grows, there were 1.3 per cent
+        too few nodes beside the patch."""
         nodes, _ = self.placed("--set", "topology_repairs=3", spacing="60")
         places = np.loadtxt(nodes.decode().splitlines(), delimiter=",", skiprows=1)
         header = nodes.decode().split("\n")[0].strip().split(",")
@@ -124,7 +123,8 @@ class WholeSphere(CommandTest):
         self.assertLess(np.abs(per_node / (np.sqrt(3) / 2) - 1).max(), 0.005, per_node)
 
     def test_the_patch_fits_the_others(self):
-        """Beside fixed nodes the least quality was 0.63, and triangles were obtuse."""
+        """Checks that the closing patch fits the other nodes. While they were beside fixed nodes,
+        the least quality was 0.63 and triangles were obtuse."""
         for spacing in ("300", "220"):
             quality = self.placed(spacing=spacing)[1]["quality"]
             self.assertGreater(quality["min"], 0.85)
@@ -140,7 +140,8 @@ class WholeSphere(CommandTest):
         self.assertLess(abs(nodes / 20000 - 1), 0.02)
 
     def test_values_in_files(self):
-        """The d of earlier nodes, as a mesh or at points, leads to the same number of nodes."""
+        """Checks that d of previous nodes, on a mesh or at points, gives the same number of nodes.
+        """
         _, report = self.placed("--output", "before.vtu", "--output", "before.csv")
         for name in ("before.vtu:spacing", "before.csv:spacing"):
             with self.subTest(name):
@@ -149,7 +150,7 @@ class WholeSphere(CommandTest):
                 rows = np.array([[float(x) for x in line.split(b",")] for line in nodes.splitlines()[1:]])
                 expected = 250 + 150 * (rows[:, 2] / np.hypot(rows[:, 1], rows[:, 2]))**2
                 off = np.abs(rows[:, -1] / expected - 1)
-                off = off[np.abs(rows[:, 3]) < 0.9 * RADIUS]  # d jumps at the poles
+                off = off[np.abs(rows[:, 3]) < 0.9 * RADIUS]  # d as a function jumps at the poles
                 self.assertLess(off.max(), 0.05)
                 self.assertLess(off.mean(), 0.004)
 
@@ -213,10 +214,11 @@ class Sphere(CommandTest):
         self.assertFalse((self.folder / "nodes.prj").exists())
         triangles, edges = self.triangles()
         corners = x[triangles]
-        self.assertTrue(np.all(np.linalg.det(corners) > 0))  # counter-clockwise seen from outside
-        # Euler's formula for a sphere with three lands removed, each of which is connected.
+        self.assertTrue(np.all(np.linalg.det(corners) > 0))  # counter-clockwise from outside
+        # Euler's formula for a sphere without three lands, each of which is in one piece.
         self.assertEqual(len(x) - (3 * len(triangles) + len(edges)) // 2 + len(triangles), 2 - 3)
-        # No boundary runs along the meridian of 180 degrees inside the island or Antarctica.
+        # The meridian of 180 degrees must not leave nodes in the middle of the island or of
+        # Antarctica.
         lon, lat = np.degrees(np.arctan2(x[:, 1], x[:, 0])), np.degrees(np.arcsin(x[:, 2] / RADIUS))
         on_it = np.abs(np.abs(lon) - 180) < 1e-6
         self.assertTrue(np.all((lat[on_it] < 8.001) | (lat[on_it] > 21.999)))
@@ -234,7 +236,7 @@ class Sphere(CommandTest):
 
     def test_grids_are_in_degrees(self):
         rows = [" ".join(str(300 + 2 * row + (100 if column < 18 else 0)) for column in range(36))
-                for row in range(18)]  # from the north on
+                for row in range(18)]  # from north to south
         (self.folder / "d.asc").write_text("ncols 36\nnrows 18\nxllcorner -180\nyllcorner -90\n"
                                            "cellsize 10\n" + "\n".join(rows) + "\n")
         x, table, _, _ = self.placed("--spacing-grid", "d.asc", spacing="grid")
@@ -245,8 +247,8 @@ class Sphere(CommandTest):
             np.testing.assert_allclose(table["spacing"][here], 300 + 2 * row[here] + extra, rtol=0.01)
 
     def grid_of_degrees(self, name, value):
-        """Writes a grid of the whole Earth with cells of 5 degrees. Cells where the function
-        returns nan have no data."""
+        """Writes a grid of the whole Earth with cells of 5 degrees. Cells where the function of
+        longitude and latitude is nan have no data."""
         lon, lat = np.meshgrid(np.arange(-177.5, 180, 5), np.arange(87.5, -90, -5))
         values = value(lon, lat)
         rows = "\n".join(" ".join("-1" if np.isnan(v) else repr(float(v)) for v in row) for row in values)
@@ -254,7 +256,8 @@ class Sphere(CommandTest):
                                         f"nodata_value -1\n{rows}\n")
 
     def test_grids_with_gaps(self):
-        """A warning counts nodes in the middle of a gap, and no nodes beside land without data."""
+        """Checks that a warning counts nodes in the middle of a gap, but none beside land without
+        data."""
         self.grid_of_degrees("gap.asc", lambda lon, lat: np.where(abs(lon + 150) + abs(lat) < 20, np.nan, 300))
         _, table, report, err = self.placed("--spacing-grid", "gap.asc", spacing="grid")
         found = re.search(r"the grid 'grid' \(gap.asc\) has gaps in the domain: of (\d+) nodes, (\d+) lie where it has "
@@ -293,8 +296,7 @@ class Sphere(CommandTest):
         whole = 0.5 * np.linalg.norm(np.cross(x[triangles[:, 1]] - x[triangles[:, 0]],
                                               x[triangles[:, 2]] - x[triangles[:, 0]]), axis=1).sum()
         self.assertEqual(report["sphere"]["outside"], [180, 0])
-        # The default point lies outside the domain too.
-        rest = self.placed(coast=coast, spacing="400")[2]
+        rest = self.placed(coast=coast, spacing="400")[2]  # the default centre is outside of it as well
         self.assertLess(whole, 4 * np.pi * RADIUS ** 2 / 5)
         self.assertGreater(rest["nodes"], 100)
 
@@ -308,22 +310,22 @@ class Sphere(CommandTest):
             self.assertEqual(json.loads((self.folder / "ranks.json").read_text())["hash"], one)
 
     def test_borders_of_neighbours(self):
-        """Lines outside the domain are not reported as a missing part of a coast, for example where
-        a continent is cut in two."""
+        """Checks a border between two polygons outside of the domain, as where a continent is cut
+        in two. It does not count as a missing part of the coast."""
         east, west = feature([[168, 8], [180, 8], [180, 22], [170, 25]]), feature([[-180, 8], [-172, 12], [-180, 22]])
         whole = self.placed()[2]
         cut = self.sea(ANTARCTICA, east, west, CONTINENT)
         _, _, report, err = self.placed(coast=cut)
         self.assertLess(abs(report["nodes"] / whole["nodes"] - 1), 0.01)
         self.assertIn("1 segments that neighbouring polygons share were left out", err)
-        # Inside the domain nodes follow the lines.
+        # Nodes follow such a border in the domain.
         x, table, _, err = self.placed(coast=self.sea(east, west), sphere=f"{RADIUS},0,0", spacing="100")
         self.assertNotIn("left out", err)
         inner = (table["tag"] > 0) & (x[:, 0] < 0) & (abs(x[:, 1]) < 1e-6)
         self.assertGreater(inner.sum(), 10)
 
     def test_a_coast_that_is_far_finer(self):
-        """A warning names points, and says if much of the coast is affected."""
+        """Checks that a warning names points, and says whether much of the coast is too fine."""
         rough = feature([[20 * np.cos(a) * (1 + 0.02 * (k % 2)), 20 * np.sin(a) * (1 + 0.02 * (k % 2))]
                          for k, a in enumerate(np.linspace(0, 2 * np.pi, 600, endpoint=False))])
         _, _, report, err = self.placed(coast=self.sea(ANTARCTICA, rough))
@@ -339,7 +341,7 @@ class Sphere(CommandTest):
         _, _, _, err = self.placed(coast=self.sea(line))
         self.assertIn("note: no polygon and no closed line bounds the domain", err)
 
-    # The segment across 180 degrees is the short one, not the one along all other longitudes.
+    # The segment across 180 degrees takes the short way, not the way along all other segments.
     def test_a_coast_on_a_parallel(self):
         for cut in ([], [[180, -74], [180, -90], [-180, -90], [-180, -80]]):
             coast = self.sea(feature([[lon, -74] for lon in range(-180, 180, 5)] + cut), CONTINENT)
@@ -349,7 +351,7 @@ class Sphere(CommandTest):
             triangles, edges = self.triangles()
             self.assertEqual(len(x) - (3 * len(triangles) + len(edges)) // 2 + len(triangles), 2 - 2)
 
-    # The far side is hidden, also where there is no sea.
+    # Checks that pictures hide the far side, also if there is no sea.
     def test_pictures(self):
         self.run_command("--domain", self.sea(), "--sphere", str(RADIUS), "--spacing", "500", "--corner-angle",
                          "20", "--output", "sea.svg")
@@ -368,12 +370,13 @@ class Sphere(CommandTest):
                                  (("--sphere", "1", "--surfaces-only"), "--surfaces-only exclude")):
             self.assertIn(words, self.refuse("--domain", coast, "--spacing", "1", *arguments))
         self.assertIn("--sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--sphere", "1"))
-        # The point of projection lies on this coast, at 6 of 10 degrees along the equator.
+        # The centre of projection at 6 degrees lies on the coast along the equator, from 0 to 10
+        # degrees.
         on_equator = self.sea(feature([[0, 0], [10, 0], [10, 5], [0, 5]]))
         message = self.refuse("--domain", on_equator, "--sphere", f"{RADIUS},6,0", "--spacing", "300")
         self.assertIn("feature 0: vertex ", message)
         self.assertIn("named as outside of the domain lies on the curve", message)
-        # The message gives the point where a coast crosses itself.
+        # The error names the point at which a coast crosses itself.
         crossed = self.sea(feature([[0, 0], [40, 0], [0, 30], [40, 30]]))
         message = self.refuse("--domain", crossed, "--sphere", str(RADIUS), "--spacing", "300")
         self.assertIn("cross at (longitude 19.99999", message)

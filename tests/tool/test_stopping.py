@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of Ctrl-C and similar signals: exit code 130, and no complete, partial or temporary file.
-"""
+"""Tests interruptions, such as by Ctrl-C: exit code 130, and no complete, partial or temporary
+file."""
 
 import os
 import pathlib
@@ -11,7 +11,7 @@ import unittest
 
 from command import INTERRUPTED, LAKE, CommandTest
 
-# Two million nodes take long enough to be interrupted at any point.
+# The run has two million nodes, which takes long enough to be interrupted in any stage.
 LONG_RUN = ("--domain", LAKE, "--spacing", "0.2 + 0*x", "--set", "steps=100000",
             "--output", "a.vtu", "--output", "a.png", "--report", "a.json")
 
@@ -23,8 +23,8 @@ def cpu_seconds(process):
 
 class Stopping(CommandTest):
     def signal_and_wait(self, process, *numbers):
-        """Returns the output after the signals and the CPU seconds until the end. CPU time is used
-        as the machine may be busy."""
+        """Sends signals and waits for the end. Returns the output and the CPU seconds used after
+        the signals. CPU time is used because the machine may be busy."""
         before = cpu_seconds(process)
         for number in numbers:
             os.kill(process.pid, number)
@@ -57,8 +57,8 @@ class Stopping(CommandTest):
         self.stop(signal.SIGINT, 0.6, times=2, most=2)
 
     def test_between_steps(self):
-        # Computing the spacing from the shape of a ball with 81 920 triangles takes longer than
-        # this.
+        # The spacing from the shape of a ball with 81 920 triangles takes longer than the limit
+        # below.
         process = self.start("--domain", "ball(0,0,0,1)", "--spacing", "auto", "-o", "a.csv",
                              environment={"OMP_NUM_THREADS": "1"})
         time.sleep(1)
@@ -74,7 +74,7 @@ class Stopping(CommandTest):
         self.assertEqual(self.files(), ["square.poly"])
 
     def test_while_writing(self):
-        # A pipe that is not read blocks the command in the middle of its output.
+        # A pipe that is not read stops the command in the middle of its output.
         process = self.start("--domain", self.square, "--spacing", "0.01", "-o", "a.csv",
                              "-o", "-", "--format", "csv")
         first = process.stdout.read(1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of the progress bar, which appears on terminals only."""
+"""Tests the progress bar: it appears on terminals only."""
 
 import fcntl
 import os
@@ -16,7 +16,8 @@ RUN = ("--domain", LAKE, "--spacing", "2", "--threads", "1", "--output", "a.csv"
 
 class Terminal(CommandTest):
     def on_terminal(self, *arguments, columns=100, environment=None, stdout=subprocess.PIPE):
-        """Runs the command with standard error on a terminal. Returns what the terminal shows."""
+        """Runs the command with standard error on a terminal. Returns the text that appears there.
+        """
         ours, theirs = pty.openpty()
         fcntl.ioctl(ours, termios.TIOCSWINSZ, struct.pack("HHHH", 25, columns, 0, 0))
         process = self.start(*arguments, stderr=theirs, stdout=theirs if stdout is None else stdout,
@@ -26,7 +27,7 @@ class Terminal(CommandTest):
         while True:
             try:
                 part = os.read(ours, 65536)
-            except OSError:  # Linux reports a closed terminal this way
+            except OSError:  # on Linux, the other side is closed
                 break
             if not part:
                 break
@@ -45,7 +46,7 @@ class Terminal(CommandTest):
             self.assertRegex(line, r"^ *\d+ % (\[=*>? *\] )?step \d+, [\d ]+ nodes, speed ")
             self.assertLess(len(line.replace("\033[K", "")), 100)
         self.assertTrue(any("[" in line for line in lines))
-        # Warnings stay, but the bar is removed.
+        # Warnings remain on the screen, and the bar is removed.
         self.assertTrue(shown.endswith("\r\033[K"))
 
     def test_narrow_terminal(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of bodies with walls much thinner than the spacing: Their elements fill them, or the status
-reports that they do not."""
+"""Tests bodies with walls much thinner than the spacing. Either the elements fill them, or the
+status says that they do not."""
 
 import itertools
 import json
@@ -12,19 +12,20 @@ import numpy
 from builds import exists_if
 from command import DONE, NOT_CONFORMING, SPACING_MISSED, CommandTest
 
-# Quadrilaterals of a box. Bit k of a corner says on which side of axis k it lies.
+# The corners of the quadrilateral sides of a box. The k-th bit of a corner says on which side of
+# axis k it lies.
 BOX_SIDES = (0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)
 
 
 def box(low, high):
-    """Returns corners and outward triangles of a box."""
+    """Returns corners and outward triangles."""
     corners = [[(low, high)[code >> k & 1][k] for k in range(3)] for code in range(8)]
     return corners, [t for a, b, c, d in BOX_SIDES for t in ((a, b, c), (a, c, d))]
 
 
 class ThinBodies(CommandTest):
     def write_off(self, name, bodies, turned=None):
-        """Writes an OFF file. Each body has corners, triangles, and a flag for cavities."""
+        """Writes an OFF file. Each body has corners, triangles, and a flag for a cavity."""
         points, triangles = [], []
         for corners, faces, is_cavity in bodies:
             first = len(points)
@@ -56,7 +57,7 @@ class ThinBodies(CommandTest):
         self.assertLess(report["boundary"]["distance"], 1e-9)
         self.assertLess(report["boundary"]["given_distance"], 1e-9)
         self.assertEqual(report["missing_faces"], 0)
-        self.assertEqual(report["unresolved_places"], 0)  # d is not reduced
+        self.assertEqual(report["unresolved_places"], 0)  # d is as requested
         self.assertTrue(0.7 * nodes < report["nodes"] < 1.3 * nodes, report["nodes"])
 
     def test_plates(self):
@@ -76,7 +77,7 @@ class ThinBodies(CommandTest):
                 self.assert_filled(self.place(name, 1), 60 * thickness, 170)
 
     def test_a_blade(self):
-        """The sides of the wedge meet at an angle of a tenth of a degree."""
+        """Checks a blade, whose sides meet at an angle of a tenth of a degree."""
         corners = [[x, y, z] for x, y, z in itertools.product((0, 6), (0,), (-0.005, 0.005))]
         corners += [[0, 6, 0], [6, 6, 0]]
         triangles = [(0, 2, 1), (1, 2, 3), (0, 1, 4), (2, 5, 3), (0, 4, 2), (2, 4, 5), (1, 3, 4), (3, 5, 4)]
@@ -93,7 +94,7 @@ class ThinBodies(CommandTest):
         self.assertLess(report["nodes"], 600)
 
     def test_gaps(self):
-        """Two bodies are nearer to each other than a tenth of d."""
+        """Checks two bodies at a distance of less than a tenth of d."""
         for gap in 0.002, 0.02, 0.1:
             with self.subTest(gap):
                 lower, upper = box((0, 0, 0), (4, 4, 2)), box((0, 0, 2 + gap), (4, 4, 4))
@@ -105,7 +106,8 @@ class ThinBodies(CommandTest):
         self.assert_filled(self.place(self.write_off("stack.off", plates), 1), 6 * 36 * 0.05, 660)
 
     def test_lost_volume_has_a_status(self):
-        """A fin is a third of d thick at its foot. Tetrahedra fill too much or too little of it."""
+        """Checks a fin that is a third of d thick at its foot. The tetrahedra fill too much or too
+        little of it."""
         low, high = 0.45, 0.55
         outline = [(0, 0), (1, 0), (1, low), (2, (1 + 2 * low) / 4), (2, (1 + 2 * high) / 4), (1, high), (1, 1),
                    (0, 1), (0, high), (0, low)]
@@ -118,7 +120,7 @@ class ThinBodies(CommandTest):
         lost = report["volume"]["domain"] - report["volume"]["elements"]
         self.assertGreater(abs(lost), 0.005 * report["volume"]["domain"])
         self.assertEqual(report["status"], NOT_CONFORMING - 2)
-        report = self.place(name, 0.3, code=SPACING_MISSED)  # edges on the fin are shorter
+        report = self.place(name, 0.3, code=SPACING_MISSED)  # edges on the fin are shorter than d
         self.assertAlmostEqual(report["volume"]["elements"], report["volume"]["domain"], delta=1e-9)
 
     @exists_if("PNPBS_MPIEXEC" in os.environ)

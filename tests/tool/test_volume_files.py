@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of files of volumes with third-party readers, alone and on several ranks."""
+"""Tests files of volumes, by readers of others, alone and over ranks."""
 
 import os
 import pathlib
@@ -25,7 +25,7 @@ FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # faces of a tetrahedron s
 
 
 def cells_of(grid, kind, corners):
-    """Returns the corners of the cells, which must be of one kind."""
+    """Returns the corners of the cells, which must all be of one kind."""
     assert {grid.GetCellType(i) for i in range(grid.GetNumberOfCells())} <= {kind}
     return vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, corners)
 
@@ -53,7 +53,7 @@ def areas(points, triangles):
 
 
 def tetrahedron_quality(points, tetrahedra):
-    """Returns 3 r_in / R by the product of opposite edges."""
+    """Returns the quality 3 r_in / R, by the products of opposite edges."""
     x = points[tetrahedra]
     length = lambda i, j: numpy.linalg.norm(x[:, i] - x[:, j], axis=1)
     p, q, r = (length(0, i) * length(j, k) for i, j, k in ((1, 2, 3), (2, 1, 3), (3, 1, 2)))
@@ -64,14 +64,14 @@ def tetrahedron_quality(points, tetrahedra):
 
 
 def turned(rows):
-    """Returns the rows rotated so that the least entry is first, in sorted order."""
+    """Returns the rows in sorted order, each rotated such that its smallest entry is first."""
     first = rows.argmin(axis=1)
     rows = numpy.stack([rows[numpy.arange(len(rows)), (first + k) % 3] for k in range(3)], axis=1)
     return rows[numpy.lexsort(rows.T[::-1])]
 
 
 def open_faces(tetrahedra):
-    """Returns the faces that belong to only one tetrahedron."""
+    """Returns the faces that only one tetrahedron has."""
     faces = numpy.concatenate([tetrahedra[:, face] for face in FACES])
     _, index, count = numpy.unique(numpy.sort(faces, axis=1), axis=0, return_index=True,
                                    return_counts=True)
@@ -193,7 +193,7 @@ class Alone(VolumeTest):
     def test_ball(self):
         self.place("ball", 0.06)
         self.assertEqual(set(self.tags), {7})
-        edge = 0.06  # the triangles cut off this part of a ball
+        edge = 0.06  # upper bound for the part that chords cut off a ball
         ball, sphere = numpy.pi / 6, numpy.pi
         volume = volumes(self.points, self.tetrahedra).sum()
         self.assertTrue(ball - 0.3 * sphere * edge**2 < volume < ball)
@@ -214,7 +214,7 @@ class NodesOnly(VolumeTest):
 
 
 class OutputFields(VolumeTest):
-    """User fields, which write_volumes computes from the positions of nodes."""
+    """Fields of the caller, which write_volumes computes from the positions."""
 
     COMPONENTS = {"u-1": 1, "Flow_2": 2, "moved": 3, "stress": 6}
 
@@ -225,7 +225,7 @@ class OutputFields(VolumeTest):
     def check(self, grid, points, point_data):
         for name, values in self.expected(points).items():
             found = point_data(grid, name)
-            if values.ndim == 2:  # VTK reads a plane vector in XDMF as one in space
+            if values.ndim == 2:  # VTK's reader of XDMF extends plane vectors to space
                 self.assertFalse(found[:, values.shape[1]:].any())
                 found = found[:, : values.shape[1]]
             numpy.testing.assert_array_equal(found, values, name)
@@ -236,15 +236,15 @@ class OutputFields(VolumeTest):
         self.assertEqual(point_array(grid, "vtkGhostType").max() if "_" in name else 0,
                          1 if "_" in name else 0)
 
-    # Rows contain node numbers, which follow the ids like the points of the .vtu file. They are in
-    # the order of the nodes in the file.
+    # Checks that rows have the numbers of nodes and are in the order of the nodes in the file. The
+    # numbers follow the ids, like the points of the .vtu file.
     def check_msh(self, name, points, order):
         lines = (self.folder / name).read_text().splitlines()
         for field, values in self.expected(points).items():
             at = lines.index(f'"{field}"')
             self.assertEqual(lines[at - 2 : at], ["$NodeData", "1"])
             count = self.COMPONENTS[field]
-            # Vectors and tensors in Gmsh's format have three dimensions.
+            # Gmsh's vectors and tensors have the components of space.
             written = 1 if count == 1 else 3 if count <= 3 else 9
             self.assertEqual(lines[at + 1 : at + 7],
                              ["1", "0", "3", "0", str(written), str(len(points))])
@@ -324,8 +324,7 @@ class OverRanks(VolumeTest):
             self.assertEqual(self.by_ids(pieces), self.by_ids([(grid, facets)]))
 
     def by_ids(self, pieces):
-        """Returns owned nodes and all cells as sets that do not depend on the numbering in the
-        files."""
+        """Returns owned nodes and all cells as sets that do not depend on indices in the files."""
         found = [[], [], []]
         for grid, facets in pieces:
             ids = point_array(grid, "id")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests that waiting threads sleep after a short time, or at once if there are more threads than
-cores."""
+"""Tests that threads sleep while they wait for each other: after a short time, or at once if there
+are more threads than cores."""
 
 import os
 import pathlib
@@ -14,16 +14,15 @@ CORES = len(os.sched_getaffinity(0))
 
 
 def wait_policy(*arguments, **variables):
-    """Returns the variables in the command's environment while it waits for a domain from standard
-    input."""
+    """Returns the wait policy in the environment of the command, while it waits for a domain on
+    standard input."""
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMP_", "GOMP_", "OMPI_", "KOKKOS_"))}
     process = subprocess.Popen([COMMAND, "--domain", "-", "--spacing", "1", *arguments],
                                stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL, env={**environment, **variables})
     try:
-        # More than a pipe holds, so the command reads by then.
-        process.stdin.write(20000 * b"# nothing\n")
+        process.stdin.write(20000 * b"# nothing\n")  # more than a pipe can hold
         process.stdin.flush()
         found = pathlib.Path(f"/proc/{process.pid}/environ").read_bytes().split(b"\0")
     finally:

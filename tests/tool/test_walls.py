@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of --nodes-at walls: particles in layers around the domain, which match those inside."""
+"""Tests --nodes-at walls: particles in layers around the domain, in addition to those inside."""
 
 import json
 import math
@@ -20,7 +20,7 @@ def points_of(table):
 
 
 def gap_to_square(x):
-    """Returns the distance from the unit square for points around it."""
+    """Returns the distance from outer points to the unit square."""
     return numpy.linalg.norm(x - numpy.clip(x, 0, 1), axis=1)
 
 
@@ -56,14 +56,15 @@ class Walls(CommandTest):
             gap = gap_to_square(points_of(wall)) / d
             self.assertAlmostEqual(gap.min(), 0.42, delta=0.01)
             self.assertAlmostEqual(gap.max(), layers - 1 + 0.42, delta=0.01)
-            # Particles with the tag form the first and the last layer. A few were pushed off the
+            # Particles of the first and of the last layer have the tag. A few were pushed off the
             # wall.
             below = numpy.minimum(gap - 0.42, layers - 1 + 0.42 - gap)
             tagged = wall["tag"] == 1
             self.assertTrue(tagged[below < 0.01].all())
             self.assertLess(below[tagged].max(), 0.15)
             self.assertLess(numpy.count_nonzero(below[tagged] > 0.01), 0.05 * len(gap))
-            # The area consists of straight sides and quarters of a disc at the corners.
+            # The area consists of strips along straight sides and of quarters of a disc at the
+            # corners.
             thickness = (layers - 1 + 0.84) * d
             area = 4 * thickness + math.pi * thickness ** 2
             self.assertAlmostEqual(math.fsum(wall["volume"]), area, delta=1e-3 * area)

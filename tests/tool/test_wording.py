@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests that the command depends on the codes of warnings and errors and never on their text.
-
-With libraries whose messages have no words (wording.cpp) it ends, warns and advises as with the
-normal ones."""
+"""Tests that the command acts on the codes of warnings and errors and not on their texts. With
+libraries whose messages have no words (wording.cpp), it ends, warns and advises as with the real
+ones."""
 
 import json
 import os
@@ -31,8 +30,8 @@ class Wording(CommandTest):
         return path
 
     def same(self, *arguments, code):
-        """Runs the command with both libraries. Returns the messages with the normal and the
-        wordless one."""
+        """Runs the command with both libraries. Returns the messages with the real one and with the
+        one without words."""
         told = []
         for environment in {}, WORDLESS:
             _, err = self.run_command(*arguments, code=code, environment=environment)

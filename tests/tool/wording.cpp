@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces base/message_wording.cpp: All letters of messages become x, except those of points. This
-// must not change the command's behaviour (test_wording.py).
+// Replaces base/message_wording.cpp in a variant of the library: all letters of messages become x,
+// except those of points. The behaviour of the command must not change (test_wording.py).
 #include <cctype>
 
 #include "base/message_text.hpp"

@@ -2,10 +2,12 @@
  *
  * Places nodes in a volume and writes the given files, for test_volume_files.py. The volume is a
  * box of 1 x 0.8 x 0.6 whose sides have the tags 1 to 6 (low x, high x, low y, ...), or a ball of
- * radius 0.5 around (1, 2, 3) with the tag 7. It runs alone or on several ranks.
+ * radius 0.5 around (1, 2, 3) with the tag 7. The program runs alone or over ranks.
+ *
  *   write_volumes box|ball d elements(0|1|2) file ...
- * With elements = 2 it also writes fields of 1, 2, 3 and 6 components, which are computed from the
- * positions of nodes. */
+ *
+ * With elements = 2 the files also have fields of 1, 2, 3 and 6 components, computed from the
+ * positions of the nodes. */
 #include <pnpbs/pnpbs.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,7 +38,7 @@ static pnpbs_context begin(int* argc, char*** argv) {
   return context;
 }
 
-/* Adds the box. Bits 0, 1, 2 of a corner's number are set where it lies high in x, y, z. */
+/* Adds the box. Corner c lies at the high end of x, y or z if bit 0, 1 or 2 of c is set. */
 static void add_tagged_box(pnpbs_domain domain) {
   const int64_t corners[] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
                              2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
@@ -51,7 +53,8 @@ static void add_tagged_box(pnpbs_domain domain) {
   must(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 8, vertices, 12, corners, tags, 40), "box");
 }
 
-/* Adds fields whose components are x, y, z and then their squares. */
+/* Adds fields. Their components are x, y, z and then the squares of these, as many as the field
+ * has. */
 static void add_fields(pnpbs_placement placement) {
   static const char* const names[] = {"u-1", "Flow_2", "moved", "stress"};
   static const int32_t components[] = {1, 2, 3, 6};

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stand-in for Spack that reads a recipe and records its directives."""
+"""Stand-in for Spack: reads a recipe and stores the arguments of its directives."""
 
 import contextlib
 import re
@@ -8,7 +8,7 @@ import types
 
 
 class Recipe:
-    """The class of a package.py, and its directives in order."""
+    """The contents of a package.py: its class, and its directives in order."""
 
     def __init__(self, path):
         self.variants, self.versions, self.dependencies, self.conflicts = {}, {}, [], []
@@ -26,8 +26,7 @@ class Recipe:
         sys.modules.update(modules)
         try:
             names = {"__name__": "package"}
-            # The recipe is part of this repository.
-            exec(compile(path.read_text(), str(path), "exec"), names)
+            exec(compile(path.read_text(), str(path), "exec"), names)  # our own recipe
         finally:
             sys.modules.clear()
             sys.modules.update(before)
@@ -61,7 +60,7 @@ class Recipe:
         self.conditions.pop()
 
     def cmake_args(self, variants):
-        """Returns the options passed to CMake with these variants as {option: value}."""
+        """Returns the options for CMake, {option: value}, with these variants."""
         package = self.package()
         package.variants = variants
         package.spec = {re.match(r"[\w-]+", spec)[0]: types.SimpleNamespace(prefix="/somewhere")
@@ -74,7 +73,7 @@ class Recipe:
 
 
 class Package:
-    """Base class with the methods that a recipe's class calls."""
+    """The base class of a recipe's class, with the methods that it calls."""
 
     def define(self, option, value):
         if isinstance(value, bool):

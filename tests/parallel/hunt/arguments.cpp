@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Parses the arguments of the command line and of the file of kept cases.
+
 #include "arguments.hpp"
 
 #include <cstdlib>

@@ -17,12 +17,12 @@ struct Arguments {
   std::uint64_t first = 0, last = 0;   // case numbers; last is excluded
   double seconds = 0;                  // no further case begins after this time; 0: no limit
   std::optional<Configuration> group;  // replaces the random groups
-  std::vector<int> threads;            // of the ranks after the reference
+  std::vector<int> threads;            // one number for each rank after the reference
   Settings extra;                      // options of all groups except the reference
   std::string kept;                    // file of kept cases
   std::string dump;                    // folder to which cases are written
   bool shrinks = false, expects_differences = false, tells_all = false;
-  std::string error;  // in the arguments themselves
+  std::string error;  // error in the arguments themselves; empty if there is none
 };
 
 /** Parses arguments, which override `defaults`. */

@@ -34,7 +34,7 @@ std::array<Point, 3> random_rotation(Random& random, int dim) {
 
 bool may_turn(const Body& body) { return body.boxes.empty() && body.cylinders.empty(); }
 
-// Removes triangles, which makes a closed surface open.
+// Removes triangles, so that a closed surface becomes open.
 void cut_open(Random& random, Mesh& mesh) {
   const auto all = static_cast<double>(mesh.triangles.size());
   const auto kept = static_cast<std::size_t>(all * random.between(0.5, 0.95));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Adds bodies to domains and evaluates their level sets; measures, scales and refines meshes.
+
 #include "body.hpp"
 
 #include <algorithm>

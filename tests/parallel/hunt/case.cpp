@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Builds a case from its specification: from a file, from explicit values or by random choices.
+
 #include "case.hpp"
 
 #include <cmath>

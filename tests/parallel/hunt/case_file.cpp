@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Writes and reads cases as text files.
+
 #include "case_file.hpp"
 
 #include <cstdlib>
@@ -84,7 +86,7 @@ class CaseWriter {
         line("", mesh.triangles[t]);
   }
 
-  // A spacing uses the frame of the body.
+  // A spacing uses the frame of the body, so the frame is not written here.
   void write_spacing(const char* key, const Spacing& spacing) {
     line(key, spacing.name(), spacing.base, spacing.slope, spacing.from, spacing.directions,
          spacing.width, spacing.factor);

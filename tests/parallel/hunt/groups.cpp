@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Runs one case on all groups of MPI_COMM_WORLD and compares their results with the reference.
+
 #include "groups.hpp"
 
 #include <algorithm>
@@ -57,7 +59,7 @@ std::vector<Configuration> random_groups(Random& random, int ranks) {
   std::vector<Configuration> groups;
   for (int left = ranks; left > 0;) {
     int size = random.pick(1, std::min(left, 8));
-    // Single ranks test threads and serial contexts only, so they are rarer.
+    // A group of one rank tests only threads and serial contexts, so such groups are rarer.
     if (size == 1 && left > 1 && random.chance(0.7)) size = 2;
     groups.push_back(random_configuration(random, size));
     left -= size;

@@ -231,7 +231,7 @@ class Hunt {
   unsigned long long held_down_ = 0, not_conforming_ = 0;  // first runs, on rank 0
 };
 
-// The default seed is the date, which may change between the ranks.
+// Broadcasts the seed of rank 0. The default seed is the date, which may differ between ranks.
 void agree_on_seed(Arguments& arguments) {
   MPI_Bcast(&arguments.spec.seed, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
 }

@@ -31,7 +31,7 @@ class Random {
   bool chance(double share) { return unit() < share; }
 
  private:
-  // The finaliser of SplitMix64.
+  // Applies the finalizer of SplitMix64.
   static std::uint64_t mixed(std::uint64_t z) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;

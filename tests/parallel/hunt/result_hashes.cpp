@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Computes hashes of the results of a placement, independent of order and owners.
+
 #include "result_hashes.hpp"
 
 #include <algorithm>
@@ -25,7 +27,7 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-// The nodes of this rank, then its ghosts.
+// The owned nodes of this rank, followed by its ghosts.
 struct Nodes {
   std::int32_t dim = 0;
   std::int64_t own = 0, ghosts = 0;
@@ -100,7 +102,8 @@ pnpbs_status sum_of_lists(pnpbs_placement placement, const Nodes& nodes, Sum& su
   return PNPBS_OK;
 }
 
-// In the plane, neighbours are in cyclic order from the smallest id; in space, in the order of ids.
+// Hashes the stars. In the plane, neighbours are in cyclic order from the smallest id; in space, in
+// the order of ids.
 pnpbs_status sum_of_stars(pnpbs_placement placement, const Nodes& nodes, Sum& sum) {
   std::int64_t size = 0;
   HUNT_TRY(pnpbs_placement_star_size(placement, &size));
@@ -127,7 +130,8 @@ pnpbs_status sum_of_stars(pnpbs_placement placement, const Nodes& nodes, Sum& su
   return PNPBS_OK;
 }
 
-// Triangles are rotated to begin with the smallest id; corners of tetrahedra are sorted by id.
+// Hashes elements by the ids of their corners. Triangles are rotated to begin with the smallest id,
+// and corners of tetrahedra are sorted by id.
 Sum sum_of_elements(const Nodes& nodes, std::vector<std::int64_t>& corners, std::int64_t count,
                     int each, const std::vector<std::int32_t>& tags) {
   Sum sum = 0;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Collects the results of a run as text and compares two sets of results.
+
 #include "results.hpp"
 
 #include <cstdint>

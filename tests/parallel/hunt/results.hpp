@@ -14,8 +14,8 @@ namespace hunt {
 
 using Results = std::vector<std::pair<std::string, std::string>>;
 
-/** The name of an error's text. It is the same on all ranks of a run, but may name a rank and the
- * first error found there, so it is not compared between runs. */
+/* Name of the entry with the text of an error. The text is the same on all ranks of a run, but may
+ * name a rank and the first error found there, so it is not compared between runs. */
 constexpr const char* kMessage = "message";
 
 /** Adds the current results of the placement with this prefix. Returns false if ranks of the

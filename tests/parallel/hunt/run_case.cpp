@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Runs a case: creates the placement with the options of the case and its configuration, makes the
+// calls, and collects the results after each.
+
 #include "run_case.hpp"
 
 #include <pnpbs/pnpbs_mpi.h>
@@ -42,7 +45,7 @@ class Run {
 
   bool set_options() {
     Settings all = job_.options;
-    all.emplace_back("max_nodes", "4000");  // cases are small
+    all.emplace_back("max_nodes", "4000");  // a limit, as cases are small
     all.emplace_back("metis_seed", std::to_string(configuration_.metis_seed));
     if (configuration_.interval > 0)
       all.emplace_back("exchange_interval", std::to_string(configuration_.interval));
@@ -55,7 +58,8 @@ class Run {
     return went_well(status, "options");
   }
 
-  // An error here also occurs in the next call, which the reference makes as well.
+  // An error here also occurs in the next call, which the reference makes as well. So the status is
+  // not compared.
   void rebalance() {
     if (configuration_.rebalances) pnpbs_placement_rebalance(placement_);
   }

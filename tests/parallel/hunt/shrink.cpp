@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tries reductions of a failing case one after the other and keeps those with which it still fails.
+
 #include "shrink.hpp"
 
 #include "watchdog.hpp"
@@ -7,7 +9,7 @@ namespace hunt {
 
 namespace {
 
-// Replaces the failure by the trial if that fails as well.
+// Runs the trial. Replaces the failure by it, and returns true, if it fails as well.
 bool still_fails(Failure& failure, Failure trial, const Settings& extra) {
   watch(label_of(trial.spec) + ", shrunk", "");
   const Comparison made = compare(make_case(trial.spec), {trial.configuration}, extra);

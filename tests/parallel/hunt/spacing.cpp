@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Evaluates the random spacings, chooses their parameters and passes them to a placement.
+
 #include "spacing.hpp"
 
 #include <cmath>
@@ -14,7 +16,7 @@ std::int32_t spacing_at(std::int64_t n, std::int32_t dim, const double* x, doubl
   return 0;
 }
 
-// Returns a point of the body or near it.
+// Returns a point of the body or near it, in the frame of the body.
 Point point_near(Random& random, const Body& body) {
   Point at{};
   if (!body.meshes.empty()) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Reports the running case on standard error by an alarm signal.
+
 #include "watchdog.hpp"
 
 #include <unistd.h>
@@ -13,7 +15,7 @@ namespace {
 
 constexpr unsigned kSeconds = 60;
 
-// The signal handler reads these buffers, so their memory must not move.
+// The signal handler reads these buffers, so they are arrays of fixed size.
 char job_text[200], what_text[200];
 
 void put(const char* text) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Stands in for Yggdrasil's file of this name.
+# Stand-in for Yggdrasil's file of this name.
 module MPI
 import BinaryBuilder
 const augment = "augment_mpi!(platform) = platform"

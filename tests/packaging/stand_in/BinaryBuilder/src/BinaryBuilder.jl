@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Stands in for Yggdrasil's BinaryBuilder: takes what a recipe says and tells it, a line each.
+# Stand-in for Yggdrasil's BinaryBuilder: prints the arguments of a recipe, one line each.
 module BinaryBuilder
 
 export ArchiveSource, Dependency, LibraryProduct, build_tarballs, libc, nbits, supported_platforms
@@ -50,7 +50,7 @@ function build_tarballs(arguments, name::String, version::VersionNumber,
     for dependency in dependencies
         println("dependency: ", dependency.name)
     end
-    # The code that every installed package runs must at least parse.
+    # Every installed package runs this code, so it must at least parse.
     Meta.parse("begin\n" * augment_platform_block * "\nend")
 end
 
