@@ -77,8 +77,8 @@ class ShapeSpacing(CommandTest):
                 np.testing.assert_allclose(d, at_rim + GROWTH * inwards, rtol=2e-3)
 
     def test_curvature_of_two_circles(self):
-        """Checks the distance to the two boundaries of a ring, the smaller of them for half the
-        spacing, and a factor before it."""
+        """Checks the curvature of the two boundary circles of a ring, of which the smaller one asks
+        for half the spacing of the larger one, with a factor before the formula."""
         angles = np.arange(240) * 2 * np.pi / 240
         unit = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         domain = self.write_polygons(2 * unit, unit, hole=(0, 0))
