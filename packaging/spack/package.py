@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Spack's recipe. Not run yet: see the state in packaging/README.md."""
+"""Spack's recipe. Not run yet: packaging/README.md tells its state."""
 
 from spack_repo.builtin.build_systems.cmake import CMakePackage
 
@@ -10,7 +10,7 @@ class Pnpbs(CMakePackage):
     """Places the nodes of finite element meshes and meshless methods in parallel, by bubble
     simulation, behind a C interface with a Fortran module."""
 
-    # To be filled in for the first release, as there is no address or archive yet.
+    # To be filled in for the first release: no address and no archive exists yet.
     homepage = "https://pnpbs.invalid"
     url = "https://pnpbs.invalid/releases/pnpbs-0.2.0.tar.gz"
     git = "https://pnpbs.invalid/pnpbs.git"
@@ -34,8 +34,8 @@ class Pnpbs(CMakePackage):
     depends_on("cmake@3.22:", type="build")
     depends_on("pkgconfig", type="build", when="+cli")
 
-    # A shared Kokkos belongs to the process. A static one is hidden inside the library and must be
-    # position-independent.
+    # A shared Kokkos is the process's own; a static one is hidden inside, and must be
+    # position-independent for that.
     depends_on("kokkos@4.5:5 cxxstd=20")
     depends_on("kokkos+openmp", when="+openmp")
     depends_on("kokkos+serial", when="~openmp")
@@ -46,14 +46,13 @@ class Pnpbs(CMakePackage):
     depends_on("mpi@3:", when="+mpi")
     depends_on("metis@5:", when="+mpi")
 
-    # These are not linked but opened at run time. As link dependencies they are in the library's
-    # run path. A build without MPI does not accept a parallel HDF5. zlib unpacks .vtu files of
-    # background meshes.
+    # Neither is linked, but opened at run time: as link dependencies they are in the library's run
+    # path. A build without MPI takes no parallel HDF5; zlib unpacks .vtu files of background meshes.
     depends_on("hdf5@1.10:+shared", when="+hdf5 +mpi")
     depends_on("hdf5@1.10:+shared~mpi", when="+hdf5 ~mpi")
     depends_on("zlib-api")
 
-    # GDAL brings PROJ, with which it projects.
+    # PROJ comes with GDAL, which projects by it.
     depends_on("gdal@3.2:", when="+geo")
 
     with when("+cli"):
@@ -63,7 +62,7 @@ class Pnpbs(CMakePackage):
         depends_on("cairo")
 
     def cmake_args(self):
-        # Spack's compiler wrappers select the processor, so PNPBS_ARCH stays empty.
+        # Spack's compiler wrappers choose the processor, so PNPBS_ARCH stays empty.
         return [
             self.define("PNPBS_PROCESSOR_LEVELS", False),
             self.define("Kokkos_ROOT", self.spec["kokkos"].prefix),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Yggdrasil's recipe for PNPBS_jll. Not run yet: see the state in packaging/README.md. In Yggdrasil
-# this file belongs to P/PNPBS; `julia build_tarballs.jl --help` prints its arguments.
+# Yggdrasil's recipe for PNPBS_jll. Not run yet: packaging/README.md tells its state.
+# In Yggdrasil this file lies in P/PNPBS; `julia build_tarballs.jl --help` tells its arguments.
 using BinaryBuilder, Pkg
 
 const YGGDRASIL_DIR = "../.."
@@ -9,10 +9,9 @@ include(joinpath(YGGDRASIL_DIR, "platforms", "mpi.jl"))
 name = "PNPBS"
 version = v"0.2.0"
 
-# Kokkos_jll is older than the required version 4.5, so Kokkos is built here and hidden inside the
-# library.
+# Kokkos_jll is older than PNPBS needs (4.5), so Kokkos is built here and hidden inside the library.
 sources = [
-    # To be filled in for the first release, as there is no address or archive yet.
+    # To be filled in for the first release: no address and no archive exists yet.
     ArchiveSource("https://pnpbs.invalid/releases/pnpbs-$(version).tar.gz",
                   "0000000000000000000000000000000000000000000000000000000000000000"),
     ArchiveSource("https://github.com/kokkos/kokkos/releases/download/4.7.00/kokkos-4.7.00.tar.gz",

@@ -101,8 +101,8 @@ def by_jigsaw(command, sweeps, case, scale, folder):
 
 
 def spacing_grid(case, scale):
-    """Returns the text of a grid with steps of half a degree. JIGSAW interpolates d linearly between
-    its points."""
+    """Returns the text of a grid with steps of half a degree. JIGSAW interpolates d linearly
+    between its points."""
     lon, lat = np.linspace(-math.pi, math.pi, 721), np.linspace(-math.pi / 2, math.pi / 2, 361)
     a, b = np.meshgrid(lon, lat, indexing="ij")
     x = np.stack([np.cos(b) * np.cos(a), np.cos(b) * np.sin(a), np.sin(b)], axis=-1).reshape(-1, 3)

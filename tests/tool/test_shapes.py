@@ -127,8 +127,8 @@ class Shapes(ShapesTest):
         self.assertLess(np.ptp(x[table["tag"] == 2][:, 0]), 8)
 
     def test_what_is_left_out_of_a_coast(self):
-        """Checks a coast whose lines do not close, and an island. Only the island would be meshed,
-        so there is a warning."""
+        """A coast whose lines do not close, with an island. Only the island is meshed,
+        and the exit code and a warning tell that the rest is left out."""
         island = feature("Polygon", [closed([[18.8, 54.4], [19.2, 54.4], [19.2, 54.6]])], name="i")
         coast = feature("LineString", SQUARE[:4], name="coast")
         ask = ("--spacing", "5", "--unit", "km", "--tag-field", "name", "-o", "nodes.csv",

@@ -154,8 +154,8 @@ def gaps(case):
 
 
 def way_ahead(origin, ahead, own, pieces, inward):
-    """Returns the distance along a ray to the nearest of all pieces if this piece faces the ray, else
-    infinity."""
+    """Returns the distance along a ray to the nearest of all pieces if this piece faces the ray,
+    else infinity."""
     a, sides = pieces[:, 0], pieces[:, 1:] - pieces[:, :1]
     matrix = np.concatenate([sides, np.broadcast_to(-ahead, (len(pieces), 1, len(ahead)))], 1)
     with np.errstate(divide="ignore", invalid="ignore"):
