@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes README.md's tables of all cases against every other tool, between two comments, from the
-pages of the comparisons in the plane and in space. The test docs_peers compares them.
-
+"""Writes the tables of all cases against every other tool into docs/comparison_summary.md, between two comments,
+from the pages of the comparisons in the plane and in space. The test docs_peers compares them.
 usage: peer_tables.py [<folder of the sources>]"""
 
 import pathlib
@@ -10,6 +9,7 @@ import re
 import sys
 from typing import NamedTuple
 
+SUMMARY = "docs/comparison_summary.md"
 BEGIN, END = "<!-- peer tables: written by scripts/peer_tables.py -->", "<!-- end of the peer tables -->"
 QUALITY = "quality: mean / 99 % above / least"
 
@@ -145,16 +145,16 @@ def parts(text):
     """Splits README.md into the text before, between and after the two comments, which belong to
     the middle part."""
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise Unknown(f"README.md must have '{BEGIN}' and '{END}' once each, in this order")
+        raise Unknown(f"{SUMMARY} must have '{BEGIN}' and '{END}' once each, in this order")
     end = text.index(END) + len(END)
     return text[:text.index(BEGIN)], text[text.index(BEGIN):end], text[end:]
 
 
 def main(arguments):
     root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parents[1]
-    readme = root / "README.md"
-    before, _, behind = parts(readme.read_text(encoding="utf-8"))
-    readme.write_text(before + block(root) + behind, encoding="utf-8")
+    summary = root / SUMMARY
+    before, _, behind = parts(summary.read_text(encoding="utf-8"))
+    summary.write_text(before + block(root) + behind, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""README.md's tables of all cases against every other tool are those that the pages of the comparisons
-give: scripts/peer_tables.py writes them.
+"""The tables of all cases against every other tool in docs/comparison_summary.md are those that the pages of the
+comparisons give: scripts/peer_tables.py writes them.
 usage: check_peers.py <folder> [--self-test]"""
 
 import pathlib
@@ -18,15 +18,15 @@ def faults(root):
     """What is wrong, a line each."""
     try:
         wanted = peer_tables.block(root).splitlines()
-        written = peer_tables.parts((root / "README.md").read_text(encoding="utf-8"))[1].splitlines()
+        written = peer_tables.parts((root / peer_tables.SUMMARY).read_text(encoding="utf-8"))[1].splitlines()
     except peer_tables.Unknown as unknown:
         yield str(unknown)
         return
     for one, other in zip(wanted, written):
         if one != other:
-            yield f"README.md has\n  {other}\nwhere the pages give\n  {one}"
+            yield f"{peer_tables.SUMMARY} has\n  {other}\nwhere the pages give\n  {one}"
     if len(wanted) != len(written):
-        yield f"README.md has {len(written)} lines of peer tables, where the pages give {len(wanted)}"
+        yield f"{peer_tables.SUMMARY} has {len(written)} lines of peer tables, where the pages give {len(wanted)}"
 
 
 def page(path, titles, rows):
@@ -57,21 +57,21 @@ def self_test():
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)
         (root / "docs").mkdir()
-        readme, pages = root / "README.md", [root / path for path in peer_tables.PAGES]
-        readme.write_text(f"before\n{peer_tables.BEGIN}\n{peer_tables.END}\nbehind\n")
+        summary, pages = root / peer_tables.SUMMARY, [root / path for path in peer_tables.PAGES]
+        summary.write_text(f"before\n{peer_tables.BEGIN}\n{peer_tables.END}\nbehind\n")
         for path, text in zip(pages, (plane, space)):
             path.write_text(text)
         empty = main([name])
         peer_tables.main([name])
-        written = readme.read_text()
+        written = summary.read_text()
         rows = set(written.splitlines())
         if not expected <= rows or not written.startswith("before\n<") or not written.endswith(">\nbehind\n"):
             sys.exit(f"the tables are wrong: {expected - rows} is not in {written}")
         if (empty, main([name])) != (1, 0):
             sys.exit("the check passes before the tables are written, or fails after that")
         for path, old, new, told in (
-                (readme, "9.9 |", "9.8 |", "README.md has\n  | square, even | **112** | 60 | 9.8 |"),
-                (readme, peer_tables.END, "", "README.md must have"),
+                (summary, "9.9 |", "9.8 |", f"{peer_tables.SUMMARY} has\n  | square, even | **112** | 60 | 9.8 |"),
+                (summary, peer_tables.END, "", f"{peer_tables.SUMMARY} must have"),
                 (pages[0], "0.9114", "0.9314", "give\n  | square, even | **0.9860** / **0.9314** / 0.8056"),
                 (pages[0], "Annulus", "Torus", "docs/comparison.md: no name for the case 'Torus, uniform'"),
                 (pages[1], "PNPBS, default", "PNPBS", "docs/comparison_volumes.md: no row of PNPBS, default"),
