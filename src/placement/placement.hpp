@@ -90,8 +90,8 @@ class Placement {
   }
 
  protected:
-  // Returns whether the results show the level that the schedule belongs to. While a level is being
-  // built they may show an intermediate one.
+  // Returns whether the results show the level that the schedule belongs to. During the
+  // construction of a level they may show an intermediate one.
   virtual bool shows_its_level() const = 0;
   std::int64_t global_count() const { return results().global_count(); }  // collective
   // Throws Error(ErrorKind::argument) on all ranks if the options differ between ranks. Collective.

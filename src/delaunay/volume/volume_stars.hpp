@@ -171,7 +171,7 @@ class VolumeStars {
   struct Star {
     std::int32_t neighbours;
     bool closed, wide;
-    const std::int32_t *first, *last;  // After the header.
+    const std::int32_t *first, *last;  // The row behind its header.
   };
   Star star_of(std::int64_t i) const {
     const std::span<const std::int32_t> row = rows_.row(i);
