@@ -132,7 +132,7 @@ class VolumeStars {
   // Frees the stars of the kChunk nodes from c * kChunk on.
   void drop_chunk(std::int64_t c) { rows_.drop_chunk(c); }
 
-  // Returns whether the star of node i has been requested and not been doubted since.
+  // Returns whether the star of node i has been found and not been marked as doubtful since.
   bool found(std::int64_t i) const {
     return found_.empty() || found_[static_cast<std::size_t>(i)] != 0;
   }
