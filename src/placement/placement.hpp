@@ -75,9 +75,9 @@ class Placement {
   virtual double volume_of_domain() const = 0;
   virtual BoundaryDistance boundary_distance() = 0;
   virtual std::int64_t unresolved_places() const = 0;
-  // Returns the number of nodes that was expected when d was last reduced at unresolved places.
+  // Returns the number of nodes that was expected when d was last reduced at unresolved points.
   virtual std::int64_t unresolved_nodes() const = 0;
-  // Returns the smallest d at unresolved places before it was reduced.
+  // Returns the smallest d at unresolved points before it was reduced.
   virtual double unresolved_spacing() const = 0;
   // Returns the distances of the repaired surface of a body in space, or zeros for other domains.
   virtual RepairDistances repair_distances() const = 0;

@@ -76,7 +76,7 @@ class VolumeStar {
   bool may_matter_in(const Box<3>& box) const;
 
   // Takes the elements for which keep(corners) holds, where `corners` are three candidates, and
-  // numbers their corners. Known elements have been decided before.
+  // numbers their corners. Known elements are taken as add_known() says.
   template <class Keep>
   void finish(const Keep& keep);
   void finish() {
