@@ -40,8 +40,8 @@ set(PNPBS_TESTS_OF_quick
     linkage_signatures linkage_signatures_geo
     install_check_lines install_tree install_contents install_headers install_pkg_config
     install_c_smallest install_fortran_smallest
-    docs_constants docs_floors docs_install docs_links docs_map docs_peers docs_page_meshio
-    docs_page_mpi docs_page_place_nodes docs_page_readme
+    docs_comments docs_constants docs_floors docs_install docs_links docs_map docs_peers
+    docs_page_meshio docs_page_mpi docs_page_place_nodes docs_page_readme
     packaging_recipes)
 
 # The tests of what a build without MPI, on a shared Kokkos and with the static library, can change.

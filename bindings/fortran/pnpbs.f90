@@ -2784,8 +2784,8 @@ contains
   !>   code   one of PNPBS_WARNING_...
   !>   count  how many nodes, edges, triangles or points it is about; 0: not known
   !>   value  a number that it is about; NaN if there is none
-  !>   point  (3) the first point that the text names, as coordinates of nodes are handed out; in
-  !>          the plane with NaN behind x and y; NaN if there is none
+  !>   point  (3) the first point that the text names, in the coordinates of nodes; in the plane
+  !>          with NaN behind x and y; NaN if there is none
   subroutine placement_get_warning_data(self, index, code, count, value, point, stat, errmsg)
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     class(pnpbs_placement), intent(in) :: self

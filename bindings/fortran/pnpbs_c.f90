@@ -112,7 +112,7 @@ module pnpbs_c
   integer(c_int32_t), parameter :: PNPBS_WARNING_OPTIONS_CHANGED = 402
   integer(c_int32_t), parameter :: PNPBS_WARNING_DEPENDS_ON_RANKS = 403
 
-  !> The version this module was written for; pnpbs_version tells the library's.
+  !> The version this module was written for; pnpbs_version returns the library's.
   integer(c_int32_t), parameter :: PNPBS_VERSION_MAJOR = 0
   integer(c_int32_t), parameter :: PNPBS_VERSION_MINOR = 2
   integer(c_int32_t), parameter :: PNPBS_VERSION_PATCH = 0

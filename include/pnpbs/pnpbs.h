@@ -335,7 +335,7 @@ PNPBS_API pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resol
 
 /** Replaces the triangulated boundary surfaces of a domain in space as pnpbs_domain_set_repair
  *  does, even if they need no repair: this removes what is finer than the resolution from a body.
- *  Of this function and pnpbs_domain_set_repair the last call holds. Local. Errors: as there.
+ *  The last call of this function or pnpbs_domain_set_repair holds. Local. Errors: as there.
  *  @param[in] resolution  > 0, no more than the spacing at the surface; 0: 1/64 of the longest side
  *                         of the bounding box of the triangles */
 PNPBS_API pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution);
@@ -894,14 +894,14 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  Euler characteristic than the domain's, the volume differs from the domain's by more than 0.001
  *  of it and more than boundary faces cut off as chords, or triangles of surfaces alone do not join
  * (a warning says which); PNPBS_STOPPED. The nodes are valid in all these cases. In space, before
- * it would return PNPBS_NOT_CONFORMING, it reduces d around the places where elements are missing
- * and continues from its nodes, up to `conforming_rounds` times; a warning reports the cost
- * (statistic `unresolved_places`). It does so also where dihedral angles are smaller than the
- * option `min_angle`. d stays reduced there until another spacing is set. There is also a warning
- * where the boundary of the tetrahedra does not follow the surfaces (statistic `missing_faces`; see
- * the option `resolve`), and where corners and sharp edges are left out (statistic `left_out`)
- * because no tetrahedra connect to them: what lies between them is smaller than half of d, or the
- * body ends there in a tip or an edge too sharp for any d. */
+ * it would return PNPBS_NOT_CONFORMING, it reduces d where elements are missing and continues from
+ * its nodes, up to `conforming_rounds` times; a warning reports the cost (statistic
+ * `unresolved_places`). It does so also where dihedral angles are smaller than the option
+ * `min_angle`. d stays reduced there until another spacing is set. There is also a warning where
+ * the boundary of the tetrahedra does not follow the surfaces (statistic `missing_faces`; see the
+ * option `resolve`), and where corners and sharp edges are left out (statistic `left_out`) because
+ * no tetrahedra connect to them: what lies between them is smaller than half of d, or the body ends
+ * there in a tip or an edge too sharp for any d. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** Returns the dimension of the placement's domain. Local.
@@ -1081,7 +1081,7 @@ PNPBS_API pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int6
  *  @param[out] neighbours  [entries] local indices
  *  @param[out] triangle    [entries] 1 if the node, this neighbour and the next one around (the
  *                          first one after the last) are a triangle of the domain, 0 if a gap
- *                          outside the domain lies between them. In space 0. May be NULL */
+ *                          outside the domain lies between them. It is 0 in space. May be NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capacity,
                                                  int64_t *offsets, int64_t *neighbours,
                                                  int8_t *triangle);
@@ -1290,8 +1290,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
  *  @param[out] code   one of PNPBS_WARNING_...
  *  @param[out] count  how many nodes, edges, triangles or points it is about; 0: not known
  *  @param[out] value  a number that it is about; NaN if there is none
- *  @param[out] point  [3] the first point that the text names, as coordinates of nodes are handed
- *                     out; in the plane with NaN behind x and y; NaN if there is none */
+ *  @param[out] point  [3] the first point that the text names, in the coordinates of nodes;
+ *                     in the plane with NaN behind x and y; NaN if there is none */
 PNPBS_API pnpbs_status pnpbs_placement_get_warning_data(pnpbs_placement placement, int32_t index,
                                                         int32_t *code, int64_t *count,
                                                         double *value, double *point);

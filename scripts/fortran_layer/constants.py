@@ -9,7 +9,7 @@ from declarations import description
 
 INTEGER = "integer(c_int32_t), parameter :: "
 STATUS = "integer(c_int), parameter :: "
-VERSION = "The version this module was written for; pnpbs_version tells the library's."
+VERSION = "The version this module was written for; pnpbs_version returns the library's."
 
 
 def status_lines(text):

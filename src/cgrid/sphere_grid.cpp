@@ -17,10 +17,12 @@
 namespace pnpbs {
 namespace {
 
-// Global numbers of the cells, edges and vertices. Each of them is led by a node. They are numbered
-// in the order of the ids of their leaders, so the numbers do not depend on the ranks.
+// Global numbers of the cells, edges and vertices. Each of them has a leader, one of its nodes
+// (SphereGrid::leads and leader_of). They are numbered in the order of the ids of their leaders, so
+// the numbers do not depend on the ranks.
 
-// Numbers of the entities that a node leads, or the number of the first of each kind.
+// For a node, how many cells, edges and vertices it leads, or the global number of the first of
+// each that it leads.
 struct LedEntities {
   std::int64_t cells = 0, edges = 0, vertices = 0;
 
@@ -54,8 +56,9 @@ LedEntities sum_of(const std::vector<Entry>& entries) {
   return sum;
 }
 
-// Returns the first numbers at each owned node of this rank, and the numbers of all entities in
-// `total`. `ids` must be increasing, and no id may be on two ranks. Collective.
+// Returns for each owned node the global numbers of the first entities that it leads, from
+// `counts`, how many it leads. Sets `total` to the numbers of entities on all ranks. `ids` must be
+// increasing, and no id may be on two ranks. Collective.
 std::vector<LedEntities> first_numbers(const Communicator& comm,
                                        const std::vector<std::int64_t>& ids,
                                        const std::vector<LedEntities>& counts, LedEntities& total) {

@@ -16,9 +16,9 @@ namespace pnpbs {
 template <int Dim>
 class BoundaryRoom {
  public:
-  // `map` must outlive this object. In the plane, d is evaluated at the boundary nodes. `reach` is
-  // the depth of the region in space, and the range of boundary nodes in the plane (kPlaneReach),
-  // in d.
+  // `map` must outlive this object. In the plane, d is evaluated at the boundary nodes. In space,
+  // `reach` is the depth of the region. In the plane, it is the distance up to which a boundary
+  // node has an effect (kPlaneReach). [d]
   BoundaryRoom(const SizedTree<Dim>& map, const SpacingEvaluator<Dim>& spacing, double reach);
 
   // Returns true if the region contains the point x of the domain, where the spacing is d.

@@ -36,7 +36,8 @@ BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<
 // surfaces. These are either the nodes of surplus pieces (such as a bubble), or the nodes with open
 // faces that bridge two sheets of the surfaces instead of lying along one; such faces may be
 // correct where the surfaces are rough. The smaller set is returned, since the surplus piece is
-// half of the body if a neck is cut. For bodies. Requires prepare_stars(). Collective.
+// half of the body if a neck is cut. Only bodies have such nodes. Requires prepare_stars().
+// Collective.
 std::vector<Point<3>> points_of_other_topology(const Level<3>& level);
 
 }  // namespace pnpbs

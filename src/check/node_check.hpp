@@ -62,9 +62,9 @@ class NodeCheck {
   void check_inside(std::int64_t i, const FacetIndex<Dim>& boundary) const;
   // Checks that node i is still at the point `laid` of the boundary where it was placed.
   void check_placed(std::int64_t i, const Point<Dim>& laid) const;
-  // Checks that each node placed on the boundary occurs once, except for the number of nodes left
-  // out and those for which may_lack(k) is true. times[k] is the number of occurrences on this
-  // rank, and where(k) is the position. Collective.
+  // Checks that each node k placed on the boundary occurs once. It may be missing if may_lack(k) is
+  // true; of the others, as many may be missing as the level has left out. times[k] is the number
+  // of occurrences on this rank, and where(k) is the position. Collective.
   template <class Where, class MayLack>
   void check_placed_once(std::vector<std::int64_t> times, const Where& where,
                          const MayLack& may_lack) const {

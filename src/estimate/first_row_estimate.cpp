@@ -12,9 +12,10 @@ namespace pnpbs {
 
 namespace {
 
-// Ratio of the excess to that of d at the apexes. Without a fitted row, the first row of bubbles is
-// farther from the boundary, where d is larger still. Fitted to runs in a ring, in a lake and
-// around an airfoil with d growing by 0.15 to 0.3.
+// Ratio of the excess of nodes per edge to the excess 1 - edge length / d with d at the apex.
+// Without a fitted row, the first row of bubbles is farther from the boundary than the apexes, and
+// d is larger there. Fitted to runs in a ring, in a lake and around an airfoil with d growing by
+// 0.15 to 0.3.
 constexpr double kOverGrowth = 1.5;
 
 std::vector<double> values_at(const std::vector<Point<2>>& points,

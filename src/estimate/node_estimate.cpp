@@ -91,9 +91,10 @@ LeavesNearBoundary<Dim> leaves_near_boundary(const SizedTree<Dim>& map,
   return near;
 }
 
-// Returns the integral of 1/d^Dim over the inside, without the part that the boundary's nodes
-// occupy. Only samples of d inside count. The volume inside the leaves that the boundary crosses
-// follows more exactly from the measure of the domain.
+// Returns the integral of 1/d^Dim over the domain, without the part that the nodes of the boundary
+// occupy. Leaves near the boundary are integrated by samples. The samples do not resolve which part
+// of a leaf on the boundary is inside, so the sum over these leaves is scaled such that all leaves
+// together have the measure of the domain.
 template <int Dim>
 double room_inside(const SizedTree<Dim>& map, double measure, const SpacingEvaluator<Dim>& spacing,
                    const BoundaryRoom<Dim>& boundary, Samples samples) {

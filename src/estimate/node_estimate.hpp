@@ -13,7 +13,7 @@
 namespace pnpbs {
 
 struct Estimate {
-  std::int64_t nodes = 0;  // On all ranks.
+  std::int64_t nodes = 0;  // Number on all ranks.
   std::int64_t bytes = 0;  // Memory of each process.
   double seconds = 0;      // Rough estimate.
 };

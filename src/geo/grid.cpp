@@ -104,7 +104,8 @@ std::vector<Point<2>> Grid::cells_of(std::vector<Point<2>> points) const {
 }
 
 CellBox Grid::window_for(const GridRequest& request) const {
-  // Margin, since the sides are curved between the points of the lattice.
+  // Margin around the cells of the requested part, whose sides are curved between the points of the
+  // lattice. [share of its width]
   constexpr double more = 0.05;
   const Box<2> box = box_around_finite(cells_of(lattice_over(request.part)));
   const std::int64_t counts[2] = {columns_, rows_};

@@ -15,7 +15,7 @@
 
 namespace pnpbs::geo {
 
-// The distinct points of a layer. A "place" is the index of such a point, here called a vertex.
+// The distinct points of a layer, called vertices. They are referred to by their indices.
 class Places {
  public:
   // Returns the index of the point, which is added if it is new.

@@ -104,7 +104,7 @@ class Projection {
   bool on_sphere_ = false;
   bool wraps_ = false;                                // the data are degrees that are projected
   std::optional<Transformation> forward_, backward_;  // empty: the identity
-  // From the target to degrees, and from degrees to the target.
+  // Transformations from the target to degrees and back.
   std::optional<Transformation> degrees_, of_degrees_;
   std::vector<Point<2>> poles_;  // projected south and north pole
 };

@@ -19,7 +19,7 @@ constexpr double on_it = 1e-9, nearly_on_it = 1e-6;
 // Width up to which an outline encloses nothing. [length]
 constexpr double spike = 1e-3;
 
-// A grid of cells with the vertices in them. Only vertices with `is_meant` are included.
+// A grid of cells with the vertices in them. Vertices for which `is_meant` is 0 are left out.
 class PlaceGrid {
  public:
   PlaceGrid(const std::vector<Point<2>>& points, const std::vector<char>& is_meant)

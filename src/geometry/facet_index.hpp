@@ -156,8 +156,8 @@ class FacetCells {
   std::vector<ReferencePoint<Dim>> references_;  // One per cell.
   std::vector<std::size_t> offset_{0};
   std::vector<std::int32_t> facets_;  // Facets of all cells, ordered by cell.
-  // The same for the facets whose nodes can lie in a cell, which are more if nodes can be off their
-  // facets.
+  // As offset_ and facets_, but for each cell the facets whose nodes can lie in it. If nodes can be
+  // off their facets, these are more than the facets that meet the cell.
   std::vector<std::size_t> beside_offset_{0};
   std::vector<std::int32_t> beside_;
 };

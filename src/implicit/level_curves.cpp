@@ -204,7 +204,7 @@ class CurveWalk {
     return static_cast<std::size_t>(found - pieces_.begin());
   }
 
-  // Appends a vertex. Of two coincident vertices it keeps the one that is a corner.
+  // Appends a vertex. If it coincides with the last one, a corner replaces the other.
   void add(const Vertex& vertex, std::vector<Vertex>& loop) const {
     if (loop.empty() || distance<2>(loop.back().x, vertex.x) > one_)
       loop.push_back(vertex);

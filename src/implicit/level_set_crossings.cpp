@@ -42,7 +42,7 @@ class CrossingFinder {
   // Returns the vertices near those whose triangles turn; f is evaluated only there. Thin triangles
   // are ignored, because beside a bend of a smooth surface they may face anywhere.
   std::vector<char> vertices_at_bends() const {
-    // Height over the longest edge.
+    // Angle between triangles at a bend [radians], and height of a thin triangle. [longest edge]
     constexpr double kBend = 10 * std::numbers::pi / 180, kThin = 0.05;
     std::vector<Point<3>> first(smooth_.vertices.size());
     std::vector<char> bends(smooth_.vertices.size(), 0), near(bends);

@@ -73,7 +73,8 @@ class KinkFinder {
       return State::none;
     if (both && reach_ <= least_) return is_kink() ? State::found : State::none;
     if (round_ == kMaxRounds) return State::none;
-    // If both points were on one side, the other side is known only from too far away.
+    // If the two points were on different sides, search nearer. Otherwise the other side was
+    // measured too far away, so search farther.
     reach_ = both ? std::max(kNearer * reach_, least_) : std::min(kFarther * reach_, gap_);
     next_ = {in_space(beside(0)), in_space(beside(1))};
     return State::open;

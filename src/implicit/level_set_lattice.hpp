@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the cells of a lattice that the surface of a level set crosses, by an octree. A cell is
 // divided if f has different signs at its corners and centre, if their differences indicate that f
-// may be 0 inside, or next to a face with different signs. So f is evaluated only near the surface.
-// Small bodies far from others can be missed if f does not decrease towards them. If the box has no
-// extent in z, cells are squares of a plane lattice.
+// may be 0 inside, or next to a face with different signs. Thus f is evaluated only near the
+// surface. Small bodies far from others can be missed if f does not decrease towards them. If the
+// box has no extent in z, cells are squares of a plane lattice.
 #pragma once
 
 #include <array>

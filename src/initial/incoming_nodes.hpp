@@ -19,7 +19,7 @@ template <>
 struct IncomingNode<2> {
   Point<2> position;
   std::int64_t id;         // -1: to be assigned
-  bool inner = true;       // false for boundary nodes, which are placed anew but keep their ids
+  bool inner = true;       // false for boundary nodes, which are placed again but keep their ids
   std::int32_t leaf = -1;  // leaf of the level's tree; -1: not yet known
   double d = 0;            // spacing that it was placed for; 0: not known
 

@@ -29,7 +29,7 @@ struct SpacingSummary {
   double spacing() const { return root<Dim>(measure / nodes); }
 };
 
-// The spacing in a leaf at which the local tree ends before it is fine enough.
+// The spacing in a leaf that only other ranks have refined.
 template <int Dim>
 struct LeafSummary {
   std::int32_t leaf;

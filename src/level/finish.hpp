@@ -24,7 +24,7 @@ struct FinishResults {
   bool stopped = false;
 };
 
-// Does this many sweeps, and repairs bad elements if the settings request it. In space edge_bands
+// Does this many sweeps, and repairs bad elements if the settings request it. In space, edge_bands
 // stays empty. The nodes are valid if `stops` ends it early. All ranks must call it, and if one
 // rank throws, all ranks throw.
 FinishResults sweep_and_repair(

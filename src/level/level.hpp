@@ -104,7 +104,7 @@ struct Level : LevelState<Dim> {
   // In space: digest of the nodes that the stars belong to; 0: none.
   std::uint64_t stars_digest = 0;
   ChangedLabels changed_labels;  // of elements in space, after settle_elements()
-  // Version in which the stars are those that the finish begins with, or -1.
+  // version() for which make_finish_stars() has found the stars of the owned nodes, or -1.
   std::int64_t finish_stars = -1;
   TimeIntegration<Dim> time_integration;
 

@@ -14,8 +14,8 @@ namespace pnpbs {
 template <int Dim>
 bool has_clearance(const Level<Dim>& level, const std::type_identity_t<Point<Dim>>& x, double d);
 
-// Returns a flag for each node without room. Of two nodes that nearly coincide it is set for the
-// one with the larger id. The lists must have been built at the present positions.
+// Returns a flag for each node without room. Of two nodes that nearly coincide, the one with
+// the larger id has none. The lists must have been built at the present positions.
 template <int Dim>
 View<char> nodes_without_room(const Level<Dim>& level);
 

@@ -326,7 +326,8 @@ inline constexpr double kThinLabel = 10;
 inline constexpr double kRoomInSliver = 0.4;
 // The same distance if three nodes of the element are on features, which do not move. [d] Chosen.
 inline constexpr double kRoomInHeldSliver = 0.2;
-// Minimum distance of the inserted node from the surface. [share of that distance] Chosen.
+// Minimum distance of the inserted node from the surface. [minimum distance from the nodes of
+// the element] Chosen.
 inline constexpr double kSliverClearance = 0.6;
 // Minimum distance between nodes that are inserted in flat elements at the same time. [d] Chosen.
 inline constexpr double kSliversApart = 1;

@@ -51,8 +51,8 @@ struct VisibilityPastEdges {
   // sphere. The pair must be within radius * (d_i + d_j) / 2.
   bool visible(std::int64_t i, std::int64_t j) const {
     if (map.boundary().embedding.is_sphere() && far_along_sphere(i, j)) return false;
-    // Whatever lies between the two nodes is within their distance of either, and this distance is
-    // at most radius times the larger spacing. The edges near the node with the larger spacing
+    // An edge between the two nodes is within their distance of either, and this distance is at
+    // most radius times the larger spacing. The edges near the node with the larger spacing
     // therefore suffice.
     const bool i_wide = nodes.d(i) >= nodes.d(j);
     const std::int64_t wide = i_wide ? i : j;

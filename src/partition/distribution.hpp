@@ -58,8 +58,8 @@ class Distribution {
   const PartitionCells<Dim>& cells() const { return cells_; }
   int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
   int owner_at(const Point<Dim>& x) const { return owner_of_cell(cells_.at(x)); }
-  // Returns whether the cell lies outside the domain. No rank holds or needs such a cell, whoever
-  // owns it.
+  // Returns whether the cell lies outside the domain. No rank holds or needs the contents of
+  // such a cell, even if it owns the cell.
   bool empty(std::int32_t cell) const { return cells_.max_spacing(cell) == 0; }
   // Calls visit(rank) for the owner of each cell that touches the box and is not empty. A rank is
   // visited once for each of its cells.

@@ -75,9 +75,9 @@ class Placement {
   virtual double volume_of_domain() const = 0;
   virtual BoundaryDistance boundary_distance() = 0;
   virtual std::int64_t unresolved_places() const = 0;
-  // Returns the number of nodes that was expected when d was last reduced at unresolved places.
+  // Returns the number of nodes that was expected when d was last reduced at unresolved points.
   virtual std::int64_t unresolved_nodes() const = 0;
-  // Returns the smallest d at unresolved places before it was reduced.
+  // Returns the smallest d at unresolved points before it was reduced.
   virtual double unresolved_spacing() const = 0;
   // Returns the distances of the repaired surface of a body in space, or zeros for other domains.
   virtual RepairDistances repair_distances() const = 0;
@@ -90,8 +90,8 @@ class Placement {
   }
 
  protected:
-  // Returns whether the results show the level that the schedule belongs to. While a level is being
-  // built they may show an intermediate one.
+  // Returns whether the results show the level that the schedule belongs to. During the
+  // construction of a level they may show an intermediate one.
   virtual bool shows_its_level() const = 0;
   std::int64_t global_count() const { return results().global_count(); }  // collective
   // Throws Error(ErrorKind::argument) on all ranks if the options differ between ranks. Collective.

@@ -120,8 +120,9 @@ int in_sphere_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, con
                     [](const auto& from_e) { return in_sphere_sign(from_e); });
 }
 
-// The tie-break is that of the plane: the derivative of the determinant by a height is, up to sign,
-// the orientation of the other four points.
+// As in the plane, the heights |x|^2 of the points are perturbed symbolically, that of the smallest
+// id most. The derivative of the determinant by a height is, up to sign, the orientation of the
+// other four points.
 int break_tie(const std::array<Point<3>, 5>& points, const std::array<std::int64_t, 5>& ids) {
   std::array<int, 5> order{0, 1, 2, 3, 4};
   const auto by_id = [&ids](int x, int y) { return ids[x] < ids[y]; };

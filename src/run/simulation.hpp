@@ -43,7 +43,7 @@ class Simulation {
   // Returns the counts of all ranks.
   PopulationCounts adjust_population();
   void remove_crowded();
-  // Inserts or deletes nodes at defects that the overlap ratio does not detect. For the plane.
+  // Inserts or deletes nodes at defects that the overlap ratio does not detect. Plane only.
   void repair_defects();
   // Repartitions the nodes over the ranks.
   void rebalance();

@@ -178,7 +178,8 @@ double ShapeIndex<Dim>::width_below(const Place& place, const FacetCorners<Dim>&
   // Beside a corner the other side is ahead but does not face this one.
   if (along >= kCosAhead * far)
     return std::fabs(product<Dim>(way, normal)) >= steep * far ? 2 * radius : max;
-  // The contact is not ahead, but the facet may still lie straight ahead.
+  // The nearest point of contact is not ahead, but another point of the facet may lie straight
+  // ahead.
   const double slope = product<Dim>(normal, place.ahead);
   const double hit = product<Dim>(normal, way_from<Dim>(place.x, facet[0])) / slope;
   if (!(std::fabs(slope) >= steep) || slope == 0 || !(hit > 0 && hit < max)) return max;

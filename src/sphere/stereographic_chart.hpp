@@ -17,8 +17,7 @@ namespace pnpbs {
 class StereographicChart {
  public:
   // Constructs the chart of the sphere about the origin whose projection centre is in the direction
-  // `from`, which must
-  // not be 0.
+  // `from`, which must not be 0.
   StereographicChart(double radius, const Point<3>& from);
 
   bool operator==(const StereographicChart&) const = default;

@@ -22,7 +22,8 @@ constexpr double kWhole = 0.03;
 // else 0. Evaluates near the centroid and near the corners, because a hole affects only parts of a
 // large triangle.
 int front_is_outside(const FacetCorners<3>& triangle, const WindingNumber& winding) {
-  // Fractions of the distance to the centroid, and of the size.
+  // Distance of the evaluated points from the corners [distance to the centroid] and from the
+  // triangle [square root of its area].
   constexpr double kInward = 0.05, kOff = 1e-4;
   const Point<3> area = area_normal(triangle), middle = centroid(triangle);
   if (!(length(area) > 0)) return 0;
@@ -126,7 +127,7 @@ int SurfaceSides::side(std::int32_t triangle, const TrianglePoint& nearest,
   constexpr double kRounding = 1e-12;
   const auto t = static_cast<std::size_t>(triangle);
   const auto [v, w] = nearest.along;
-  // Weight of the corner is 0.
+  // Whether the barycentric coordinate of each corner is 0 at the nearest point.
   const std::array<bool, 3> without{v + w >= 1 - kRounding, v <= 0, w <= 0};
   Point<3> normal = face_[t];
   for (std::size_t k = 0; k < 3; ++k) {

@@ -166,7 +166,7 @@ void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& wa
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(triangles.size()); ++t)
     order.push_back({sorted(t), t});
   std::sort(order.begin(), order.end());
-  // Pairs of the later triangle and the one that stays.
+  // Pairs of triangles with the same vertices: a later one, and the first, which stays.
   std::vector<std::pair<std::int32_t, std::int32_t>> doubles;
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (order[i].first != order[i - 1].first) continue;

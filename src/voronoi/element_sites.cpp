@@ -21,8 +21,9 @@
 namespace pnpbs {
 namespace {
 
-// A node that is not a corner is a site if it is as close as the corners or closer. If it is
-// equally close, two nodes can share a side of the element.
+// Ratio up to which a node that is not a corner counts as being as close as the corners, and thus
+// as a site. Equally close nodes are sites too, because two of them can share a side of the
+// element.
 constexpr double kAsClose = 1 + 1e-12;  // [squared distance]
 constexpr double kAboveRounding = 1 + 1e-9;
 

@@ -190,8 +190,8 @@ class CellMaker {
     for (std::size_t c = 0; c < Dim; ++c) boundary_[c].push_back(-inward[c] / length * area);
   }
 
-  // Adds a part of a side on a sphere. The normal of a great circle is the same along the whole
-  // side.
+  // Adds the integral of the outward normal along the part of side k that is closest to the site,
+  // on a sphere. The normal of a great circle is the same along the whole side.
   void add_coast(std::size_t k, std::size_t site) requires(Dim == 3 && Corners == 3) {
     const double length = all_.sphere_radius * arc_of(divided_.part_of_side(k, site).points());
     if (length == 0) return;

@@ -220,10 +220,11 @@ class BlockHull {
   Integers sure_;   // 0 if the lane is given up.
   Lanes nearest_;   // Squared distance.
   Integers nearest_place_;
-  Lanes dx_[kMaxListed], dy_[kMaxListed];  // In the order of the list.
+  Lanes dx_[kMaxListed], dy_[kMaxListed];  // Sorted like the list.
   Integers key_[kMaxListed];
   Lanes x_[kMaxListed + 2], y_[kMaxListed + 2], square_[kMaxListed + 2];  // Sorted.
-  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];  // Of each neighbour and the next.
+  // Cross products of each neighbour and the next, and the sums of the sizes of their terms.
+  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];
 };
 
 }  // namespace

@@ -123,7 +123,8 @@ class BlockCheck {
   Integers size_, sure_;
   Lanes min_of_others_;  // Squared distance.
   Lanes x_[kMaxListed + 2], y_[kMaxListed + 2], square_[kMaxListed + 2];
-  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];  // Of each neighbour and the next.
+  // Cross products of each neighbour and the next, and the sums of the sizes of their terms.
+  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];
 };
 
 // Checks the stars of a block. `x` and `y` are the positions of all nodes and of the far point

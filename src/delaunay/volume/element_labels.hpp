@@ -111,10 +111,10 @@ class ElementLabels {
   void descend();
   void take_back();
 
-  std::vector<LabelledTetrahedron> tetrahedra_;  // As given.
+  std::vector<LabelledTetrahedron> tetrahedra_;  // The given ones.
   std::vector<char> changed_;
   std::vector<std::vector<Corner>> corners_;  // Corners of each tetrahedron at given nodes.
-  std::vector<Node> nodes_;                   // In the order of their ids.
+  std::vector<Node> nodes_;                   // Ascending by id.
   std::map<std::int64_t, std::size_t> node_at_;
   std::uint64_t changes_ = 1;
   std::set<std::size_t> without_disks_, with_defects_;  // Indices of nodes.

@@ -31,8 +31,9 @@ class RingWriter {
  private:
   bool on_facet(std::int64_t i) const { return in_.nodes.carrier(i) == Carrier::surface; }
 
-  // Returns 0, or the distance up to which nodes must be known. If all nodes are examined without
-  // success, the node has no star.
+  // Finds the star of node i from ever larger neighbourhoods. Returns 0, or the distance up to
+  // which this rank must know all nodes to find it. If all nodes have been examined without
+  // success, the node has no star, and 0 is returned.
   double find(std::int64_t i) {
     constexpr double kFirst = 2;  // Sufficient for most stars. [d]
     const double everywhere = 2 * in_.tree.side();

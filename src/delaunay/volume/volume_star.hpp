@@ -65,7 +65,7 @@ class VolumeStar {
 
   // Returns the maximum distance between corners of an element.
   double max_reach() const { return 2 * kMaxRadius * centre_.d; }
-  // Returns the distance beyond which no node may matter.
+  // Returns the distance from the centre beyond which no node can change the elements.
   double search_reach() const { return search_reach_; }
   // Returns whether a node that is not a candidate can change the elements.
   bool may_matter(const Point<3>& x) const;
@@ -76,7 +76,7 @@ class VolumeStar {
   bool may_matter_in(const Box<3>& box) const;
 
   // Takes the elements for which keep(corners) holds, where `corners` are three candidates, and
-  // numbers their corners. Known elements have been decided before.
+  // numbers their corners. Known elements are taken as add_known() says.
   template <class Keep>
   void finish(const Keep& keep);
   void finish() {

@@ -132,7 +132,7 @@ class VolumeStars {
   // Frees the stars of the kChunk nodes from c * kChunk on.
   void drop_chunk(std::int64_t c) { rows_.drop_chunk(c); }
 
-  // Returns whether the star of node i has been requested and not been doubted since.
+  // Returns whether the star of node i has been found and not been marked as doubtful since.
   bool found(std::int64_t i) const {
     return found_.empty() || found_[static_cast<std::size_t>(i)] != 0;
   }
@@ -171,7 +171,7 @@ class VolumeStars {
   struct Star {
     std::int32_t neighbours;
     bool closed, wide;
-    const std::int32_t *first, *last;  // After the header.
+    const std::int32_t *first, *last;  // The row behind its header.
   };
   Star star_of(std::int64_t i) const {
     const std::span<const std::int32_t> row = rows_.row(i);

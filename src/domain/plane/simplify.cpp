@@ -273,8 +273,8 @@ class Simplifier {
     return slot + 1 == first_slot_[chain + 1] ? first_slot_[chain] : slot + 1;
   }
 
-  // Returns true if curves stay valid: a closed one keeps three vertices, and no two curves become
-  // the same segment.
+  // Returns true if the curves remain valid without this vertex: a closed one keeps three vertices,
+  // and no two curves become the same segment.
   bool may_leave(std::int64_t slot) const {
     const Slot& here = slots_[slot];
     const std::int64_t left = left_in_chain_[here.chain];

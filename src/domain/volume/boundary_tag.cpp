@@ -20,8 +20,8 @@ class NearestFacet {
         outward_(cross(difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0]))),
         first_reach_(distance<3>(triangle[0], middle_)) {}
 
-  // Returns the nearest facet for which count(facet) is true, or -1. Of facets equally near,
-  // returns the first.
+  // Returns the nearest facet for which count(facet) is true, or -1. Returns the first
+  // of facets equally near.
   template <class Counts>
   std::int32_t of(const Counts& counts) const {
     const Box<3>& bounds = domain_.bounds();

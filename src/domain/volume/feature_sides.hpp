@@ -21,8 +21,8 @@ struct SurfaceSide {
   CurveDirection begin, end;
 };
 
-// Sides of all feature edges, or sectors of all corners, in their order. Those of item n have the
-// indices begin[n] to begin[n + 1] - 1.
+// Sides of all feature edges, or sectors of all corners, in their order. Item n has the sides
+// with indices begin[n] to begin[n + 1] - 1.
 struct FeatureSides {
   std::vector<std::size_t> begin{0};
   std::vector<SurfaceSide> sides;

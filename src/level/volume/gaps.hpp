@@ -16,8 +16,8 @@ namespace pnpbs {
 // surface. Uses the buckets of the present lists.
 bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double gap);
 
-// Returns the candidates that this rank owns and that no node of the level covers. All ranks must
-// call it, and if one rank throws, all ranks throw.
+// Returns the candidates that lie in cells of this rank and are not covered (is_covered). All ranks
+// must call it, and if one rank throws, all ranks throw.
 IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates,
                          double gap = method::kGap);
 

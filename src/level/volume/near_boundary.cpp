@@ -41,7 +41,8 @@ bool VisibilityInSpace::looks_at(std::int64_t on_boundary, std::int64_t inner) c
   return in_front || !any;  // a fixed node or an inner curve has no surface
 }
 
-// Tests nodes of different surfaces, or across an edge.
+// Returns whether the middle between two boundary nodes is inside. It decides the visibility of
+// nodes on different surfaces or on two sides of a feature edge.
 bool VisibilityInSpace::see_through_inside(std::int64_t i, std::int64_t j) const {
   const Point<3> a = point_at<3>(at_, i), b = point_at<3>(at_, j);
   return geometry_.domain().index().inside(middle_of<3>(a, b));

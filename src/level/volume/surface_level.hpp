@@ -26,7 +26,7 @@ std::int64_t put_surface_nodes(Level<3>& level, IncomingNodes<3> on_surfaces,
 // Returns a new surface node at this point that counts as placed for d.
 IncomingNode<3> new_surface_node(const LevelGeometry<3>& geometry, const SurfacePoint& at,
                                  double d = 0);
-// Stops the surface nodes. From then on inner nodes move.
+// Stops the surface nodes. After this call, only inner nodes move.
 void fix_surface_nodes(Level<3>& level);
 // Returns the owned boundary nodes.
 IncomingNodes<3> surface_nodes(const Level<3>& level);

@@ -273,7 +273,7 @@ class Leaving {
     return {level_.geometry.features().nodes[node].corner < 0 ? 1 : 0,
             -std::ssize(neighbours_.of(end.boundary_node)), end.id};
   }
-  // Removes an end if that is allowed. Of two neighbours on a curve at most one is removed.
+  // Removes an end if that is allowed. At most one of two neighbours on a curve is removed.
   bool leave(const EdgeEnd& end, const EdgeEnd& other) {
     if (staying_.contains(end.id) || is_user_node(level_, end.x)) return false;
     if (end.on_feature != 0) {
