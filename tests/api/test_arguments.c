@@ -71,7 +71,7 @@ static void refuse(const row* r, pnpbs_status status) {
     refuse(&r, (call));                                                   \
   } while (0)
 
-/* For calls without a context. */
+/* REFUSE for calls without a context. */
 #define REFUSE_ANYWHERE(status, first, second, call)      \
   do {                                                    \
     prepare_outputs();                                    \

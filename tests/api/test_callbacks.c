@@ -289,7 +289,7 @@ START_TEST(a_failure_on_a_live_placement) {
 }
 END_TEST
 
-/* ---------------------------------------------------------------- where it is asked ----- */
+/* ---------------------------------------------------------------- points of evaluation -- */
 
 typedef struct {
   double d;

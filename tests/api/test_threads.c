@@ -2,7 +2,7 @@
  *
  * Tests that the same job with one, two and more threads gives the same nodes, bit for bit. The
  * number of threads is fixed once per process, so this program runs itself: `test_api_threads <job>
- * <file>` runs a job and writes all of its results. Without arguments it compares such files.
+ * <file>` runs a job and writes all of its results. Without arguments, it compares such files.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>

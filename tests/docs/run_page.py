@@ -69,7 +69,7 @@ def put_tools(folder):
 
 def environment(prefix, work):
     packages = only(prefix.rglob("pnpbs.pc")).parent
-    # Programs must find the library by what the page tells their reader to do.
+    # Programs must find the library by the settings of the page alone.
     inherited = {name: value for name, value in os.environ.items()
                  if name not in ("LD_LIBRARY_PATH", "LD_RUN_PATH", "PNPBS_LIBRARY")}
     return dict(

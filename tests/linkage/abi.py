@@ -17,7 +17,7 @@ import sys
 import c_header
 
 HEADING = """\
-# What programs linked with {soname} rely on. docs/releasing.md tells what this file is for.
+# The symbols that programs linked with {soname} use. docs/releasing.md describes this file.
 # Written by: cmake --build <build folder> --target pnpbs-record-abi
 """
 

@@ -160,7 +160,7 @@ class Files(CommandTest):
         found = report["repaired"]
         self.assertEqual(found["resolution"], 0.05)
         self.assertLess(found["distance"], 1e-3)
-        # At the middle of the lid.
+        # The hole is deepest at the middle of the lid.
         self.assertAlmostEqual(found["hole_distance"], 0.5, delta=0.05)
         self.assertAlmostEqual(found["mean_distance"], 1 / 36, delta=0.01)
         self.assertLess(found["given_distance"], 0.01)
