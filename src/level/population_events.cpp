@@ -195,7 +195,7 @@ PopulationCounts repair_defects(Level<2>& level) {
 // Defects are recognized by the cyclic order of the neighbours, which stars in space do not have.
 PopulationCounts repair_defects(Level<3>&) { return {}; }
 
-PopulationCounts lay_first_row(Level<2>& level) {
+PopulationCounts place_first_row(Level<2>& level) {
   require_finish_lists(level);
   PopulationChange<2> change;
   collective_try(*level.comm, [&] {
@@ -211,7 +211,7 @@ PopulationCounts lay_first_row(Level<2>& level) {
   return carry_out(level, std::move(change));
 }
 
-PopulationCounts lay_first_row(Level<3>&) { return {}; }
+PopulationCounts place_first_row(Level<3>&) { return {}; }
 
 template void delete_nodes(Level<2>&, const std::vector<std::int32_t>&);
 template void delete_nodes(Level<3>&, const std::vector<std::int32_t>&);

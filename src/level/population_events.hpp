@@ -30,8 +30,8 @@ PopulationCounts repair_defects(Level<3>& level);
 
 // Makes one node over each regular edge of the boundary the first row of inner nodes. Does nothing
 // in space. All ranks must call it, and if one rank throws, all ranks throw.
-PopulationCounts lay_first_row(Level<2>& level);
-PopulationCounts lay_first_row(Level<3>& level);
+PopulationCounts place_first_row(Level<2>& level);
+PopulationCounts place_first_row(Level<3>& level);
 
 // Deletes nodes of this rank, including ghosts, given by ascending memory index. Local.
 template <int Dim>

@@ -57,7 +57,7 @@ class Simulation {
   double distance_tolerance(int round) const;
   bool stops_after_step(bool is_event, double fraction);
   bool stops_in_finish(double fraction);
-  void lay_first_row();
+  void place_first_row();
   Outcome smooth(double fraction);
   Outcome centre_cells(double fraction);
   PopulationCounts counted(PopulationCounts change);

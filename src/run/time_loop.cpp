@@ -195,7 +195,7 @@ Outcome Simulation<Dim>::finish(double fraction) {
     ++run_.steps_done;
   }
   free_margin(level_);
-  lay_first_row();
+  place_first_row();
   if (stops_in_finish(fraction)) return Outcome::stopped;
   repair_defects();
   if (stops_in_finish(fraction)) return Outcome::stopped;
@@ -269,10 +269,10 @@ void Simulation<Dim>::repair_defects() {
 // Fits the first row of inner nodes to the boundary. Sweeps follow, which smooth the nodes behind
 // it. Coincident nodes are removed first, because one of them would become a node of the row.
 template <int Dim>
-void Simulation<Dim>::lay_first_row() {
+void Simulation<Dim>::place_first_row() {
   if (!level_.settings.makes_first_row()) return;
   remove_crowded();
-  const PopulationCounts change = counted(pnpbs::lay_first_row(level_));
+  const PopulationCounts change = counted(pnpbs::place_first_row(level_));
   if (change.inserted + change.deleted > 0) refresh_spacing(level_);
 }
 

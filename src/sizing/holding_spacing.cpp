@@ -7,7 +7,7 @@
 #include "comm/records.hpp"
 #include "level/node_spacing.hpp"
 #include "method/constants.hpp"
-#include "sizing/narrow_places.hpp"
+#include "sizing/narrow_points.hpp"
 
 namespace pnpbs {
 
@@ -51,7 +51,7 @@ std::vector<GrowthSource<Dim>> places_to_hold(const Level<Dim>& level,
   const std::vector<double> d = spacing_at(level, places);
   for (std::size_t k = 0; k < places.size(); ++k) places[k].d = d[k];
   std::vector<GrowthSource<Dim>> result;
-  if (places.empty() || round > method::kRoundsOfHalves) result = narrow_places(level, places);
+  if (places.empty() || round > method::kRoundsOfHalves) result = narrow_points(level, places);
   for (const GrowthSource<Dim>& place : places)
     result.push_back({place.x, method::kHeldTo * place.d});
   return result;

@@ -67,7 +67,7 @@ void require_what_spheres_have(const Arguments& arguments) {
 
 }  // namespace
 
-void ask_for_what_files_need(Arguments& arguments) {
+void request_data_for_formats(Arguments& arguments) {
   for (const std::string& path : arguments.outputs) {
     const FileFormat* format = path == "-" ? nullptr : format_by_extension(path);
     if (!format) format = format_by_name(arguments.format);

@@ -18,7 +18,7 @@ void require_arguments_that_fit(const Arguments& arguments);
 
 // Requests volumes if an output format stores particles. Throws BadInput if such a format also
 // requires a density and none is given.
-void ask_for_what_files_need(Arguments& arguments);
+void request_data_for_formats(Arguments& arguments);
 
 // Throws BadInput if an argument is given that applies only to domains of another dimension.
 void refuse_other_dimension(const Arguments& arguments, int dimension);

@@ -557,7 +557,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   take_settings(texts.settings, arguments);
   for (const std::string& name : texts.names) take_name(name, arguments);
   for (const std::string& region : texts.regions) take_region(region, arguments);
-  ask_for_what_files_need(arguments);
+  request_data_for_formats(arguments);
   require_arguments_that_fit(arguments);
   return "";
 }

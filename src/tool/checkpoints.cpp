@@ -73,7 +73,7 @@ void Checkpoints::write() {
   if (!path_.empty()) check(pnpbs_placement_write_checkpoint(placement_, path_.c_str()), context_);
 }
 
-std::string Checkpoints::words_at_stop() const {
+std::string Checkpoints::stop_message() const {
   if (written_step_ < 0) return "interrupted, nothing was written";
   return "interrupted; --restart '" + path_ + "' continues from step " +
          std::to_string(written_step_);

@@ -40,7 +40,7 @@ class Checkpoints {
   void write();
 
   // Returns the message for a run that was stopped.
-  std::string words_at_stop() const;
+  std::string stop_message() const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -34,11 +34,11 @@ double cbrt_of(double a) { return std::cbrt(a); }
 
 // Option of the formula that is being evaluated. Callbacks of muParser have no user data, so a
 // thread-local variable passes it.
-thread_local const std::string* asking_option = nullptr;
+thread_local const std::string* current_option = nullptr;
 
 // Properties of the domain's shape at all points of a batch, computed when the formula first uses
 // them. Callbacks of muParser receive it through a thread-local pointer.
-struct ShapeAtPlaces {
+struct ShapeAtPoints {
   using Question =
       std::function<void(double number, std::int64_t n, const double* coordinates, double* values)>;
   struct Answers {
@@ -59,7 +59,7 @@ struct ShapeAtPlaces {
         return answers.values[static_cast<std::size_t>(place)];
     constexpr std::size_t many = 32;
     if (known.size() == many)
-      throw BadInput(*asking_option + ": what " + std::string(name) +
+      throw BadInput(*current_option + ": what " + std::string(name) +
                      "(...) is given must be a number, the same everywhere");
     std::vector<double> values(static_cast<std::size_t>(n));
     ask(number, n, coordinates, values.data());
@@ -68,19 +68,19 @@ struct ShapeAtPlaces {
   }
 };
 
-thread_local ShapeAtPlaces* shape_at_places = nullptr;
+thread_local ShapeAtPoints* shape_at_places = nullptr;
 thread_local pnpbs_context shape_context = nullptr;
 
 // Returns an arbitrary value as long as there is no domain.
-double shape_value(const char* name, double number, const ShapeAtPlaces::Question& ask) {
+double shape_value(const char* name, double number, const ShapeAtPoints::Question& ask) {
   return shape_at_places ? shape_at_places->value(name, number, ask) : 1;
 }
 
 // Sets the thread-local variables for the duration of a batch.
 class ShapeForBatch {
  public:
-  ShapeForBatch(ShapeAtPlaces& shape, pnpbs_context context, const std::string& option) {
-    asking_option = &option;
+  ShapeForBatch(ShapeAtPoints& shape, pnpbs_context context, const std::string& option) {
+    current_option = &option;
     shape_at_places = &shape;
     shape_context = context;
   }
@@ -99,7 +99,7 @@ double distance_to(double tag) {
 
 double dist_of(double tag) {
   if (!(tag == std::floor(tag)) || tag == 0 || std::fabs(tag) > 2e9)
-    throw BadInput(*asking_option + ": dist(" + short_number(tag) +
+    throw BadInput(*current_option + ": dist(" + short_number(tag) +
                    "): expected a tag, a whole number but 0");
   return distance_to(tag);
 }
@@ -107,7 +107,7 @@ double dist_of(double tag) {
 double shape_spacing(const char* name, double number, double per_turn, double across,
                      double per_edge) {
   if (!(number > 0))
-    throw BadInput(*asking_option + ": " + name + "(" + short_number(number) +
+    throw BadInput(*current_option + ": " + name + "(" + short_number(number) +
                    "): expected a number of nodes greater than 0");
   return shape_value(name, number, [=](double, std::int64_t n, const double* x, double* d) {
     check(
@@ -220,7 +220,7 @@ struct Expression::Parser {
   double lon = 0, lat = 0;  // at `place`, in degrees
   bool asks_lon = false, asks_lat = false;
   double dist = 1, seglen = 1;  // at `place`
-  bool asks_for_shape = false;  // or uses fields
+  bool uses_shape = false;      // or uses fields
   bool asks_dist = false, asks_seglen = false;
   std::vector<std::string> shape_calls;
   pnpbs_domain domain = nullptr;
@@ -233,13 +233,13 @@ struct Expression::Parser {
     asks_lon = used.contains("lon");
     asks_lat = used.contains("lat");
     shape_calls = shape_calls_in(text);
-    asks_for_shape = !shape_calls.empty() || asks_dist || asks_seglen || !fields.empty();
+    uses_shape = !shape_calls.empty() || asks_dist || asks_seglen || !fields.empty();
   }
   // Evaluates all calls of shape functions at a point, also those in branches that are not taken
   // there. Errors then appear before the run. The library also computes here what it cannot compute
   // inside a callback.
   void call_all_at(const double* there) {
-    ShapeAtPlaces shape{1, there, domain};
+    ShapeAtPoints shape{1, there, domain};
     const ShapeForBatch telling(shape, context, option);
     go_to(there);
     for (const std::string& call : shape_calls) {
@@ -286,12 +286,12 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
   std::string text = given;
   if (names != Names::coordinates) parser_->groups = groups_in(text);
   for (Field& field : fields) parser_->fields.push_back({std::move(field)});
-  refuse_what_is_no_formula(source);
+  reject_invalid_formula(source);
   refuse_other_hypots(source);
   mu::Parser& parser = parser_->parser;
   parser_->dimension = dimension;
   parser_->option = option;
-  asking_option = &parser_->option;
+  current_option = &parser_->option;
   try {
     define_names(parser);
     for (int k = 0; k < dimension; ++k)
@@ -321,10 +321,10 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
 
 Expression::~Expression() = default;
 
-void Expression::ask_shape_of(pnpbs_domain domain, pnpbs_context context) {
+void Expression::set_shape_domain(pnpbs_domain domain, pnpbs_context context) {
   parser_->domain = domain;
   parser_->context = context;
-  if (!parser_->asks_for_shape) return;
+  if (!parser_->uses_shape) return;
   if (!parser_->groups.empty()) {
     const std::vector<GroupName> names = group_names(domain, context);
     for (NamedGroup& group : parser_->groups)
@@ -337,7 +337,7 @@ void Expression::ask_shape_of(pnpbs_domain domain, pnpbs_context context) {
 }
 
 bool Expression::is_constant() const {
-  return parser_->parser.GetUsedVar().empty() && !parser_->asks_for_shape;
+  return parser_->parser.GetUsedVar().empty() && !parser_->uses_shape;
 }
 
 double Expression::at(const double* place) const {
@@ -348,7 +348,7 @@ double Expression::at(const double* place) const {
 // Evaluates point by point. muParser's bulk mode is no faster on one thread, and starts OpenMP
 // threads that compete with those of the library.
 void Expression::at(std::int64_t n, const double* coordinates, double* values) const {
-  if (!parser_->asks_for_shape) {
+  if (!parser_->uses_shape) {
     for (std::int64_t i = 0; i < n; ++i) values[i] = at(coordinates + parser_->dimension * i);
     return;
   }
@@ -356,7 +356,7 @@ void Expression::at(std::int64_t n, const double* coordinates, double* values) c
     each.values.resize(static_cast<std::size_t>(n));
     each.field.values(n, coordinates, each.values.data());
   }
-  ShapeAtPlaces shape{n, coordinates, parser_->domain};
+  ShapeAtPoints shape{n, coordinates, parser_->domain};
   const ShapeForBatch telling(shape, parser_->context, parser_->option);
   for (std::int64_t i = 0; i < n; ++i) {
     shape.place = i;

@@ -33,7 +33,7 @@ class Expression {
   // Sets the domain whose shape the formula uses. Finds the groups that the formula names, and
   // evaluates all shape functions at one point. The domain must outlive the use of this object.
   // Local. Throws Failure if the domain does not provide a property.
-  void ask_shape_of(pnpbs_domain domain, pnpbs_context context);
+  void set_shape_domain(pnpbs_domain domain, pnpbs_context context);
 
   bool is_constant() const;  // neither a coordinate nor the shape occurs in the formula
   double at(const double* place) const;

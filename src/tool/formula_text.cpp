@@ -31,7 +31,7 @@ void fail_at(const FormulaSource& source, std::size_t position, const std::strin
                  line + "\n  " + std::string(column, ' ') + "^");
 }
 
-void refuse_what_is_no_formula(const FormulaSource& source) {
+void reject_invalid_formula(const FormulaSource& source) {
   const std::string& text = source.text;
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     fail_at(source, 0, "empty expression");

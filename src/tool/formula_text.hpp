@@ -21,7 +21,7 @@ struct FormulaSource {
                           const std::string& what);
 
 // Rejects assignments to variables and lists of several values, which muParser would accept.
-void refuse_what_is_no_formula(const FormulaSource& source);
+void reject_invalid_formula(const FormulaSource& source);
 void refuse_other_hypots(const FormulaSource& source);
 
 // Returns whether the name occurs in the formula.

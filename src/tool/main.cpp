@@ -135,7 +135,7 @@ bool leaves_out_shapes(const GeoFile& geo, pnpbs_context context, pnpbs_placemen
 
 // Prints the projection of a geographic file. This happens before d is requested, since the unit of
 // d depends on it.
-void tell_projection(const GeoFile& geo) {
+void print_projection(const GeoFile& geo) {
   const GeoFile::Projection projection = geo.projection();
   if (!projection.name.empty())
     std::cerr << "pnpbs: x and y are in '" << projection.name << "', in " << projection.unit
@@ -186,7 +186,7 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
   progress.clear();
   if (talk) warn(warnings_for(arguments, context, placement), warnings.size());
-  if (ranks.any(interrupted())) throw Failure(ExitCode::interrupted, checkpoints.words_at_stop());
+  if (ranks.any(interrupted())) throw Failure(ExitCode::interrupted, checkpoints.stop_message());
   checkpoints.write();
   if (arguments.check && check(pnpbs_placement_check(placement), context) == PNPBS_NOT_CONFORMING)
     return PNPBS_NOT_CONFORMING;
@@ -203,9 +203,9 @@ bool wants_picture(const Arguments& arguments) {
 }
 
 // Prints the estimate of a run.
-void tell_estimate(pnpbs_context context, pnpbs_placement placement,
-                   const std::optional<BodyFigures>& body, const Arguments& arguments,
-                   const Ranks& ranks) {
+void print_estimate(pnpbs_context context, pnpbs_placement placement,
+                    const std::optional<BodyFigures>& body, const Arguments& arguments,
+                    const Ranks& ranks) {
   std::int64_t nodes = 0, bytes = 0;
   double seconds = 0;
   check(pnpbs_placement_estimate(placement, &nodes, &bytes, &seconds), context);
@@ -265,10 +265,10 @@ void read_domain(Work& work) {
     source.create(work.context, work.domain.out());
   });
   source.read(work.domain, work.context, work.ranks);
-  if (source.geo() && work.talks()) tell_projection(*source.geo());
+  if (source.geo() && work.talks()) print_projection(*source.geo());
   work.ranks.collective_try([&] {
     work.requests.grids->read(work.domain, work.context, source.geo());
-    spacing.take_what_was_read(*work.requests.grids);
+    spacing.use_read_grids(*work.requests.grids);
     if (arguments.simplify)
       spacing.simplify(work.domain, work.context, *arguments.simplify, arguments.smallest);
     work.look = look_of(arguments, source.dimension(), work.domain, work.context);
@@ -295,7 +295,7 @@ pnpbs_status place(Work& work, pnpbs_placement placement) {
 
 // Repairs the body to a resolution that d can resolve, if its elements do not conform and the user
 // allows repairs. Returns whether the nodes have to be placed again.
-bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) {
+bool repair_if_not_conforming(Work& work, pnpbs_status status, pnpbs_placement placement) {
   if (status != PNPBS_NOT_CONFORMING || !work.requests.source->may_be_repaired() ||
       real_statistic(placement, "repaired.resolution", work.context) > 0)
     return false;
@@ -351,12 +351,12 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   Placement given, repaired;
   create(work, given);
   if (arguments.dry_run) {
-    tell_estimate(work.context, given, work.body, arguments, ranks);
+    print_estimate(work.context, given, work.body, arguments, ranks);
     return ExitCode::done;
   }
   work.requests.outputs->check_with_library(given, work.context);
   pnpbs_status status = place(work, given);
-  if (!repair_if_torn(work, status, given)) return write_results(work, given, status);
+  if (!repair_if_not_conforming(work, status, given)) return write_results(work, given, status);
   check(pnpbs_placement_destroy(given.out()), work.context);
   create(work, repaired);
   status = place(work, repaired);
@@ -423,6 +423,6 @@ ExitCode start(int argc, char** argv) {
 }  // namespace pnpbs::tool
 
 int main(int argc, char** argv) {
-  pnpbs::tool::let_waiting_threads_sleep(argv);
+  pnpbs::tool::set_wait_policy(argv);
   return static_cast<int>(pnpbs::tool::start(argc, argv));
 }

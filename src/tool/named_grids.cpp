@@ -43,10 +43,10 @@ class GridCoverage {
                pnpbs_context context, const Ranks& ranks);
 
   bool is_nowhere() const { return nodes_ > 0 && beyond_.count + without_data_.count == nodes_; }
-  std::string words_for_nowhere() const;
+  std::string nowhere_message() const;
   // Returns how many nodes lie beyond the edge of the grid, or where it has no data; "" if none do.
-  std::string words_for_beyond() const;
-  std::string words_for_without_data() const;
+  std::string beyond_message() const;
+  std::string without_data_message() const;
 
  private:
   struct Nodes {
@@ -123,7 +123,7 @@ std::string GridCoverage::text_of(const Nodes& nodes, const std::string& what) c
          what + ", one of them at " + place_text(nodes.first.data(), dimension_, on_sphere_);
 }
 
-std::string GridCoverage::words_for_nowhere() const {
+std::string GridCoverage::nowhere_message() const {
   std::string words = grid_in_words() + " has no value anywhere in the domain: ";
   if (beyond_.count > 0) words += text_of(beyond_, "beyond its edge");
   if (beyond_.count > 0 && without_data_.count > 0) words += "; ";
@@ -131,14 +131,14 @@ std::string GridCoverage::words_for_nowhere() const {
   return words;
 }
 
-std::string GridCoverage::words_for_beyond() const {
+std::string GridCoverage::beyond_message() const {
   if (beyond_.count == 0) return "";
   return grid_in_words() +
          " covers only a part of the domain: " + text_of(beyond_, "beyond its edge") +
          "; there its values are those at the edge";
 }
 
-std::string GridCoverage::words_for_without_data() const {
+std::string GridCoverage::without_data_message() const {
   if (without_data_.count == 0) return "";
   return grid_in_words() +
          " has gaps in the domain: " + text_of(without_data_, "where it has no data") +
@@ -247,7 +247,7 @@ void NamedGrids::require_values(pnpbs_placement placement, pnpbs_domain domain,
     const GridCoverage coverage(*each, placement, dimension_, sphere_, context, ranks);
     ranks.collective_try([&] {
       if (coverage.is_nowhere())
-        throw BadInput(coverage.words_for_nowhere() + ". " +
+        throw BadInput(coverage.nowhere_message() + ". " +
                        extents_in_words(*each, domain, context));
     });
   }
@@ -271,9 +271,9 @@ std::vector<std::string> NamedGrids::warnings(pnpbs_placement placement, pnpbs_d
   std::vector<std::string> warnings;
   for (const auto& each : grids_) {
     const GridCoverage coverage(*each, placement, dimension_, sphere_, context, ranks);
-    if (const std::string words = coverage.words_for_beyond(); !words.empty() && !library_warns)
+    if (const std::string words = coverage.beyond_message(); !words.empty() && !library_warns)
       warnings.push_back(words + ". " + extents_in_words(*each, domain, context));
-    if (const std::string words = coverage.words_for_without_data(); !words.empty())
+    if (const std::string words = coverage.without_data_message(); !words.empty())
       warnings.push_back(words);
   }
   return warnings;

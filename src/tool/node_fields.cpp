@@ -84,7 +84,7 @@ std::vector<double> NodeFields::values_at(const Field& field, std::span<const do
 void NodeFields::add(std::span<const double> x, pnpbs_domain domain, pnpbs_context context,
                      const AddField& add) const {
   for (const Field& field : fields_) {
-    field.values->ask_shape_of(domain, context);
+    field.values->set_shape_domain(domain, context);
     add(field.name.c_str(), values_at(field, x));
   }
 }

@@ -27,19 +27,20 @@ struct Launch {
 
 // Variables with the number of processes: Open MPI's mpirun; PMI of the MPICH family, Slurm and
 // others; MVAPICH's mpirun_rsh.
-constexpr const char* tell_number[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"};
+constexpr const char* size_variables[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE",
+                                          "MV2_COMM_WORLD_SIZE"};
 
 // Variables with the rank: PMIx (srun --mpi=pmix, prterun), and older and other PMI.
-constexpr const char* tell_rank[] = {"PMIX_RANK", "PMI_RANK", "PALS_RANKID"};
+constexpr const char* rank_variables[] = {"PMIX_RANK", "PMI_RANK", "PALS_RANKID"};
 
 // Evaluates the variables that launchers set for their processes. PNPBS_MPI=0 or 1 overrides them.
 Launch launch_of_this_process() {
   Launch launch;
-  for (const char* variable : tell_number) {
+  for (const char* variable : size_variables) {
     const char* value = std::getenv(variable);
     if (value) launch = {true, std::max(launch.processes, std::atoi(value))};
   }
-  for (const char* variable : tell_rank) launch.by_mpi |= std::getenv(variable) != nullptr;
+  for (const char* variable : rank_variables) launch.by_mpi |= std::getenv(variable) != nullptr;
   const char* request = std::getenv("PNPBS_MPI");
   if (request && std::string_view(request) == "0") return {};
   if (request && std::string_view(request) == "1") launch.by_mpi = true;

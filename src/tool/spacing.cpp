@@ -63,7 +63,7 @@ Spacing::Spacing(const Arguments& arguments, int dimension, const NamedGrids& gr
         grids.fields_in(formula_));
 }
 
-void Spacing::take_what_was_read(const NamedGrids& grids) {
+void Spacing::use_read_grids(const NamedGrids& grids) {
   if (!grid_ || grid_->text_grid()) return;
   expression_ =
       std::make_unique<Expression>(formula_, dimension_, "--spacing-grid",
@@ -80,7 +80,7 @@ void Spacing::simplify(pnpbs_domain domain, pnpbs_context context, double tolera
           context);
     return;
   }
-  if (expression_) expression_->ask_shape_of(domain, context);
+  if (expression_) expression_->set_shape_domain(domain, context);
   const Multiplied d = callback();
   check(pnpbs_domain_simplify(domain, d.d, d.user, tolerance, smallest, nullptr, nullptr), context);
 }
@@ -100,7 +100,7 @@ std::int32_t Spacing::call_multiplied(std::int64_t n, std::int32_t dim, const do
 
 void Spacing::add_band(pnpbs_domain domain, pnpbs_domain body, const Band& band,
                        pnpbs_context context) {
-  if (expression_) expression_->ask_shape_of(body, context);
+  if (expression_) expression_->set_shape_domain(body, context);
   const Multiplied d = callback();
   constexpr std::int32_t tag = 1;
   check(pnpbs_domain_add_offset(domain, body, band.from, band.to, d.d, d.user, 0, tag), context);
@@ -133,7 +133,7 @@ void Spacing::set_spacing(pnpbs_placement placement, pnpbs_domain domain, pnpbs_
           context);
     return;
   }
-  if (expression_) ranks.collective_try([&] { expression_->ask_shape_of(domain, context); });
+  if (expression_) ranks.collective_try([&] { expression_->set_shape_domain(domain, context); });
   const bool is_constant = expression_ && expression_->is_constant();
   if (is_constant) {
     constexpr double anywhere[3] = {0, 0, 0};

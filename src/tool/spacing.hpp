@@ -36,7 +36,7 @@ class Spacing {
 
   // Must be called after the grids have been read. A single grid that GDAL has read becomes a
   // formula; an ESRI ASCII grid is passed to the library as it is. Local.
-  void take_what_was_read(const NamedGrids& grids);
+  void use_read_grids(const NamedGrids& grids);
 
   // Removes details finer than d from a domain in the plane. Local. Throws Failure.
   void simplify(pnpbs_domain domain, pnpbs_context context, double tolerance, double smallest);

@@ -14,7 +14,7 @@ namespace pnpbs::tool {
 namespace {
 
 // Returns positions by local index: owned nodes first, then ghosts.
-std::vector<Point<3>> positions_seen(pnpbs_placement placement, pnpbs_context context) {
+std::vector<Point<3>> local_positions(pnpbs_placement placement, pnpbs_context context) {
   std::int64_t own = 0, ghosts = 0;
   check(pnpbs_placement_count(placement, &own), context);
   check(pnpbs_placement_ghost_count(placement, &ghosts), context);
@@ -46,7 +46,7 @@ BodyFigures body_figures(pnpbs_domain domain, bool filled, pnpbs_context context
 }
 
 double boundary_area(pnpbs_placement placement, pnpbs_context context, const Ranks& ranks) {
-  const std::vector<Point<3>> x = positions_seen(placement, context);
+  const std::vector<Point<3>> x = local_positions(placement, context);
   const auto at = [&x](std::int64_t node) { return x[static_cast<std::size_t>(node)]; };
   double area = 0;
   for (const auto& [a, b, c] : own_boundary(placement, context)) {

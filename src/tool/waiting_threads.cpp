@@ -43,7 +43,7 @@ int cores() {
 }  // namespace
 
 // If no number of threads is given, the ranks on this machine share its cores.
-void let_waiting_threads_sleep(char** argv) {
+void set_wait_policy(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   const int ranks = std::max(1, first_number(ranks_here)), asked_for = threads_asked_for(argv),
             threads = asked_for > 0 ? asked_for : cores() / ranks;

@@ -10,6 +10,6 @@ namespace pnpbs::tool {
 // GOMP_SPINCOUNT are read before main begins. So, unless one of them is set, this process executes
 // itself again, with threads that sleep at once, or after a short time if there are enough cores.
 // Must be called first in main.
-void let_waiting_threads_sleep(char** argv);
+void set_wait_policy(char** argv);
 
 }  // namespace pnpbs::tool

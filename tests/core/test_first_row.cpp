@@ -70,7 +70,7 @@ std::int64_t occupied_apexes(const Level& level) {
 }
 
 void expect_no_change(Level& level) {
-  const PopulationCounts counts = pnpbs::lay_first_row(level);
+  const PopulationCounts counts = pnpbs::place_first_row(level);
   ck_assert_int_eq(counts.inserted, 0);
   ck_assert_int_eq(counts.deleted, 0);
 }
@@ -84,7 +84,7 @@ START_TEST(one_over_each_edge) {
     LevelRun run = filled(build, constant(kD));
     Level& level = *run.level;
     const std::int64_t nodes = level.nodes.count;
-    const PopulationCounts counts = pnpbs::lay_first_row(level);
+    const PopulationCounts counts = pnpbs::place_first_row(level);
     ck_assert_int_gt(counts.inserted, 5);
     ck_assert_int_eq(level.nodes.count, nodes + counts.inserted - counts.deleted);
     std::set<std::int64_t> ids;
@@ -114,7 +114,7 @@ START_TEST(once_is_enough) {
   for (const auto& [build, d] : {std::pair{kRing, kD}, std::pair{lake, 3.0}}) {
     LevelRun run = filled(build, constant(d));
     run.steps(100);
-    ck_assert_int_gt(pnpbs::lay_first_row(*run.level).inserted, 5);
+    ck_assert_int_gt(pnpbs::place_first_row(*run.level).inserted, 5);
     expect_no_change(*run.level);
     for (int round = 0; round < 3; ++round) {
       pnpbs::sweep_and_repair(*run.level, 6);
@@ -139,7 +139,7 @@ START_TEST(irregular_edges_have_none) {
   const auto near_diagonal = [](const P& x) { return std::fabs(x[0] - x[1]) < 2 * kD; };
   {
     LevelRun run = filled(steps, constant(kD));
-    pnpbs::lay_first_row(*run.level);
+    pnpbs::place_first_row(*run.level);
     for_apexes(*run.level, [&](const P& apex, double length) {
       if (near_diagonal(apex))
         ck_assert_int_eq(inner_nodes_within(*run.level, apex, 1e-12 * length), 0);
@@ -170,7 +170,7 @@ START_TEST(nodes_are_inside) {
   for (const auto& [build, d] : {std::pair{strait, kD}, std::pair{lake, 3.0}, std::pair{lake, 10.0},
                                  std::pair{lakes, 8.0}}) {
     LevelRun run = filled(build, constant(d));
-    pnpbs::lay_first_row(*run.level);
+    pnpbs::place_first_row(*run.level);
     const Level& level = *run.level;
     for (std::int64_t i = 0; i < level.nodes.count; ++i) {
       const P x = level.nodes.position(i);
@@ -190,7 +190,7 @@ START_TEST(curves_that_end_inside) {
     add_chain(p, {0.2, 0.51, 0.2 + kEdges * kD, 0.51});
   };
   LevelRun run = filled(cut, constant(kD));
-  pnpbs::lay_first_row(*run.level);
+  pnpbs::place_first_row(*run.level);
   for (int k = 0; k < kEdges; ++k)
     for (const bool left : {false, true}) {
       const P apex = apex_over({0.2 + k * kD, 0.51}, {0.2 + (k + 1) * kD, 0.51}, left);
@@ -208,7 +208,7 @@ START_TEST(boundary_triangles_are_good) {
   const auto low_quality = [&](bool with_row) {
     LevelRun run = filled(kRing, growing);
     run.steps(200);
-    if (with_row) pnpbs::lay_first_row(*run.level);
+    if (with_row) pnpbs::place_first_row(*run.level);
     pnpbs::sweep_and_repair(*run.level, 6);
     run.renew_stars();
     const Level& level = *run.level;

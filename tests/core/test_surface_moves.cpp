@@ -126,8 +126,7 @@ struct Pierced {
       for (std::size_t k = 0; k < 3; ++k) x[k] += length / whole * way[k];
       return pnpbs::AlongSurfaces::Place{x, 7};
     };
-    const auto on_one_sheet = [](std::int64_t, std::int64_t) { return true; };
-    return {walk, rule(), {}, on_one_sheet};
+    return {walk, rule(), {}};
   }
 
   // Counts slivers with a node on a side, by the current stars.

@@ -70,10 +70,10 @@ class Changes(unittest.TestCase):
 
     def test_constant_of_the_method(self):
         self.change("src/method/constants.hpp", "kTouch = 1.3;", "kTouch = 1.31;")
-        self.assertIn("+| `kTouch` | 1.31 | d | Bubbles nearer than this touch", self.found())
+        self.assertIn("+| `kTouch` | 1.31 | d | Distance below which bubbles touch", self.found())
 
     def test_constant_without_a_unit(self):
-        self.change("src/method/constants.hpp", "[d] Chosen between these shells", "Chosen")
+        self.change("src/method/constants.hpp", "[d] Chosen between these\n// shells", "Chosen")
         with self.assertRaisesRegex(ValueError, "kTouch = 1.3"):
             self.found()
 

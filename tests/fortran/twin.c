@@ -34,7 +34,7 @@ int64_t twin_mesh_sharing(int64_t handle, int64_t nodes, int64_t entries, const 
                           const int64_t* offsets, const int32_t* ranks);
 int64_t twin_segments(int64_t handle, int64_t n, const double* segments, const int32_t* tags);
 
-static pnpbs_placement placement_impl(int64_t handle) { return (pnpbs_placement)(intptr_t)handle; }
+static pnpbs_placement placement_of(int64_t handle) { return (pnpbs_placement)(intptr_t)handle; }
 
 static pnpbs_mesh mesh_of(int64_t handle) { return (pnpbs_mesh)(intptr_t)handle; }
 
@@ -60,7 +60,7 @@ static int64_t shifted_short(int64_t n, const int32_t* ours, const int32_t* fort
 
 int64_t twin_nodes(int64_t handle, int64_t n, const double* xyz, const int64_t* ids,
                    const int32_t* tags, const double* d) {
-  const pnpbs_placement p = placement_impl(handle);
+  const pnpbs_placement p = placement_of(handle);
   const int32_t dim = dimension_of(p);
   double *x = room(dim * n, sizeof *x), *s = room(n, sizeof *s);
   int64_t *i = room(n, sizeof *i), nodes = -1, wrong = 0;
@@ -78,7 +78,7 @@ int64_t twin_nodes(int64_t handle, int64_t n, const double* xyz, const int64_t* 
 int64_t twin_ghosts(int64_t handle, int64_t n, const double* xyz, const int64_t* ids,
                     const int32_t* tags, const double* d, const int32_t* owners,
                     const int64_t* numbers) {
-  const pnpbs_placement p = placement_impl(handle);
+  const pnpbs_placement p = placement_of(handle);
   const int32_t dim = dimension_of(p);
   double *x = room(dim * n, sizeof *x), *s = room(n, sizeof *s);
   int64_t *i = room(n, sizeof *i), ghosts = -1, wrong = 0;
@@ -98,7 +98,7 @@ int64_t twin_ghosts(int64_t handle, int64_t n, const double* xyz, const int64_t*
 
 int64_t twin_lists(int64_t handle, int32_t stars, int64_t nodes, const int64_t* offsets,
                    const int64_t* neighbours, const int8_t* triangle) {
-  const pnpbs_placement p = placement_impl(handle);
+  const pnpbs_placement p = placement_of(handle);
   int64_t entries = -1, wrong = 0, *rows = room(nodes, sizeof *rows), *list;
   int8_t* flags;
   wrong += (stars ? pnpbs_placement_star_size(p, &entries)
@@ -116,7 +116,7 @@ int64_t twin_lists(int64_t handle, int32_t stars, int64_t nodes, const int64_t* 
 
 int64_t twin_triangles(int64_t handle, int64_t n, const int64_t* triangles) {
   int64_t *corners = room(3 * n, sizeof *corners), count = -1, wrong = 0;
-  wrong += pnpbs_placement_get_triangles(placement_impl(handle), n, &count, corners) != PNPBS_OK;
+  wrong += pnpbs_placement_get_triangles(placement_of(handle), n, &count, corners) != PNPBS_OK;
   wrong += count != n;
   wrong += shifted(3 * n, corners, triangles);
   free(corners);
@@ -126,8 +126,7 @@ int64_t twin_triangles(int64_t handle, int64_t n, const int64_t* triangles) {
 int64_t twin_edges(int64_t handle, int64_t n, const int64_t* edges, const int32_t* tags) {
   int64_t *ends = room(2 * n, sizeof *ends), count = -1, wrong = 0;
   int32_t* t = room(n, sizeof *t);
-  wrong +=
-      pnpbs_placement_get_boundary_edges(placement_impl(handle), n, &count, ends, t) != PNPBS_OK;
+  wrong += pnpbs_placement_get_boundary_edges(placement_of(handle), n, &count, ends, t) != PNPBS_OK;
   wrong += count != n;
   wrong += shifted(2 * n, ends, edges) + (memcmp(t, tags, (size_t)n * sizeof *t) != 0);
   free(ends), free(t);
@@ -136,7 +135,7 @@ int64_t twin_edges(int64_t handle, int64_t n, const int64_t* edges, const int32_
 
 int64_t twin_tetrahedra(int64_t handle, int64_t n, const int64_t* tetrahedra) {
   int64_t *corners = room(4 * n, sizeof *corners), count = -1, wrong = 0;
-  wrong += pnpbs_placement_get_tetrahedra(placement_impl(handle), n, &count, corners) != PNPBS_OK;
+  wrong += pnpbs_placement_get_tetrahedra(placement_of(handle), n, &count, corners) != PNPBS_OK;
   wrong += count != n;
   wrong += shifted(4 * n, corners, tetrahedra);
   free(corners);
@@ -147,7 +146,7 @@ int64_t twin_incident_elements(int64_t handle, int64_t n, int32_t corners,
                                const int64_t* elements) {
   int64_t *found = room(corners * n, sizeof *found), count = -1, wrong = 0;
   int32_t of_each = 0;
-  wrong += pnpbs_placement_get_incident_elements(placement_impl(handle), n, &count, &of_each,
+  wrong += pnpbs_placement_get_incident_elements(placement_of(handle), n, &count, &of_each,
                                                  found) != PNPBS_OK;
   wrong += count != n || of_each != corners;
   wrong += shifted(corners * n, found, elements);
@@ -159,7 +158,7 @@ int64_t twin_boundary_triangles(int64_t handle, int64_t n, const int64_t* triang
                                 const int32_t* tags) {
   int64_t *corners = room(3 * n, sizeof *corners), count = -1, wrong = 0;
   int32_t* t = room(n, sizeof *t);
-  wrong += pnpbs_placement_get_boundary_triangles(placement_impl(handle), n, &count, corners, t) !=
+  wrong += pnpbs_placement_get_boundary_triangles(placement_of(handle), n, &count, corners, t) !=
            PNPBS_OK;
   wrong += count != n;
   wrong += shifted(3 * n, corners, triangles) + (memcmp(t, tags, (size_t)n * sizeof *t) != 0);
@@ -170,7 +169,7 @@ int64_t twin_boundary_triangles(int64_t handle, int64_t n, const int64_t* triang
 int64_t twin_exchange(int64_t handle, int32_t neighbours, const int32_t* ranks,
                       const int64_t* send_offsets, const int64_t* send_nodes,
                       const int64_t* receive_offsets, const int64_t* receive_nodes) {
-  const pnpbs_placement p = placement_impl(handle);
+  const pnpbs_placement p = placement_of(handle);
   int32_t count = -1, *r = room(neighbours, sizeof *r);
   int64_t sends = -1, receives = -1, wrong = 0, *so, *sn, *ro, *rn;
   wrong += pnpbs_placement_exchange_sizes(p, &count, &sends, &receives) != PNPBS_OK;

@@ -25,7 +25,7 @@ namespace {
 using Triangles = std::set<StarTriangle>;
 
 // Returns the triangles that are in the stars of all three nodes.
-Triangles collective_try(const std::multiset<StarTriangle>& all) {
+Triangles triangles_in_all(const std::multiset<StarTriangle>& all) {
   Triangles triangles;
   for (const StarTriangle& t : all)
     if (all.count(t) == 3) triangles.insert(t);
@@ -99,7 +99,7 @@ START_TEST(test_flat_patch) {
     ck_assert_uint_eq(after.nodes.size(), x.size());
     const std::multiset<StarTriangle> found = after.triangles(4 * kSpacing);
     ck_assert_double_eq(disagreement(found), 0);
-    quick_assert(collective_try(found) == expected);
+    quick_assert(triangles_in_all(found) == expected);
   }
 }
 END_TEST
@@ -118,7 +118,7 @@ START_TEST(test_ties_in_a_flat_patch) {
   ck_assert_uint_eq(starred.nodes.size(), 121);
   const std::multiset<StarTriangle> found = starred.triangles(0.35);
   ck_assert_double_eq(disagreement(found), 0);
-  ck_assert_uint_eq(collective_try(found).size(), 200);
+  ck_assert_uint_eq(triangles_in_all(found).size(), 200);
 }
 END_TEST
 
@@ -139,7 +139,7 @@ START_TEST(test_ball) {
   ck_assert_uint_eq(expected.size(), 2 * x.size() - 4);
   const std::multiset<StarTriangle> found = starred.triangles(3 * kSpacing);
   ck_assert_double_eq(disagreement(found), 0);
-  quick_assert(collective_try(found) == expected);
+  quick_assert(triangles_in_all(found) == expected);
 }
 END_TEST
 
@@ -155,7 +155,7 @@ START_TEST(test_closed_bodies) {
     starred.throw_nodes(random);
     const std::multiset<StarTriangle> found = starred.triangles(4 * spacings[which]);
     ck_assert_double_eq(disagreement(found), 0);
-    ck_assert_uint_eq(collective_try(found).size(), 2 * starred.nodes.size() - 4);
+    ck_assert_uint_eq(triangles_in_all(found).size(), 2 * starred.nodes.size() - 4);
   }
 }
 END_TEST

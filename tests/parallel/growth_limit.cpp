@@ -69,9 +69,9 @@ std::vector<Case> cases() {
 }
 
 // A collective spacing, such as d from a solver: all ranks must evaluate it at the same time.
-class AskedTogether : public Spacing<2> {
+class CollectiveSpacing : public Spacing<2> {
  public:
-  explicit AskedTogether(Plane d) : d_(std::move(d)) {}
+  explicit CollectiveSpacing(Plane d) : d_(std::move(d)) {}
   void evaluate(std::int64_t n, const P* x, double* values) const override {
     ++calls_;
     if (comm->allreduce_max(calls_) != calls_)
@@ -114,7 +114,7 @@ void check_case(const Case& c) {
   const Limited alone =
       limited_spacing<2>(pnpbs::serial_communicator(), line_of_sight(domain, *spacing_of(c.d)),
                          spacing_of(c.d), c.growth, kManyNodes);
-  const auto asked = std::make_shared<AskedTogether>(c.d);
+  const auto asked = std::make_shared<CollectiveSpacing>(c.d);
   const Limited together =
       limited_spacing<2>(comm, line_of_sight(domain, *asked), asked, c.growth, kManyNodes);
   const auto seed = static_cast<std::uint64_t>(comm->rank());
@@ -174,7 +174,7 @@ void check_failures() {
   const Plane even = constant(0.02);
   int beats = 0;
   const auto make = [&](const Plane& d, std::int64_t max_nodes, const std::function<void()>& beat) {
-    const auto asked = std::make_shared<AskedTogether>(d);
+    const auto asked = std::make_shared<CollectiveSpacing>(d);
     limited_spacing<2>(comm, line_of_sight(domain, *spacing_of(even)), asked, 0.1, max_nodes, beat);
   };
   make(even, kManyNodes, [&] { ++beats; });

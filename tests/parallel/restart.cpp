@@ -130,7 +130,7 @@ struct Case {
   const char* growth_limit;  // null: the default
 };
 
-pnpbs_placement placement_impl(pnpbs_context on, const Case& c) {
+pnpbs_placement placement_of(pnpbs_context on, const Case& c) {
   const double corners[] = {-1, -1, 1, -1, 1, 1, -1, 1}, outside[] = {0, 0, 1};
   const double low[] = {-0.8, -0.9, -0.6}, high[] = {0.8, 0.9, 0.6};
   pnpbs_domain domain;
@@ -205,7 +205,7 @@ void expect_same(const Result& result, const Result& right, int moment) {
 void continue_from(pnpbs_context on, const Case& c, int moments, const Result& right,
                    const SetSpacing& set_spacing) {
   for (int moment = 0; moment < moments; ++moment) {
-    pnpbs_placement placement = placement_impl(on, c);
+    pnpbs_placement placement = placement_of(on, c);
     if (set_spacing) set_spacing(placement);
     const pnpbs_status read = pnpbs_placement_read_checkpoint(placement, path_of(moment).c_str());
     expect(read == PNPBS_OK, (std::string(case_name) + ", read: " + pnpbs_last_error(on)).c_str());
@@ -221,7 +221,7 @@ void continue_from(pnpbs_context on, const Case& c, int moments, const Result& r
 
 void check(const Case& c, pnpbs_context part, int size_of_part) {
   case_name = c.name.c_str();
-  pnpbs_placement placement = placement_impl(context, c);
+  pnpbs_placement placement = placement_of(context, c);
   c.set_spacing(placement);
   Watch watch{placement};
   pnpbs_placement_set_monitor(placement, write_checkpoints, &watch);

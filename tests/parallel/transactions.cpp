@@ -60,7 +60,7 @@ const std::vector<Shape>& shapes() {
   return all;
 }
 
-pnpbs_placement placement_impl(const Shape& shape, Spacing& spacing) {
+pnpbs_placement placement_of(const Shape& shape, Spacing& spacing) {
   const double outside[] = {0, 0, -1};
   pnpbs_domain domain;
   pnpbs_placement placement;
@@ -129,7 +129,7 @@ struct Undisturbed {
 
 Undisturbed undisturbed(const Shape& shape, const Case& c) {
   Spacing spacing;
-  const pnpbs_placement placement = placement_impl(shape, spacing);
+  const pnpbs_placement placement = placement_of(shape, spacing);
   c.prepare(placement, spacing);
   spacing.calls = 0;
   Undisturbed result{};
@@ -146,7 +146,7 @@ Undisturbed undisturbed(const Shape& shape, const Case& c) {
 void check_failure(const Shape& shape, const Case& c, const Undisturbed& right, long at) {
   const std::string name = about(shape, c, at);
   Spacing spacing;
-  pnpbs_placement placement = placement_impl(shape, spacing);
+  pnpbs_placement placement = placement_of(shape, spacing);
   c.prepare(placement, spacing);
   const PlacementView before = view_before_call(placement);
   spacing.calls = 0;
@@ -177,7 +177,7 @@ void check(const Shape& shape, const Case& c) {
 void check_reading() {
   const Shape& shape = shapes()[0];
   Spacing spacing;
-  pnpbs_placement placement = placement_impl(shape, spacing);
+  pnpbs_placement placement = placement_of(shape, spacing);
   char path[100];
   int first = rank;
   MPI_Bcast(&first, 1, MPI_INT, 0, group);

@@ -133,6 +133,8 @@ pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
     double min_spacing, double max_spacing);
 pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
     const double *d);
+pnpbs_status pnpbs_placement_add_spacing_hints(pnpbs_placement placement, int64_t n,
+                                               const double *coordinates);
 pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monitor_fn monitor,
     void *user);
 pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,

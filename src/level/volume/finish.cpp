@@ -155,11 +155,7 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
   const auto rule = [&input](const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners) {
     return in_domain(input, nodes, corners);
   };
-  const auto on_one_sheet = [&level](std::int64_t i, std::int64_t j) {
-    return level.geometry.surface().sees(level.geometry.place(level.nodes, i),
-                                         level.geometry.place(level.nodes, j));
-  };
-  AlongSurfaces ways{walk, rule, {}, on_one_sheet};
+  AlongSurfaces ways{walk, rule, {}};
   if (!level.geometry.domain().level_sets().sets.empty())
     ways.settle = [&level](std::vector<AlongSurfaces::Place>& places) {
       settle_on_level_sets(level.geometry, places);

@@ -63,8 +63,6 @@ struct AlongSurfaces {
   // cannot be projected. Called once per round for all points of this rank, outside of parallel
   // regions. Null if walk() returns points on the surface.
   std::function<void(std::vector<Place>& places)> settle;
-  // Returns whether these boundary nodes lie on one sheet of a surface.
-  std::function<bool(std::int64_t i, std::int64_t j)> on_one_sheet;
 };
 
 // The repair of slivers, in rounds: draw(), on several ranks take(), move(), and on several ranks

@@ -55,8 +55,8 @@ pnpbs_status add_statistics(pnpbs_placement placement, const std::string& prefix
 
 }  // namespace
 
-bool collective_try(pnpbs_status status, pnpbs_context context, MPI_Comm ranks,
-                    const std::string& name, Results& results) {
+bool add_status(pnpbs_status status, pnpbs_context context, MPI_Comm ranks, const std::string& name,
+                Results& results) {
   const std::string message = status < 0 ? pnpbs_last_error(context) : "";
   results.emplace_back(name, std::to_string(status));
   if (status < 0) results.emplace_back(kMessage, message);
@@ -73,10 +73,10 @@ bool add_results(pnpbs_placement placement, pnpbs_context context, MPI_Comm rank
     MPI_Allreduce(&sum, &all, 1, MPI_UINT64_T, MPI_SUM, ranks);
     sums.emplace_back(prefix + "hash of " + name, hexadecimal(all));
   });
-  if (told < 0) return collective_try(told, context, ranks, prefix + "results", results) && false;
+  if (told < 0) return add_status(told, context, ranks, prefix + "results", results) && false;
   const pnpbs_status status = add_statistics(placement, prefix, results);
   if (status < 0)
-    return collective_try(status, context, ranks, prefix + "statistics", results) && false;
+    return add_status(status, context, ranks, prefix + "statistics", results) && false;
   results.insert(results.end(), sums.begin(), sums.end());
   add_warnings(placement, prefix, results);
   // The message of the check names the first point that a rank finds, so only the status is

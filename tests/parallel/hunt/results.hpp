@@ -25,8 +25,8 @@ bool add_results(pnpbs_placement placement, pnpbs_context context, MPI_Comm rank
 
 /** Adds the status and, for an error, its message. Returns whether they are the same on all ranks.
  * Collective. */
-bool collective_try(pnpbs_status status, pnpbs_context context, MPI_Comm ranks,
-                    const std::string& name, Results& results);
+bool add_status(pnpbs_status status, pnpbs_context context, MPI_Comm ranks, const std::string& name,
+                Results& results);
 
 std::string packed(const Results& results);
 Results unpacked(const std::string& text);

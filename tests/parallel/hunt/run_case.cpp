@@ -30,7 +30,7 @@ class Run {
 
  private:
   bool went_well(pnpbs_status status, const char* name) {
-    return collective_try(status, context_, ranks_, name, results_) && status >= 0;
+    return add_status(status, context_, ranks_, name, results_) && status >= 0;
   }
 
   bool prepare() {

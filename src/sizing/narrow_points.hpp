@@ -16,9 +16,9 @@ namespace pnpbs {
 // nodes lie on their curves. Throws Error(ErrorKind::spacing) if there are more points than nodes
 // allowed. The result is the same on all ranks.
 // Collective.
-std::vector<GrowthSource<2>> narrow_places(const Level<2>& level,
+std::vector<GrowthSource<2>> narrow_points(const Level<2>& level,
                                            const std::vector<GrowthSource<2>>& near);
-std::vector<GrowthSource<3>> narrow_places(const Level<3>& level,
+std::vector<GrowthSource<3>> narrow_points(const Level<3>& level,
                                            const std::vector<GrowthSource<3>>& near);
 
 }  // namespace pnpbs

@@ -69,7 +69,7 @@ struct Listed {
 // Places the bubbles, assigns those beyond the plane to another rank, builds the stars and returns
 // them as PreviousStars.
 PreviousStars taken(Listed& listed, const std::vector<Bubble<3>>& bubbles, double beyond,
-                  Random& random, std::uint64_t digest = 0) {
+                    Random& random, std::uint64_t digest = 0) {
   listed.put(bubbles, random);
   listed.give_away(beyond);
   VolumeStars stars;
@@ -233,7 +233,7 @@ START_TEST(stars_of_others) {
 }
 END_TEST
 
-TEST_SUITE(test_stars_before) {
-  return run_kernel_suite("stars_before", {little_moves, large_moves, ties, nodes_given_away,
-                                           restore, other_nodes, stars_of_others});
+TEST_SUITE(test_previous_stars) {
+  return run_kernel_suite("previous_stars", {little_moves, large_moves, ties, nodes_given_away,
+                                             restore, other_nodes, stars_of_others});
 }

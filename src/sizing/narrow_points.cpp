@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sizing/narrow_places.hpp"
+#include "sizing/narrow_points.hpp"
 
 #include <algorithm>
 
@@ -47,11 +47,11 @@ class Surroundings {
 
 }  // namespace
 
-std::vector<GrowthSource<2>> narrow_places(const Level<2>&, const std::vector<GrowthSource<2>>&) {
+std::vector<GrowthSource<2>> narrow_points(const Level<2>&, const std::vector<GrowthSource<2>>&) {
   return {};
 }
 
-std::vector<GrowthSource<3>> narrow_places(const Level<3>& level,
+std::vector<GrowthSource<3>> narrow_points(const Level<3>& level,
                                            const std::vector<GrowthSource<3>>& near) {
   std::vector<GrowthSource<3>> narrow;
   collective_try(*level.comm, [&] {

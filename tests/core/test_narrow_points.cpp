@@ -8,7 +8,7 @@
 #include "placement/placement_impl.hpp"
 #include "quick_assert.hpp"
 #include "run_kernel_suite.hpp"
-#include "sizing/narrow_places.hpp"
+#include "sizing/narrow_points.hpp"
 
 using Point3 = pnpbs::Point<3>;
 using Source = pnpbs::GrowthSource<3>;
@@ -43,7 +43,7 @@ START_TEST(a_plate_is_narrow_all_over) {
   constexpr double kThickness = 0.1;
   const auto placement = plate(kThickness);
   double left = 1, right = 0;
-  for (const Source& source : pnpbs::narrow_places(placement->level(), {})) {
+  for (const Source& source : pnpbs::narrow_points(placement->level(), {})) {
     quick_assert(on_a_side(source.x, kThickness));
     ck_assert_double_eq_tol(source.d, kThickness, 1e-12);
     left = std::min(left, source.x[0]);
@@ -57,8 +57,8 @@ END_TEST
 START_TEST(near_places_alone) {
   const auto placement = plate(0.1);
   const std::vector<Source> places{{{0.5, 0.5, 0.1}, kSpacing}, {{2.5, 0.5, 1}, kSpacing}};
-  const std::vector<Source> all = pnpbs::narrow_places(placement->level(), {});
-  const std::vector<Source> near = pnpbs::narrow_places(placement->level(), places);
+  const std::vector<Source> all = pnpbs::narrow_points(placement->level(), {});
+  const std::vector<Source> near = pnpbs::narrow_points(placement->level(), places);
   std::size_t expected = 0;
   for (const Source& source : all) expected += pnpbs::distance<3>(source.x, places[0].x) < kSpacing;
   ck_assert_uint_gt(expected, 0);
@@ -72,13 +72,13 @@ END_TEST
 // One round reduces d by a bounded factor, however thin the plate is.
 START_TEST(a_foil_is_come_near_to_in_rounds) {
   const auto placement = plate(0.01);
-  const std::vector<Source> found = pnpbs::narrow_places(placement->level(), {});
+  const std::vector<Source> found = pnpbs::narrow_points(placement->level(), {});
   ck_assert_uint_gt(found.size(), 0);
   for (const Source& source : found) ck_assert_double_eq_tol(source.d, 0.3 * kSpacing, 1e-12);
 }
 END_TEST
 
-TEST_SUITE(test_narrow_places) {
-  return run_kernel_suite("narrow_places", {a_plate_is_narrow_all_over, near_places_alone,
+TEST_SUITE(test_narrow_points) {
+  return run_kernel_suite("narrow_points", {a_plate_is_narrow_all_over, near_places_alone,
                                             a_foil_is_come_near_to_in_rounds});
 }
