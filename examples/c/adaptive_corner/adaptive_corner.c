@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Solve, estimate the error, change d, place again: an adaptive loop on a live placement, over the
- * ranks of an MPI program. The domain is an L, (-1, 1)^2 without its lower right quarter, and
- * -Laplace u = 0 has the solution u = r^(2/3) sin(2 theta / 3), whose gradient is infinite at the
- * corner that points inwards. Linear finite elements from the Delaunay stars and conjugate
- * gradients, as in laplace_ring.
+ * An adaptive loop on a live placement, over the ranks of an MPI program. Each round solves,
+ * estimates the error, changes the spacing d and runs the placement again. The domain is an L, the
+ * square (-1, 1)^2 without its lower right quarter. The problem -Laplace u = 0 has the solution
+ * u = r^(2/3) sin(2 theta / 3), whose gradient is infinite at the re-entrant corner. As in
+ * laplace_ring, the program assembles linear finite elements from the Delaunay stars and solves by
+ * conjugate gradients.
  *
  *   mpirun -np 4 ./adaptive_corner [FOLDER]
  *
- * A round: the error on each triangle is estimated as the distance of the solution's gradient from
- * a smoother one, averaged over the stars (Zienkiewicz and Zhu 1987), without knowing u; from it
- * comes the d that spreads the error evenly over twice as many nodes; the next run starts from the
- * nodes there are, and if the ranks then have unequal work, it is partitioned anew. No rank ever
- * holds all nodes. With a folder, which must be there, every rank writes its piece of the last
- * round.
+ * The error on each triangle is estimated, without the known solution, as the L2 distance between
+ * the gradient of the finite element solution and a smoother gradient that is averaged over the
+ * stars (Zienkiewicz and Zhu 1987). The new d distributes the error evenly over twice as many
+ * nodes. The next run starts from the current nodes. If the work of the ranks is unequal
+ * afterwards, it is repartitioned. No rank holds all nodes. If a folder is given, every rank writes
+ * its piece of the last round into it; the folder must exist.
  *
- * What to check (theory, for linear elements and the energy norm, the root of the integral of
- * |grad error|^2): with N nodes of the same d everywhere the error falls as N^(-1/3), because of
- * the corner; adapted it falls as N^(-1/2), as if there were none. The estimate is about as large
+ * Results to check, for linear elements and the energy norm, which is the root of the integral of
+ * |grad error|^2: with N nodes and constant d the error falls as N^(-1/3) because of the corner. On
+ * adapted nodes it falls as N^(-1/2), the rate of a smooth solution. The estimate is about as large
  * as the error.
  */
 #include <math.h>
@@ -27,22 +28,23 @@
 #include <stdlib.h>
 
 #define ROUNDS 6
-#define FIRST_NODES 400.0 /* of round 0; every round has twice as many as the one before */
+#define FIRST_NODES 400.0 /* nodes of round 0; each round doubles the number */
 #define PI 3.14159265358979323846
 #define AREA 3.0
 #define PERIMETER 8.0
 
-/* This rank's nodes, followed by its ghosts: the nodes of other ranks next to them. */
+/* The mesh of this rank. Arrays over `all` hold the owned nodes first, then the ghosts, which are
+ * nearby nodes that other ranks own. */
 typedef struct {
   MPI_Comm comm;
-  int64_t owned, all;          /* all: with the ghosts */
+  int64_t owned, all;          /* all = owned + ghosts */
   double *xy;                  /* [all][2] */
   double *spacing;             /* [all] */
   int32_t *tags;               /* [all] */
   int64_t triangles, *corners; /* [triangles][3] */
 } mesh;
 
-/* Which nodes' values go to which rank, and which ghosts' values come from there. */
+/* The halo exchange pattern of pnpbs_placement_get_exchange, with message buffers. */
 typedef struct {
   int32_t neighbours, *ranks;
   int64_t *send_offsets, *send_nodes, *receive_offsets, *receive_nodes;
@@ -50,20 +52,20 @@ typedef struct {
   MPI_Request *requests;
 } exchange;
 
-/* The rows of this rank's nodes: besides the diagonal, one entry for each node of the star, those
- * of row i from offsets[i] to offsets[i + 1] - 1. */
+/* The matrix rows of the owned nodes. Row i has a diagonal entry and one entry for each node of the
+ * star of node i, at offsets[i] .. offsets[i + 1] - 1. */
 typedef struct {
   int64_t *offsets, *columns;
-  int8_t *triangle; /* whether the node, this one and the next of the star are a triangle */
+  int8_t *triangle; /* 1: the node, this one and the next one of the star form a triangle */
   double *diagonal, *values;
 } matrix;
 
-/* What a solution on this rank's nodes turned out to be. */
+/* A solution at the nodes of this rank, with its true and its estimated error. */
 typedef struct {
   double nodes, error, estimate; /* over all ranks */
   double *u;                     /* [all] */
-  double *density;               /* [all] estimated squared error per area about a node */
-  double *area;                  /* [owned] and that area: a third of the triangles of its star */
+  double *density;               /* [all] estimated squared error per area around a node */
+  double *area;                  /* [owned] this area: a third of the triangles of the star */
 } solution;
 
 static void check(pnpbs_status status, pnpbs_context context) {
@@ -73,6 +75,7 @@ static void check(pnpbs_status status, pnpbs_context context) {
   }
 }
 
+/* Returns zeroed memory for at least n entries, or aborts. */
 static void *room(int64_t n, size_t size) {
   void *memory = calloc((size_t)n + 1, size);
   if (memory == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
@@ -81,7 +84,8 @@ static void *room(int64_t n, size_t size) {
 
 /* ---------------------------------------------------------------- the known solution ----- */
 
-/* 0 .. 3/2 pi inside, from the edge to the right of the corner to the one below it */
+/* Returns theta: 0 on the edge to the right of the re-entrant corner, growing counter-clockwise to
+ * 3/2 pi on the edge below it. */
 static double angle(const double *x) {
   const double theta = atan2(x[1], x[0]);
   return theta < -PI / 4 ? theta + 2 * PI : theta;
@@ -132,19 +136,20 @@ static void get_exchange(pnpbs_placement p, pnpbs_context context, exchange *e) 
   e->requests = room(2 * e->neighbours, sizeof(MPI_Request));
 }
 
-/* Cotangent of the angle at a in the triangle a, b, c, counter-clockwise. */
+/* Returns the cotangent of the angle at a in the counter-clockwise triangle a, b, c. */
 static double cotangent(const double *a, const double *b, const double *c) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
   return (bx * cx + by * cy) / (bx * cy - by * cx);
 }
 
-/* Where in its row the next node of the star is. */
+/* Returns the entry of the node that follows entry k in the star of node i, cyclically. */
 static int64_t next_in_star(const matrix *a, int64_t i, int64_t k) {
   return k + 1 < a->offsets[i + 1] ? k + 1 : a->offsets[i];
 }
 
-/* For linear elements the integral of grad phi_i . grad phi_j over a triangle is -1/2 times the
- * cotangent of the angle opposite to the edge from i to j; and every row sums to zero. */
+/* Assembles the rows of the owned nodes from their Delaunay stars. For linear elements the integral
+ * of grad phi_i . grad phi_j over a triangle is -1/2 times the cotangent of the angle opposite to
+ * the edge ij, and every row sums to zero. Collective. */
 static void assemble(pnpbs_placement p, pnpbs_context context, const mesh *m, matrix *a) {
   int64_t entries, i, k;
   check(pnpbs_placement_star_size(p, &entries), context);
@@ -206,7 +211,7 @@ static double dot(const mesh *m, const double *x, const double *y) {
   return sum_over_ranks(m, part);
 }
 
-/* Gives the ghosts the values that their owners have. */
+/* Copies the values at nodes to their ghosts on other ranks. Collective. */
 static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   const int64_t *s = e->send_offsets, *r = e->receive_offsets;
   int64_t i;
@@ -222,7 +227,7 @@ static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   for (i = 0; i < r[e->neighbours]; ++i) x[e->receive_nodes[i]] = e->received[i];
 }
 
-/* y = A x at this rank's nodes. */
+/* Computes y = A x at the owned nodes. Updates the ghosts of x first. Collective. */
 static void multiply(const mesh *m, const exchange *e, const matrix *a, double *x, double *y) {
   int64_t i, k;
   update_ghosts(m, e, x);
@@ -232,8 +237,9 @@ static void multiply(const mesh *m, const exchange *e, const matrix *a, double *
   }
 }
 
-/* Conjugate gradients with the diagonal as preconditioner: A u = 0 at the inner nodes. On the
- * boundary u stays as it is, because the residual there counts as zero. */
+/* Solves A u = 0 at the inner nodes by conjugate gradients with the diagonal as preconditioner.
+ * Values of u on the boundary do not change, because the residual is set to zero there. Collective.
+ */
 static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) {
   double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
   double *z = room(m->owned, sizeof(double)), *p = room(m->all, sizeof(double));
@@ -268,7 +274,7 @@ static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) 
 
 /* ---------------------------------------------------------------- the error -------------- */
 
-/* The constant gradient of u on a triangle, and its area. */
+/* Computes the constant gradient of u on a triangle and returns the area. */
 static double gradient(const mesh *m, const double *u, int64_t i, int64_t j, int64_t k, double *g) {
   const double *xi = m->xy + 2 * i, *xj = m->xy + 2 * j, *xk = m->xy + 2 * k;
   const double jx = xj[0] - xi[0], jy = xj[1] - xi[1], kx = xk[0] - xi[0], ky = xk[1] - xi[1];
@@ -278,7 +284,8 @@ static double gradient(const mesh *m, const double *u, int64_t i, int64_t j, int
   return twice / 2;
 }
 
-/* The mean gradient of the triangles of each star, weighted by their areas. */
+/* Computes the mean gradient of u over the triangles of each star, weighted by their areas.
+ * Collective. */
 static void average_gradients(const mesh *m, const exchange *e, const matrix *a, const double *u,
                               double *gx, double *gy) {
   int64_t i, k;
@@ -298,13 +305,14 @@ static void average_gradients(const mesh *m, const exchange *e, const matrix *a,
   update_ghosts(m, e, gy);
 }
 
-/* The integral over a triangle of the square of a function that is linear on it, from its values
- * at the corners. */
+/* Returns the integral of the square of a linear function over a triangle from its values a, b and
+ * c at the corners. */
 static double integral_of_square(double area, double a, double b, double c) {
   return area / 12 * (a * a + b * b + c * c + (a + b + c) * (a + b + c));
 }
 
-/* The squared error about each node: a third of what its triangles have. */
+/* Estimates the squared error around each node, a third of that on the triangles of its star.
+ * Collective. */
 static void estimate(const mesh *m, const exchange *e, const matrix *a, solution *s) {
   double *gx = room(m->all, sizeof(double)), *gy = room(m->all, sizeof(double)), all = 0;
   int64_t i, k;
@@ -327,9 +335,10 @@ static void estimate(const mesh *m, const exchange *e, const matrix *a, solution
   free(gy);
 }
 
-/* The integral of |grad u - g|^2 over a triangle, u the known solution, by the middles of its edges
- * where the triangle is small for its distance from the corner; else by its four quarters, 14 times
- * at most: what is left then at the corner does not matter. */
+/* Returns the integral of |grad u - g|^2 over a triangle, where u is the known solution. A triangle
+ * that is small compared with its distance from the re-entrant corner is integrated by the
+ * midpoints of its edges. Others are divided into four, at most 14 times; the rest of the
+ * singularity is negligible then. */
 static double squared_error(const double *a, const double *b, const double *c, const double *g,
                             int depth) {
   const double ab[2] = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
@@ -350,7 +359,7 @@ static double squared_error(const double *a, const double *b, const double *c, c
   return twice / 6 * sum;
 }
 
-/* The true error in the energy norm. */
+/* Returns the true error in the energy norm. Collective. */
 static double energy_error(const mesh *m, const double *u) {
   double part = 0, g[2];
   int64_t t;
@@ -381,18 +390,20 @@ static void solve_and_estimate(pnpbs_placement p, pnpbs_context context, mesh *m
   s->error = energy_error(m, s->u);
 }
 
-/* Six bits of d. Its last digits depend on the order in which the parts of the ranks are summed,
- * and other digits make other nodes: so that they are the same on any number of ranks. */
+/* Returns d rounded to six bits. The last bits of d depend on the order in which MPI sums over the
+ * ranks, and nodes depend on all bits of d. Rounding makes the nodes independent of the number of
+ * ranks. */
 static double rounded(double d) {
   int exponent;
   const double fraction = frexp(d, &exponent);
   return ldexp(floor(64 * fraction + 0.5), exponent - 6);
 }
 
-/* Asks for so many nodes that share the error evenly. Where the spacing is h and the squared error
- * per area w, w / h^2 stays when h changes (it is about |second derivatives|^2). So the squared
- * error that a node of spacing d has about it will be w / h^2 d^4: that shall be the same for all.
- * Triangles with edges of d have 2 / sqrt(3) nodes per d^2. */
+/* Sets the spacing for which about `nodes` nodes share the error evenly. With spacing h and squared
+ * error per area w, the quotient w / h^2 does not depend on h, because it is about |second
+ * derivatives|^2. A node with the new spacing d has the squared error w / h^2 d^4 around it; d
+ * equalises this error over all nodes. Equilateral triangles with edges of length d have 2 /
+ * sqrt(3) nodes per d^2. One step changes d by factors between 1/8 and 1.5. Collective. */
 static void adapt(pnpbs_placement p, pnpbs_context context, const mesh *m, const solution *s,
                   double nodes) {
   double *d = room(m->owned, sizeof(double)), part = 0, scale;
@@ -407,7 +418,8 @@ static void adapt(pnpbs_placement p, pnpbs_context context, const mesh *m, const
   free(d);
 }
 
-/* Deals the work out anew where it is unequal; the nodes stay as they are. */
+/* Repartitions the work if the largest work of a rank exceeds the mean by 5 % or more. The nodes do
+ * not change. Collective. */
 static void balance(pnpbs_placement p, pnpbs_context context, int rank) {
   double before, after;
   check(pnpbs_placement_get_double(p, "imbalance", &before), context);
@@ -434,8 +446,8 @@ static void print_round(const char *kind, int round, const mesh *m, const soluti
            round, s->nodes, least, s->error, s->estimate / s->error);
 }
 
-/* FOLDER/adaptive_corner_<rank>.vtk, for examples/draw_pieces.py or ParaView. The estimate is the
- * root of the squared error per area. */
+/* Writes FOLDER/adaptive_corner_<rank>.vtk for examples/draw_pieces.py or ParaView. The field
+ * `estimate` is the root of the estimated squared error per area. */
 static void write_piece(const char *folder, const mesh *m, const exchange *e, const solution *s) {
   const long all = (long)m->all, triangles = (long)m->triangles;
   const int64_t *c = m->corners;
@@ -471,7 +483,8 @@ static void write_piece(const char *folder, const mesh *m, const exchange *e, co
   fclose(file);
 }
 
-/* What is to be fitted and compared. */
+/* Numbers of nodes and errors of all rounds. `effectivity` is the estimate over the true error in
+ * the last round. */
 typedef struct {
   double nodes[ROUNDS], errors[ROUNDS], effectivity;
 } history;
@@ -482,8 +495,8 @@ static void remember(history *h, int round, const solution *s) {
   h->effectivity = s->estimate / s->error;
 }
 
-/* The d of so many nodes in the L if it is the same everywhere: 2 / sqrt(3) per d^2, and half a
- * node more per d of the boundary. */
+/* Returns the constant spacing that results in about `nodes` nodes in the L: 2 / sqrt(3) nodes per
+ * d^2 of the area plus half a node per d of the boundary. */
 static double uniform_spacing(double nodes) {
   const double a = 2 / sqrt(3.0) * AREA, b = PERIMETER / 2;
   return 2 * a / (sqrt(b * b + 4 * a * nodes) - b);
@@ -495,7 +508,8 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   int round, rank;
   MPI_Comm_rank(comm, &rank);
   check(pnpbs_placement_create(context, domain, &p), context);
-  /* Smooth where the estimate is not; and this program says itself when to partition anew. */
+  /* The growth limit smooths the jumps of the estimate. The high threshold switches off the
+   * library's own repartitioning, because this program calls pnpbs_placement_rebalance. */
   check(pnpbs_placement_set_double(p, "growth_limit", 0.4), context);
   check(pnpbs_placement_set_double(p, "rebalance_above", 1e6), context);
   check(pnpbs_placement_set_spacing_constant(p, uniform_spacing(FIRST_NODES)), context);
@@ -519,7 +533,7 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   pnpbs_placement_destroy(&p);
 }
 
-/* The same with about as many nodes, of the same d everywhere. */
+/* Repeats the rounds with a constant d and about as many nodes. */
 static void uniform_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain domain,
                            const double *nodes, history *h) {
   int round;
@@ -541,8 +555,8 @@ static void uniform_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   }
 }
 
-/* The power of N by which errors fall, fitted to the last four rounds: minus the slope of log error
- * over log N. */
+/* Returns the order of convergence p in error ~ N^(-p): minus the slope of log(error) over log(N),
+ * fitted by least squares to the last four rounds. */
 static double order(const history *h) {
   double x = 0, y = 0, xx = 0, xy = 0;
   const int n = 4;
@@ -560,7 +574,7 @@ static double order(const history *h) {
 
 int main(int argc, char **argv) {
   const double corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {-1, 1}, {-1, -1}, {0, -1}};
-  const MPI_Comm comm = MPI_COMM_WORLD; /* any communicator of yours */
+  const MPI_Comm comm = MPI_COMM_WORLD; /* or any other communicator */
   pnpbs_context context;
   pnpbs_domain domain;
   history adapted, uniform;

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! How far the solution is from the known one, by integrals over the tetrahedra.
+! Errors of the solution against the known one, by integrals over the tetrahedra.
 module errors
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use body, only: solution, solution_gradient
@@ -10,15 +10,16 @@ module errors
   private
   public :: measure_errors
 
-  !> What measure_errors measures:
-  !>   l2        the L2 norm of u_h - u
-  !>   gradient  that of grad u_h - grad u, the H1 seminorm
-  !>   volume    of the tetrahedra
+  !> Indices of the results of measure_errors:
+  !>   l2        L2 norm of u_h - u
+  !>   gradient  L2 norm of grad u_h - grad u, the H1 seminorm
+  !>   volume    volume of the tetrahedra
   integer, parameter, public :: measures = 3, l2 = 1, gradient = 2, volume = 3
 
-  !> A rule of 14 points, exact to fifth degree (N. Walkington, Quadrature on simplices of arbitrary
-  !> dimension, 2000): four and four on the ways from the middle to corners and faces, six on those
-  !> to the edges; weights over the tetrahedron's volume.
+  !> Quadrature rule of 14 points on a tetrahedron, exact to fifth degree (N. Walkington, Quadrature
+  !> on simplices of arbitrary dimension, 2000). Eight points lie on the lines from the centroid to
+  !> corners and face centroids, six on the lines to edge midpoints. `weight` is relative to the
+  !> volume of the tetrahedron.
   real(c_double), parameter :: a1 = 0.310885919263300610d0, w1 = 0.112687925718015851d0
   real(c_double), parameter :: a2 = 0.0927352503108912264d0, w2 = 0.0734930431163619495d0
   real(c_double), parameter :: a3 = 0.0455037041256496495d0, w3 = 0.0425460207770814664d0
@@ -33,9 +34,9 @@ module errors
 
 contains
 
-  !> u has the solution at nodes and ghosts. Where the body is hollow, tetrahedra reach out of it a
-  !> little; u is known and smooth there as well. Each tetrahedron counts at its first corner, on the
-  !> rank whose node that is. Collective.
+  !> Returns the errors of u, which must be up to date at ghosts. Where the surface is concave,
+  !> tetrahedra extend a little beyond the body; the known solution is smooth there, too. Each
+  !> tetrahedron contributes on the rank that owns its first corner. Collective.
   function measure_errors(nodes, u) result(measured)
     type(local_nodes), intent(in) :: nodes
     real(c_double), intent(in) :: u(:)
@@ -51,8 +52,8 @@ contains
     measured([l2, gradient]) = sqrt(measured([l2, gradient]))
   end function
 
-  !> The integrals of the squared errors over one tetrahedron and its volume, from positions and
-  !> values at its corners.
+  !> Returns the integrals of the squared errors over one tetrahedron, and its volume, from
+  !> positions and values of u at its corners.
   pure function parts_on(corner, u) result(parts)
     real(c_double), intent(in) :: corner(3, 4), u(4)
     real(c_double) :: parts(measures), hat(3, 4), constant(3), x(3)

@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Poisson's equation in a ball, or in the body of a file, by linear finite elements on tetrahedra, on
-! the ranks of an MPI communicator, at three spacings. The solution is known, so the orders of
-! convergence can be told; README.md tells what to expect.
+! Solves Poisson's equation in a ball, or in the body of a file, by linear finite elements on
+! tetrahedra, over the ranks of an MPI communicator, at three spacings. The solution is known, so
+! the program computes orders of convergence; README.md explains the expected values.
 ! usage: poisson_ball [FILE [H]]   FILE: a closed surface, .stl, .off, .obj or .ply
-!                                  H: the coarsest spacing, over half of the body's extent
+!                                  H: the coarsest spacing over body_size (body.f90)
 program poisson_ball
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use mpi
@@ -63,7 +63,7 @@ program poisson_ball
 
 contains
 
-  !> The known solution at the boundary, 0 elsewhere.
+  !> Sets u to the known solution at the boundary and to 0 elsewhere.
   subroutine boundary_values(u)
     real(c_double), allocatable, intent(out) :: u(:)
     integer(c_int64_t) :: i
@@ -74,7 +74,7 @@ contains
     end do
   end subroutine
 
-  !> One line of the table: the errors, and their orders by the spacing before.
+  !> Prints one line of the table: the errors, and their orders relative to the previous spacing.
   subroutine print_errors
     if (level == 1) then
       print '(f10.5, i9, es11.3, 7x, es11.3)', h, total, measured([l2, gradient], level)
@@ -84,7 +84,7 @@ contains
     end if
   end subroutine
 
-  !> By what power of the spacing error k falls from a level to a finer one.
+  !> Returns the power of the spacing by which error k falls from level `coarse` to level `fine`.
   function order(k, coarse, fine)
     integer, intent(in) :: k, coarse, fine
     real(c_double) :: order

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! How much of the plate is not like a hexagonal lattice: there the error of the gradient does not
-! cancel between neighbouring triangles.
+! The share of the plate where the triangulation differs from a hexagonal lattice. The errors of the
+! gradient on neighbouring triangles do not cancel there.
 module irregular_nodes
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use mpi
@@ -13,8 +13,8 @@ module irregular_nodes
 
 contains
 
-  !> The share of the area that lies in triangles with an inner node whose neighbours are not six.
-  !> Collective.
+  !> Returns the share of the area in triangles with an inner node that does not have six
+  !> neighbours. Collective.
   function irregular_share(nodes) result(share)
     type(local_nodes), intent(in) :: nodes
     real(c_double) :: share, mine(2), areas(2), excess(size(nodes%tags)), area

@@ -1,39 +1,42 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A meshless Laplacian on the adjacency lists, and Poisson's equation solved with it, on any number
-# of ranks. Each node gets weights for itself and its list by RBF-FD: they give the Laplacian of the
-# interpolant of polyharmonic splines |x - x_j|^5 at the list's nodes and polynomials up to a degree
-# (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of polynomials in RBF-FD
-# approximations: I. Interpolation and accuracy", J. Comput. Phys. 321 (2016) 21-38).
+# A meshless Laplacian on the adjacency lists, and a solution of Poisson's equation with it, on any
+# number of ranks. The stencil of a node has weights for the node and its adjacency list by RBF-FD.
+# They yield the Laplacian of the interpolant by polyharmonic splines |x - x_j|^5 around these nodes
+# plus polynomials up to a degree (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of
+# polynomials in RBF-FD approximations: I. Interpolation and accuracy", J. Comput. Phys. 321 (2016)
+# 21-38).
 #
-# What to check: with polynomials of degree m the formula is exact for them up to rounding, at every
-# node; the Laplacian of a smooth function converges with order m - 1, that is 3 inside and 2 on the
-# boundary; and so does the solution of Poisson's equation, at least. It does better, with order 4,
-# for the errors of the formula differ in sign from node to node and mostly cancel.
+# Results to check: the formula is exact for polynomials of degree m, up to rounding, at every node.
+# The Laplacian of a smooth function converges with order m - 1, which is 3 inside and 2 on the
+# boundary. The solution of Poisson's equation converges with order 4, because the errors of the
+# formula change sign from node to node and mostly cancel.
 #
 #   julia laplacian_stencils.jl [FOLDER]                one process
 #   mpiexec -n 4 julia laplacian_stencils.jl [FOLDER]   with MPI.jl in the environment
 #
-# With a folder, which must be there, every rank writes its piece of the finest solution.
+# If a folder is given, every rank writes its piece of the finest solution; the folder must exist.
 using LinearAlgebra
 using PNPBS
 using Printf
 
-# With MPI.jl, if it is there, on all ranks. Without it `comm` is nothing, and all nodes are here.
+# The program runs on all ranks if MPI.jl is in the environment. Otherwise `comm` is nothing and
+# this process has all nodes.
 const with_mpi = Base.find_package("MPI") !== nothing
 if with_mpi
     import MPI
 end
 
 # ---------------------------------------------------------------- the problem -------------------
-# The Laplacian of u is f: a dipole in the middle of the hole, which is harmonic, and a wave.
+# u is a dipole at the centre of the hole, which is harmonic, plus a wave. f is its Laplacian.
 u_exact(x, y) = 0.3 * x / (x^2 + y^2) + sin(2y + 1)
 f_exact(x, y) = -4 * sin(2y + 1)
 at_points(f, points) = [f(points[1, i], points[2, i]) for i in 1:size(points, 2)]
 
-# A rounded triangle with a hole of radius 1/2. The spacing is 0.4 h at the hole and h a distance of
-# 1 from it. The lists must be long enough for the polynomials, also at the boundary, where they are
-# one-sided: a radius of 3 spacings gives 21 neighbours and more inside, 14 and more on the boundary.
+# Places nodes in a rounded triangle with a hole of radius 1/2. The spacing is 0.4 h at the hole and
+# h at a distance of 1 from it. The adjacency lists must be long enough for the polynomials, also at
+# the boundary, where they are one-sided. A radius of 3 spacings results in at least 21 neighbours
+# inside and 14 on the boundary.
 function place(context, h)
     domain = Domain(context)
     add_curve!(domain, 0, 2pi) do t
@@ -50,22 +53,24 @@ function place(context, h)
 end
 
 # ---------------------------------------------------------------- stencils ----------------------
-# On the boundary, one degree less: there a list of radius 3 has hardly more than four rows of nodes,
-# and a polynomial of degree 4 can vanish on four rows.
+# The degree on the boundary is lower by one. A list of radius 3 contains little more than four rows
+# of nodes there, and a polynomial of degree 4 can vanish on four rows.
 degree_at(tag) = tag == 0 ? 4 : 3
 
-# The exponents (a, b) of the polynomials x^a y^b up to a degree, and the Laplacian of each at 0.
+# Return the exponents (a, b) of the monomials x^a y^b up to a degree, and the Laplacian of a
+# monomial at 0.
 exponents(degree) = [(total - b, b) for total in 0:degree for b in 0:total]
 laplacian_at_0((a, b)) = (a, b) in ((2, 0), (0, 2)) ? 2.0 : 0.0
 
-# Row i: `centre[i]` is the weight of node i, and `weights` are those of its list, entry by entry.
+# The stencils of the owned nodes. `centre[i]` is the weight of node i in its own stencil, and
+# `weights` has a weight for each entry of the adjacency lists.
 struct Stencils
     lists::CompressedRows{Int64}
     centre::Vector{Float64}
     weights::Vector{Float64}
 end
 
-# The weights w of the stencil whose first node is at 0: they and the multipliers solve
+# Computes the weights w of a stencil whose first node is at 0. They and the multipliers l solve
 #   [ phi(|x_k - x_l|)  p_j(x_k) ] [ w ]   [ Laplacian of phi(|x - x_k|) at 0 ]
 #   [ p_j(x_l)          0        ] [ l ] = [ Laplacian of p_j at 0            ]
 # with phi(r) = r^5, whose Laplacian is 25 r^3.
@@ -88,8 +93,8 @@ function weights_at_0(x::Vector{Float64}, y::Vector{Float64}, powers)
     return (matrix \ right)[1:n]
 end
 
-# The stencil of node i as seen from it, in units of the spacing there: rounding is then the same
-# for all spacings.
+# Returns the positions of node i and of its list, relative to node i and in units of its spacing.
+# Rounding errors do not depend on the spacing then.
 function seen_from(i, list, points, d)
     nodes = [i; list]
     x = [(points[1, k] - points[1, i]) / d for k in nodes]
@@ -97,7 +102,7 @@ function seen_from(i, list, points, d)
     return x, y
 end
 
-# The stencils, and their largest error on the polynomials that they must be exact for.
+# Computes the stencils, and their largest error on the polynomials for which they must be exact.
 function laplacian_stencils(points, spacing, tags, lists)
     stencils = Stencils(lists, zeros(length(lists)), zeros(length(lists.entries)))
     largest_error = 0.0
@@ -115,7 +120,7 @@ function laplacian_stencils(points, spacing, tags, lists)
     return stencils, largest_error
 end
 
-# The Laplacian at this rank's nodes of a function given at its nodes and ghosts.
+# Computes the Laplacian at the owned nodes of a function that is given at nodes and ghosts.
 function laplacian!(values, stencils, u)
     offsets, neighbours = stencils.lists.offsets, stencils.lists.entries
     for i in eachindex(values)
@@ -132,7 +137,8 @@ end
 over_ranks(op, value, comm) = MPI.Allreduce(value, op, comm)
 over_ranks(op, value, ::Nothing) = value
 
-# Of values at the nodes; there may be ghosts' behind them.
+# Returns the dot product of two fields over the nodes of all ranks. The first n values are those at
+# the owned nodes; values at ghosts may follow. Collective.
 function dot_over_ranks(v, w, n, comm)
     s = 0.0
     for i in 1:n
@@ -142,9 +148,10 @@ function dot_over_ranks(v, w, n, comm)
 end
 
 # ---------------------------------------------------------------- Poisson's equation ------------
-# Solves Laplacian u = f at inner nodes, from the values that u has; those on the boundary stay, for
-# there the residual counts as zero. The matrix is not symmetric: BiCGSTAB (H. van der Vorst, SIAM J.
-# Sci. Stat. Comput. 13 (1992) 631-644), rows divided by their diagonal.
+# Solves Laplacian u = f at the inner nodes, starting from the values of u. Values on the boundary
+# do not change, because the residual is set to zero there. The matrix is not symmetric, so the
+# method is BiCGSTAB (H. van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644), with rows
+# divided by their diagonal. Collective.
 function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-12, most = 2000)
     n = length(inner)
     scale = [inner[i] ? 1 / stencils.centre[i] : 0.0 for i in 1:n]
@@ -179,7 +186,7 @@ function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-1
 end
 
 # ---------------------------------------------------------------- one spacing -------------------
-# Root mean square over the nodes of all ranks that are chosen.
+# Returns the root mean square of the errors over the chosen nodes of all ranks. Collective.
 function mean_error(errors, chosen, comm)
     square = over_ranks(+, sum(abs2, errors[chosen]), comm)
     return sqrt(square / over_ranks(+, count(chosen), comm))
@@ -188,14 +195,14 @@ end
 function solve(context, comm, h, folder)
     placement = place(context, h)
     own, others = nodes(placement), ghosts(placement)
-    points = [own.points others.points]          # this rank's nodes, then its ghosts
+    points = [own.points others.points]          # owned nodes, then ghosts
     n, inner = length(own.ids), own.tags .== 0
     stencils, largest_error = laplacian_stencils(points, own.spacing, own.tags,
                                                  adjacency(placement))
     exact, f = at_points(u_exact, points), at_points(f_exact, points)
     laplacian_errors = laplacian!(zeros(n), stencils, exact) .- f[1:n]
 
-    # The boundary's values are given; inside, the solver starts from zero.
+    # Values on the boundary are given. The solver starts from zero inside.
     u = [own.tags .!= 0; falses(length(others.ids))] .* exact
     solve_poisson!(u, f, inner, stencils, placement, comm)
     errors = u .- exact
@@ -212,7 +219,7 @@ end
 my_rank(comm) = MPI.Comm_rank(comm)
 my_rank(::Nothing) = 0
 
-# This rank's nodes and ghosts, its triangles, and fields, in VTK's legacy format.
+# Writes nodes, ghosts, triangles and fields of this rank in VTK's legacy format. Local.
 function write_piece(folder, comm, points, corners, u, errors)
     path = joinpath(folder, "laplacian_stencils_" * lpad(my_rank(comm), 3, '0') * ".vtk")
     open(path, "w") do file
