@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A progress bar for a run: tqdm's, in notebooks its own kind, or a line of text where there is no
-tqdm."""
+"""A progress bar for runs. It is that of tqdm, also in notebooks, or a line of text if tqdm is not
+installed."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ _WIDTH = 40
 
 
 class ProgressBar:
-    """A monitor that shows the fraction and the nodes. The bar is there from the `with` statement to
-    the end of its block."""
+    """A monitor that shows the completed fraction and the number of nodes. Use it in a `with`
+    statement; the bar exists until the end of the block."""
 
     def __enter__(self) -> ProgressBar:
         try:
