@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Loaded by Julia 1.9 and later when both packages are.
+# Contexts on communicators of MPI.jl. Julia 1.9 and later load this extension with both packages.
 module PNPBSMPIExt
 
 import MPI

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Pictures by Plots.jl. Loaded by Julia 1.9 and later when PNPBS and RecipesBase are, which Plots.jl
-# brings.
+# Recipes of Plots.jl for placements and domains. Julia 1.9 and later load this extension with PNPBS
+# and RecipesBase, on which Plots.jl depends.
 module PNPBSRecipesBaseExt
 
 import PNPBS

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What grids of other packages are made of. The extensions make the grids.
+# Helpers of the extensions, which convert distributed meshes to grids of other packages.
 
-# For packages without ranks: the whole mesh must be here.
+# Throws unless this rank has the whole mesh, which packages without ranks need.
 function require_whole_mesh(mesh::DistributedMesh, package)
     mesh.owned_nodes == mesh.all_nodes && return nothing
     throw(ArgumentError("this rank owns $(mesh.owned_nodes) of $(mesh.all_nodes) nodes; " *
                         "$package takes meshes that are on one rank"))
 end
 
-# Coordinates of nodes or corners of elements, as tuples.
+# Returns the columns of coordinates or corners as tuples of T.
 columns_as_tuples(T, matrix) = reinterpret_columns(NTuple{size(matrix, 1),T}, T.(matrix))
 
 tag_label(tag) = "tag_$tag"

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Contexts on communicators of MPI.jl. Nothing here needs MPI.jl to be loaded: an extension hands its
-# module over where Julia has extensions (1.9 and later); elsewhere it is looked for when needed.
+# Contexts on communicators of MPI.jl. This file does not load MPI.jl. From Julia 1.9 on, an
+# extension passes its module; with earlier versions the module is looked up when it is needed.
 
 const MPI_PACKAGE = Base.PkgId(Base.UUID("da04e1cc-30fd-572f-bb4f-1f8673147195"), "MPI")
 
-# MPI.jl 0.20.19 and later have the conversion. For earlier ones: a C int is the Fortran handle itself
-# (MPICH). Anything else (a pointer in Open MPI, an unsigned integer in MPItrampoline) MPI converts;
-# all are passed as integers of a pointer's size are.
+# Returns the Fortran handle of a communicator. MPI.jl 0.20.19 and later have the conversion. For
+# earlier versions, a C int is the Fortran handle itself (MPICH). Anything else, such as a pointer
+# in Open MPI or an unsigned integer in MPItrampoline, is converted by the MPI library; all of them
+# are passed as integers of the size of a pointer.
 function fortran_handle(MPI::Module, value)
     api = isdefined(MPI, :API) ? MPI.API : MPI
     isdefined(api, :MPI_Comm_c2f) && return api.MPI_Comm_c2f(value)
@@ -19,7 +20,7 @@ function converted_by_library(library, value)
     return ccall(convert_handle, Cint, (UInt,), UInt(value))
 end
 
-# Open contexts that MPI.Finalize must end, in the order in which they were made: the same one on
+# Open contexts that MPI.Finalize must close, in the order of their creation, which is the same on
 # all ranks.
 const contexts_of_mpi = Context[]
 
@@ -38,7 +39,8 @@ function close_with_mpi(MPI::Module, context)
     return nothing
 end
 
-# MPI.Comm's value means something only while MPI runs; otherwise the library says what is wrong.
+# Creates a context on a communicator of MPI.jl. The communicator is valid only while MPI runs.
+# Otherwise the handle is 0, and the library reports the error.
 function context_on(MPI::Module, comm; options...)
     running = MPI.Initialized() && !MPI.Finalized()
     handle = running ? fortran_handle(MPI, comm.val) : Int32(0)
@@ -47,11 +49,10 @@ function context_on(MPI::Module, comm; options...)
     return set!(context; options...)
 end
 
-# Before Julia 1.9, and where a later one has not loaded the extension. The extension's method is
-# the more specific one.
+# Serves Julia before 1.9, and later versions without the extension, whose method is more specific.
 Context(comm; options...) = context_on(mpi_of(comm), comm; options...)
 
-# MPI.jl, if it is loaded and `comm` is its own.
+# Returns the module MPI if it is loaded and `comm` is one of its communicators, or throws.
 function mpi_of(comm)
     MPI = get(Base.loaded_modules, MPI_PACKAGE, nothing)
     MPI !== nothing && comm isa MPI.Comm || throw(ArgumentError(

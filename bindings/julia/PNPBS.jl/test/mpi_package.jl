@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Communicators of MPI.jl, on several ranks; run by mpirun. The MPI.jl is the stand-in beside this
-# file, so this tests what PNPBS does with MPI.jl's names, and not MPI.jl.
+# Tests of contexts on communicators of MPI.jl, on several ranks. mpirun starts this program. It
+# uses the stand-in for MPI.jl next to this file, so it tests the calls of PNPBS and not MPI.jl.
 push!(LOAD_PATH, joinpath(@__DIR__, "stand_in"))
 using PNPBS
 using Test
 
 include("support.jl")
 
-# Before MPI is loaded, no communicator is known.
+# Before MPI is loaded, no communicator is accepted.
 @test_throws ArgumentError Context([1, 2])
 
 import MPI
@@ -29,13 +29,13 @@ end
     context = one_run()
     close(context)
     @test fails(() -> Context(MPI.COMM_NULL), :error_mpi, "NULL")
-    # An unknown option: the context is there, and is closed with MPI.
+    # An unknown option throws after the context is created, which is then closed with MPI.
     @test fails(() -> Context(MPI.COMM_WORLD; stepz = 3), :error_key, "steps")
     @test length(PNPBS.contexts_of_mpi) == 1
     @test_throws ArgumentError Context("world")
 end
 
-# The kinds of handles that MPI.jl has with different MPIs.
+# The kinds of handles that MPI.jl has with different MPI libraries.
 @testset "handles" begin
     handle = MPI.OpenMPI.fortran_handle(MPI.COMM_WORLD.val)
     @test PNPBS.fortran_handle(MPI, MPI.COMM_WORLD.val) == handle
@@ -43,7 +43,7 @@ end
     @test PNPBS.fortran_handle(MPI, Cint(7)) == 7
 end
 
-# What Julia 1.9 and later load by themselves, where packages come from a project.
+# Julia 1.9 and later load the extension automatically if the packages come from a project.
 which(Context, Tuple{MPI.Comm}).module === PNPBS && include("../ext/PNPBSMPIExt.jl")
 
 @testset "by the extension" begin
@@ -52,7 +52,7 @@ which(Context, Tuple{MPI.Comm}).module === PNPBS && include("../ext/PNPBSMPIExt.
     @test fails(() -> Context(MPI.COMM_NULL), :error_mpi, "NULL")
 end
 
-# MPI.Finalize closes what is open, on all ranks in the same order.
+# MPI.Finalize closes open contexts in the same order on all ranks.
 const contexts = [one_run(), one_run()]
 MPI.Finalize()
 

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Poisson's equation with a known solution, by linear finite elements on distributed meshes of one
-# rank: on the plain arrays, in Ferrite and in Gridap, with quadrature of second order; then again
-# with the spacing adapted. The problem is that of examples/c/petsc_poisson.
-# usage, as a program: julia poisson.jl [FILE D], instead of the square and the box
+# rank: on the plain arrays, in Ferrite and in Gridap, with quadrature of second order. A second
+# solve uses an adapted spacing. The problem is that of examples/c/petsc_poisson.
+# usage as a program: julia poisson.jl [FILE D]; without arguments a square and a box are used
 using LinearAlgebra
 using PNPBS
 using SparseArrays
 
-# Those of these packages that are installed. Julia 1.9 and later load the extensions by themselves
-# where packages come from a project.
+# The installed packages of these. Julia 1.9 and later load the extensions automatically if the
+# packages come from a project.
 const GRID_PACKAGES = filter(name -> Base.find_package(name) !== nothing, ["Ferrite", "Gridap"])
 
 has_extension(name) = isdefined(Base, :get_extension) &&
@@ -20,7 +20,8 @@ for name in GRID_PACKAGES
     load_extension(name)
 end
 
-# u = 1 / (1 + r^2), r from a point, over a length; the load is -Laplace u.
+# The known solution u = 1 / (1 + r^2), where r is the distance from `centre` over `length`. The
+# load is -Laplace u.
 struct Peak
     centre::Vector{Float64}
     length::Float64
@@ -34,13 +35,13 @@ function load_at(p, x)
     return (2 * length(p.centre) / (1 + r2)^2 - 8 * r2 / (1 + r2)^3) / p.length^2
 end
 
-# Barycentric coordinates of the points of the quadrature, one towards each corner, as columns.
+# Returns barycentric coordinates of the quadrature points, one next to each corner, as columns.
 function quadrature_points(corners)
     far = corners == 3 ? 1 / 6 : (5 - sqrt(5)) / 20
     return fill(far, corners, corners) + (1 - corners * far) * I
 end
 
-# Points of the quadrature in an element, its measure, and the gradients of its linear functions.
+# Returns quadrature points of an element, its measure, and the gradients of its hat functions.
 function of_element(mesh, e)
     x = mesh.coordinates[:, mesh.elements[:, e]]
     sides = x[:, 2:end] .- x[:, 1]
@@ -120,7 +121,7 @@ function assembled_in_ferrite(unknowns, values, p)
     return K, right
 end
 
-# The integral of f.
+# Returns the integral of f.
 function sum_in_ferrite(f, unknowns, values)
     total = 0.0
     for cell in Ferrite.CellIterator(unknowns)
@@ -149,15 +150,15 @@ function error_in_gridap(mesh, p)
     return sqrt(sum(Gridap.:∫(difference * difference) * dx))
 end
 
-# In the reference cell, whose first corner is the origin.
+# Returns the quadrature in the reference cell, whose first corner is the origin.
 function quadrature_in_gridap(dim)
     points = [Gridap.Point(column[2:end]...) for column in eachcol(quadrature_points(dim + 1))]
     weights = fill(1 / factorial(dim + 1), dim + 1)
     return Gridap.ReferenceFEs.GenericQuadrature(points, weights)
 end
 
-# The domain's errors(mesh, peak) with constant spacing and adapted, with the numbers of nodes. Then
-# d is up to three times smaller where the load is large.
+# Returns errors(mesh, peak) on the domain with a constant and an adapted spacing, with the numbers
+# of nodes. The adapted d is up to three times smaller where the load is large.
 function before_and_after_adapting(errors, domain, d, p)
     placement = Placement(domain)
     run!(set_spacing!(placement, d))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The package in one process; arguments name some of the files, as in `runtests.jl package domains`.
-# What needs several ranks is in ranks.jl, which mpirun starts.
+# Runs the tests in one process. Arguments select files, as in `runtests.jl package domains`. Tests
+# on several ranks are in ranks.jl, which mpirun starts.
 using PNPBS
 using Test
 

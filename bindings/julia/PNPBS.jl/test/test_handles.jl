@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Closing, in every order, and using what is closed.
+# Tests of closing objects in any order, and of using closed objects.
 
 @testset "closing" begin
     context = Context()
@@ -62,7 +62,8 @@ end
     end
 end
 
-# MPI.jl from 0.20.19 on, which has the conversion, and one for MPICH, whose handles are Fortran's.
+# Stand-ins for MPI.jl from 0.20.19 on, which has the conversion, and for MPI.jl with MPICH, whose
+# handles are Fortran handles.
 module Converting
 module API
 const libmpi = "/none"

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Ctrl-C during a call that takes long, and where the exceptions of callbacks are shown to come from.
+# Tests of Ctrl-C during a long call, and of the backtraces of exceptions in callbacks.
 
-# Sends this process what Ctrl-C sends, after so many seconds.
+# Sends this process the signal of Ctrl-C after so many seconds.
 interrupt_after(seconds) = run(`sh -c "sleep $seconds; kill -INT $(getpid())"`, wait = false)
 
-# The exception that ends f(), which gets an interrupt after a second, and how long after that it did.
+# Interrupts f() after a second. Returns the exception that ends it, and the time from the interrupt
+# to the end.
 function interrupted(f)
     sender = interrupt_after(1)
     start = time()
@@ -15,9 +16,9 @@ function interrupted(f)
 end
 
 @testset "Ctrl-C" begin
-    Base.exit_on_sigint(false)  # as at Julia's prompt; it ends a script
+    Base.exit_on_sigint(false)  # as at Julia's prompt; otherwise SIGINT ends the script
     Context() do context
-        # Without an interrupt it would take minutes.
+        # Without an interrupt this run takes minutes.
         placement = Placement(square_domain(context); steps = 1_000_000, tolerance_mean = 1e-300,
                               tolerance_max = 1e-300)
         set_spacing!(placement, 0.01)
@@ -27,13 +28,13 @@ end
             @test e isa InterruptException
             @test 0 <= late < 2
         end
-        # All is as if a monitor had stopped the run.
+        # The state is that of a run that a monitor has stopped.
         @test node_count(placement) > 9000
         @test run!(set!(placement; steps = 20)) in (:ok, :not_converged)
         set_monitor!((_...) -> true, placement)
         @test run!(placement) === :stopped
 
-        # In a function of the user's, too, which may take long itself.
+        # Ctrl-C also ends a long function of the user.
         set_monitor!(placement, nothing)
         set_spacing!(x -> (sleep(10); fill(0.1, size(x, 2))), placement)
         e, late = interrupted(() -> run!(placement))

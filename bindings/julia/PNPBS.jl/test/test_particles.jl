@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Particles of one rank.
+# Tests of particles on one rank.
 
-# The least distance of two over the mean of their d, by all pairs.
+# Returns the least distance of two particles over the mean of their d, from all pairs.
 function closest_of(particles)
     x, d = particles.points, particles.spacing
     return minimum(sqrt(sum(abs2, x[:, i] - x[:, j])) / ((d[i] + d[j]) / 2)
@@ -24,7 +24,7 @@ function cube_inset(context)
     return placement, body
 end
 
-# The measure of the body is 1.
+# Checks the particles of a body whose measure is 1.
 function check_particles(placement, body)
     particles = Particles(placement, body)
     n = particles.count

@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The recipes for Plots.jl, with RecipesBase where it is installed and otherwise with the stand-in
-# beside this file; what becomes of them in Plots.jl is not tested.
+# Tests of the recipes for Plots.jl, with RecipesBase if it is installed, otherwise with the
+# stand-in next to this file. Plots.jl itself is not used.
 push!(LOAD_PATH, joinpath(@__DIR__, "stand_in"))
 import RecipesBase
 
-# What Julia 1.9 and later load by themselves, where packages come from a project.
+# Julia 1.9 and later load the extension automatically if the packages come from a project.
 hasmethod(RecipesBase.apply_recipe, Tuple{Dict{Symbol,Any},Domain}) ||
     include("../ext/PNPBSRecipesBaseExt.jl")
 pop!(LOAD_PATH)
-# As Plots.jl answers: options of recipes are no attributes.
+# Plots.jl defines that options of recipes are not attributes; this definition replaces it.
 isempty(methods(RecipesBase.is_key_supported)) &&
     @eval RecipesBase.is_key_supported(key::Symbol) = key !== :edges
 
 series_of(object; attributes...) =
     RecipesBase.apply_recipe(Dict{Symbol,Any}(attributes), object)
 
-# The segments of a broken path: pairs of points.
+# Returns the segments of an interrupted path as pairs of points.
 function segments_of(x, y)
     @test length(x) == length(y) && length(x) % 3 == 0
     @test all(isnan, x[3:3:end]) && all(isnan, y[3:3:end])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Results against what can be counted or computed again from the points alone.
+# Tests of results against values that are recomputed from the points alone.
 
 function pairs_within(points, spacing, radius)
     n = size(points, 2)
@@ -23,7 +23,8 @@ end
         @test length(unique(placed.ids)) == n
         @test placed.spacing ≈ graded(placed.points)
 
-        # Euler: n nodes, b of them on the boundary of a domain without holes, make 2n - b - 2.
+        # By Euler's formula, n nodes, b of them on the boundary of a domain without holes, form 2n
+        # - b - 2 triangles.
         corners = triangles(placement)
         b = count(!=(0), placed.tags)
         @test size(corners) == (3, 2n - b - 2)
@@ -141,7 +142,7 @@ end
         before = node_count(placement)
         change = adjust_population!(placement)
         @test node_count(placement) == before + change.inserted - change.deleted
-        # One node inside is far too few.
+        # One inner node is far too few.
         initialise!(set_nodes!(placement, reshape([0.5, 0.5], 2, 1)))
         before = node_count(placement)
         change = adjust_population!(placement)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Domains in space and placements in them.
+# Tests of domains in space and placements in them.
 
 cross3(u, v) = [u[2] * v[3] - u[3] * v[2], u[3] * v[1] - u[1] * v[3], u[1] * v[2] - u[2] * v[1]]
 determinant(u, v, w) = sum(cross3(u, v) .* w)
@@ -9,15 +9,15 @@ function tetrahedron_volume(points, corners)
     return determinant(b - a, c - a, d - a) / 6
 end
 
-# What triangles that turn counter-clockwise, seen from outside, enclose.
+# Returns the volume inside triangles that are counter-clockwise as seen from outside.
 enclosed(points, triangles) =
     sum(determinant((points[:, k] for k in triangles[:, t])...) for t in 1:size(triangles, 2)) / 6
 
-# The sides of triangles, from node to node.
+# Returns the directed sides of triangles.
 sides(triangles) = [(corners[k], corners[mod1(k + 1, 3)])
                     for corners in eachcol(triangles) for k in 1:3]
 
-# Whether every side comes once, and once the other way round.
+# Returns whether every side occurs once in each direction.
 function fit_together(triangles)
     all_sides = sides(triangles)
     return allunique(all_sides) && Set(all_sides) == Set(reverse.(all_sides))
@@ -60,7 +60,7 @@ end
         body = add_surface!(Domain(context; dim = 3), VERTICES, FACES; tags = 1:4,
                             feature_angle = 30)
         @test measure(body) ≈ 1 / 6
-        # Inside it a smaller one, whose inside is taken out by a point.
+        # Inside it is a smaller tetrahedron, whose inside a hole point removes.
         add_surface!(body, 0.25 .* VERTICES .+ 0.1, FACES; role = :inner)
         @test measure(body) ≈ 1 / 6
         @test measure(set_filled!(body, false)) ≈ (1 + 0.25^2) * (1.5 + sqrt(0.75))
@@ -77,7 +77,7 @@ end
             @test measure(read_surface!(Domain(context; dim = 3), path)) ≈ 1 / 6
         end
         @test fails(() -> read_surface!(body, "/none.stl"; role = :inner), :error_file, "/none.stl")
-        # One of Gmsh's, with a named side; the sides of an inner surface are told by their tag.
+        # A mesh of Gmsh with a named side. The tag identifies the sides of an inner surface.
         mktempdir() do folder
             path = joinpath(folder, "body.msh")
             row(columns) = join(columns, " ")
@@ -99,7 +99,7 @@ end
         end
         @test fails(() -> set_role!(body, 0, :inner), :error_argument, "tag")
         @test fails(() -> read_msh!(body, "/none.msh"), :error_file, "/none.msh")
-        # Every face has its tag.
+        # Every face has a tag of its own.
         placement = placed_in(add_surface!(Domain(context; dim = 3), VERTICES, FACES; tags = 1:4),
                               0.3)
         points = nodes(placement).points
@@ -159,7 +159,7 @@ end
         filled = sum(tetrahedron_volume(points, corners[:, k]) for k in 1:size(corners, 2))
         around, tags = boundary_triangles(placement)
         @test fit_together(around) && enclosed(points, around) ≈ filled
-        # Chords cut the cavity short.
+        # Chords make the cavity smaller, so the elements fill more than the domain.
         @test measure(domain) < filled < 1.02measure(domain)
         inward = around[:, tags .== 4]
         radii = sqrt.(sum(abs2, points[:, vec(inward)], dims = 1))
@@ -187,7 +187,7 @@ end
     end
 end
 
-# The function stays, though the domain is closed and forgotten.
+# The functions stay alive after the domains are closed and collected.
 @testset "offsets in space" begin
     Context() do context
         box = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
@@ -222,7 +222,7 @@ end
         low_half = count(placed.points[3, :] .< 0.5)
         @test low_half > 2 * (node_count(placement) - low_half)
 
-        # Values at the nodes: linear in the tetrahedra, so what is linear stays so.
+        # The spacing is linear in the tetrahedra, so a linear spacing is preserved.
         set_spacing!(placement, 0.2 .+ 0.1 .* placed.points[1, :])
         run!(placement)
         placed = nodes(placement)
@@ -316,7 +316,7 @@ end
         points, corners = nodes(placement).points, triangles(placement)
         @test size(points) == (3, node_count(placement))
         @test all(x -> abs(sqrt(sum(abs2, x)) - 1) < 1e-15, eachcol(points))
-        # The tetrahedra from the centre to the triangles.
+        # The triangles form positive tetrahedra with the centre.
         @test all(k -> determinant((points[:, c] for c in k)...) > 0, eachcol(corners))
         edges = Set(minmax(ends...) for ends in sides(corners))
         @test size(points, 2) - length(edges) + size(corners, 2) == 1
