@@ -105,8 +105,8 @@ class Meshes(PlacementHandle):
 
     def write_mesh(self: _Self, prefix: Path, ghost_layers: int = 1) -> _Self:
         """Writes a distributed mesh of the current nodes (see `mesh`) into files of Gmsh's format
-        4.1, partitioned as Gmsh does it: rank r writes `prefix_<r + 1>.msh`, which is partition r +
-        1. Collective.
+        4.1, partitioned as Gmsh does it: rank r writes partition r + 1 to `prefix_<r + 1>.msh`.
+        Collective.
 
         - `prefix`: folder and beginning of the names of the files, the same on all ranks.
         - `ghost_layers`: as in `mesh`. Programs that read ghost elements, such as deal.II, need one

@@ -100,8 +100,8 @@ end
     write_mesh(placement, prefix; ghost_layers = 1) -> Placement
 
 Writes a distributed mesh of the current nodes (see [`DistributedMesh`](@ref)) into files of Gmsh's
-format 4.1, partitioned as Gmsh does it: rank r writes `prefix_<r + 1>.msh`, which is partition r +
-1. `prefix` is the folder and the beginning of the names of the files, the same on all ranks.
+format 4.1, partitioned as Gmsh does it: rank r writes partition r + 1 to `prefix_<r + 1>.msh`.
+`prefix` is the folder and the beginning of the names of the files, the same on all ranks.
 Collective.
 
 A file has the nodes, elements and ghost elements of the rank and the facets that it owns. Nodes and
