@@ -29,8 +29,8 @@ def as_point(point: ArrayLike, dim: int, what: str) -> Doubles:
 
 
 def as_indices(indices: ArrayLike, columns: int, what: str) -> Ids:
-    """Converts to int64 indices of shape (m, columns). Raises ValueError for another shape or type.
-    """
+    """Converts to int64 indices of shape (m, columns). Raises ValueError for another shape or
+    type."""
     array = np.ascontiguousarray(_integers(indices, what), dtype=np.int64)
     if array.size == 0:
         return array.reshape(0, columns)

@@ -51,8 +51,8 @@ def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: s
 
 
 def _at_points(c_type: str, what: str, f: ArrayFunction, context: Context) -> Any:
-    """Makes a callback of f(points), which receives points of shape (n, dim) and returns n values.
-    """
+    """Makes a callback of f(points), which receives points of shape (n, dim) and returns n
+    values."""
 
     def call(n: int, dim: int, coordinates: _Address, values: _Address, _user: Any) -> int:
         def work() -> None:

@@ -276,8 +276,8 @@ pnpbs_status pnpbs_discard_unfinished_files(void);
 
 
 class _Array:
-    """The type of an array argument: a NumPy array in C order, `ctypes.byref` of a number, or None.
-    """
+    """The type of an array argument: a NumPy array in C order, `ctypes.byref` of a number, or
+    None."""
 
     dtype: Optional[np.dtype[Any]] = None
 

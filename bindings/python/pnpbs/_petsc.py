@@ -75,8 +75,8 @@ def _set_coordinates(petsc: Any, plex: Any, coordinates: NDArray[np.float64]) ->
 
 def _star_forest(petsc: Any, comm: Any, roots: int, leaves: NDArray[Any],
                  remote: NDArray[Any]) -> Any:
-    """Creates a star forest. Each row of `remote` is the rank and the index of the root of a leaf.
-    """
+    """Creates a star forest. Each row of `remote` is the rank and the index of the root of a
+    leaf."""
     forest = petsc.SF().create(comm=comm)
     forest.setGraph(roots, leaves.astype(petsc.IntType), remote.astype(petsc.IntType))
     return forest

@@ -33,8 +33,8 @@ class Handle:
         return self._handle is not None
 
     def _live(self) -> int:
-        """Returns the handle for the library. Raises `Status.ERROR_HANDLE` if the object is closed.
-        """
+        """Returns the handle for the library. Raises `Status.ERROR_HANDLE` if the object is
+        closed."""
         if self._handle is None:
             raise PNPBSError(Status.ERROR_HANDLE, f"this {type(self).__name__} has been closed")
         return self._handle
@@ -82,7 +82,7 @@ class Context(Handle):
         super().__init__()
         self._on_ranks = comm is not None
         self._raised: Optional[BaseException] = None  # exception of a callback, until its call ends
-        # Open domains and placements. The library holds addresses of their callbacks, which must live.
+        # Open domains and placements. The library holds addresses of their callbacks.
         self._children: List[Handle] = []
         self._handle = _created(comm, library)
         if hasattr(comm, "py2f"):

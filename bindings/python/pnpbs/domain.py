@@ -347,9 +347,10 @@ class Domain(Handle):
 
     def simplify_by_file(self, path: Path, field: Optional[str] = None, tolerance: float = 0.25,
                          smallest: float = 0.0) -> LeftOut:
-        """Removes features as `simplify` does, with a spacing from a file with values at points, as
-        in `Placement.set_spacing_file`. Returns a `LeftOut`. Raises `Status.ERROR_FILE` if the file
-        cannot be read, and `Status.ERROR_SPACING` for values that are zero, negative or not finite."""
+        """Removes features as `simplify` does, with a spacing from a file with values at points,
+        as in `Placement.set_spacing_file`. Returns a `LeftOut`. Raises `Status.ERROR_FILE` if
+        the file cannot be read, and `Status.ERROR_SPACING` for values that are zero, negative or
+        not finite."""
         vertices, curves = ctypes.c_int64(), ctypes.c_int64()
         self._call("simplify_by_file", os.fsencode(path), None if field is None else field.encode(),
                    tolerance, smallest, ctypes.byref(vertices), ctypes.byref(curves))

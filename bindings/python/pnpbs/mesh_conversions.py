@@ -159,8 +159,8 @@ class MeshConversions(MeshArrays):
         return np.concatenate([a, b]), np.concatenate([b, a])
 
     def _owned_facets(self) -> NDArray[np.bool_]:
-        """Returns the mask of the facets that this rank owns. A rank without nodes owns no facet.
-        """
+        """Returns the mask of the facets that this rank owns. A rank without nodes owns no
+        facet."""
         rank = self.owners[0] if self.owned_nodes else -1
         return np.equal(self.facet_owners, rank)
 

@@ -39,8 +39,8 @@ class Nodes(NamedTuple):
 
 
 class Ghosts(NamedTuple):
-    """Ghosts of a rank: points, ids, tags and spacing as in `Nodes`, and the ranks that own them.
-    """
+    """Ghosts of a rank: points, ids, tags and spacing as in `Nodes`, and the ranks that own
+    them."""
 
     points: Doubles
     ids: Ids
@@ -426,8 +426,8 @@ class Results(PlacementHandle):
         return self
 
     def clear_output_fields(self: _Self) -> _Self:
-        """Removes the fields that `add_output_field` has added, and returns the placement. Local.
-        """
+        """Removes the fields that `add_output_field` has added, and returns the placement.
+        Local."""
         self._call("clear_output_fields")
         return self
 

@@ -5,8 +5,8 @@
 
 Rows of different lengths, stored one after another. Row `i` is
 `entries[offsets[i]:(offsets[i + 1] - 1)]`. An object is a vector of its rows, each of which is a
-view without a copy. `rows[i]` is one row, and `length(rows)` is their number. [`sparse`](@ref) makes
-a matrix of them. A loop over the neighbours of every node is
+view without a copy. `rows[i]` is one row, and `length(rows)` is their number. [`sparse`](@ref)
+makes a matrix of them. A loop over the neighbours of every node is
 
     for (i, neighbours) in enumerate(adjacency(placement))
         for j in neighbours ... end
